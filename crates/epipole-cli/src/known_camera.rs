@@ -6,8 +6,7 @@ use crate::failure::Failure;
 use crate::lens;
 use crate::photo::{Photo, SizeArguments};
 use clap::Args;
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Distortion, Intrinsics, Lens, SeenRay};
+use epipole::camera::{Camera, Intrinsics, Observation};
 use nalgebra::Point2;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +19,7 @@ const MOST_UNSEEN: f64 = 0.75;
 ///
 /// # Errors
 /// A sentence, if it is most of them.
-pub(crate) fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Result<(), Failure> {
+pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
     let share = lens::unseen_share(camera);
     let sentence = format!(
         "the lens of --camera bends no ray to {:.0} % of its photographs: its model folds before it reaches there",
@@ -40,7 +39,7 @@ pub(crate) fn tell_of_unseen(camera: &CalibratedCamera, context: &Context) -> Re
 ///
 /// * `others`: their names, and width and height as the sensor gave them
 pub(crate) fn tell_of_others(
-    camera: &CalibratedCamera,
+    camera: &Camera,
     others: &[(String, (u32, u32))],
     num_photos: usize,
     context: &Context,
@@ -124,17 +123,14 @@ pub(crate) fn seen_rays(
     photo: &Photo,
     k: &Intrinsics,
     pixels: impl Iterator<Item = Point2<f64>>,
-) -> Vec<Option<SeenRay>> {
-    let straight = Lens::Brown(Distortion::NONE);
-    let lens = photo.lens.map_or(straight, |kept| kept.lens);
-    pixels
-        .map(|pixel| SeenRay::through(&lens, k, &pixel).ok())
-        .collect()
+) -> Vec<Option<Observation>> {
+    let camera = photo.camera(*k);
+    pixels.map(|pixel| camera.observe(&pixel).ok()).collect()
 }
 
 /// The matches that the lenses of both photographs see.
 pub(crate) struct SeenMatches {
-    pub(crate) rays: [Vec<SeenRay>; 2],
+    pub(crate) rays: [Vec<Observation>; 2],
     /// Of each match, whether they do.
     pub(crate) is_seen: Vec<bool>,
 }
@@ -179,12 +175,12 @@ impl SeenMatches {
         Ok((seen, intrinsics))
     }
 
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (&SeenRay, &SeenRay)> {
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (&Observation, &Observation)> {
         self.rays[0].iter().zip(&self.rays[1])
     }
 
     /// * `mask`: of the matches that are seen
-    pub(crate) fn inliers(&self, mask: &[bool]) -> Vec<[SeenRay; 2]> {
+    pub(crate) fn inliers(&self, mask: &[bool]) -> Vec<[Observation; 2]> {
         let kept = self.pairs().zip(mask).filter(|(_, is)| **is);
         kept.map(|((a, b), _)| [*a, *b]).collect()
     }

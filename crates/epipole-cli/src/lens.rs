@@ -4,8 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::FAR;
 use clap::ValueEnum;
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -35,7 +34,7 @@ impl From<Model> for LensKind {
 }
 
 /// `image`, `k` and `distortion`, as they stand in results and in files.
-pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
+pub(crate) fn fields(camera: &Camera) -> [(&'static str, Value); 3] {
     let k = &camera.intrinsics;
     let center = k.principal_point();
     [
@@ -52,12 +51,14 @@ pub(crate) fn fields(camera: &CalibratedCamera) -> [(&'static str, Value); 3] {
 }
 
 /// What share of a photograph a lens bends no ray to: beyond the fold of its model, or beyond straight backwards.
-pub(crate) fn unseen_share(camera: &CalibratedCamera) -> f64 {
+pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     const SIDE: u32 = 24;
     let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;
     let places = (0..SIDE * SIDE)
         .map(|n| Point2::new(at(n % SIDE, camera.width), at(n / SIDE, camera.height)));
-    let unseen = places.filter(|place| camera.ray(place).is_err()).count();
+    let unseen = places
+        .filter(|place| camera.unproject(place).is_err())
+        .count();
     unseen as f64 / f64::from(SIDE * SIDE)
 }
 
@@ -65,7 +66,7 @@ pub(crate) fn unseen_share(camera: &CalibratedCamera) -> f64 {
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn read_rig(path: &Path) -> Result<([CalibratedCamera; 2], RigidTransform), Failure> {
+pub(crate) fn read_rig(path: &Path) -> Result<([Camera; 2], RigidTransform), Failure> {
     parse_rig(&files::read_text(path)?, path)
 }
 
@@ -73,10 +74,7 @@ pub(crate) fn read_rig(path: &Path) -> Result<([CalibratedCamera; 2], RigidTrans
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn parse_rig(
-    text: &str,
-    path: &Path,
-) -> Result<([CalibratedCamera; 2], RigidTransform), Failure> {
+pub(crate) fn parse_rig(text: &str, path: &Path) -> Result<([Camera; 2], RigidTransform), Failure> {
     let cameras = [parse(text, path, false)?, parse(text, path, true)?];
     let malformed = |why: &str| Failure::new("malformed", why).about(path);
     let whole: Value = serde_json::from_str(text).map_err(|error| malformed(&error.to_string()))?;
@@ -112,7 +110,7 @@ pub(crate) fn parse_rig(
 ///
 /// # Errors
 /// A sentence that names the file and what is wrong in it.
-pub(crate) fn read(path: &Path, is_right: bool) -> Result<CalibratedCamera, Failure> {
+pub(crate) fn read(path: &Path, is_right: bool) -> Result<Camera, Failure> {
     parse(&files::read_text(path)?, path, is_right)
 }
 
@@ -120,7 +118,7 @@ pub(crate) fn read(path: &Path, is_right: bool) -> Result<CalibratedCamera, Fail
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<CalibratedCamera, Failure> {
+pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<Camera, Failure> {
     let malformed = |why: String| Failure::new("malformed", why).about(path);
     let whole: Value = serde_json::from_str(text)
         .map_err(|error| malformed(format!("this is not JSON: {error}")))?;
@@ -163,7 +161,7 @@ pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<Calibrate
         "distortion.coefficients",
     )?;
     let about = |error: epipole::Error| Failure::from(error).about(path);
-    Ok(CalibratedCamera {
+    Ok(Camera {
         intrinsics: Intrinsics::new(fx, fy, cx, cy).map_err(about)?,
         lens: Lens::from_coefficients(kind, &coefficients).map_err(about)?,
         width: side("width")?,

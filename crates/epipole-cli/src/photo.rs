@@ -4,10 +4,8 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::positive;
 use clap::Args;
-use epipole::calibration::{
-    CalibratedCamera, PrepareOptions, PreparedPhoto, Undistortion, prepare_photo,
-};
-use epipole::camera::{Intrinsics, Lens};
+use epipole::calibration::{PrepareOptions, PreparedPhoto, Undistortion, prepare_photo};
+use epipole::camera::{Camera, Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use epipole::math::Geodetic;
@@ -108,7 +106,7 @@ impl Photo {
     pub(crate) fn by_camera(
         path: &Path,
         size: SizeArguments,
-        camera: &CalibratedCamera,
+        camera: &Camera,
     ) -> Result<Self, Failure> {
         let options = PrepareOptions {
             max_pixels: size.max_pixels(),
@@ -127,6 +125,15 @@ impl Photo {
             });
         }
         Ok(photo)
+    }
+
+    /// The camera of the photograph, given its intrinsics.
+    pub(crate) fn camera(&self, intrinsics: Intrinsics) -> Camera {
+        let (width, height) = self.color.dimensions();
+        Camera {
+            lens: self.lens.map_or(Lens::NONE, |kept| kept.lens),
+            ..Camera::pinhole(intrinsics, width, height)
+        }
     }
 
     /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows no other frame.

@@ -6,15 +6,14 @@ mod common;
 
 use common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
 use common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Lens, LensKind, RigidTransform, look_at};
+use epipole::camera::{Camera, Lens, LensKind, RigidTransform, look_at};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The table from two places, as seen through `camera` from so near that it fills the picture.
-fn table(camera: &CalibratedCamera) -> [RigidTransform; 2] {
+fn table(camera: &Camera) -> [RigidTransform; 2] {
     let up = Vector3::new(0.0, -1.0, 0.0);
     let back = (camera.intrinsics.fu_px() / 140.0).min(3.0) * 0.55;
     [-0.12, 0.12].map(|x: f64| {
@@ -161,10 +160,7 @@ fn matches_tell_the_rays_of_their_keypoints() {
         assert!(keypoints.len() == rays.len() && rays.len() > 100);
         for (keypoint, ray) in keypoints.iter().zip(rays).filter(|(_, ray)| !ray.is_null()) {
             let place = numbers(keypoint);
-            let truth = camera
-                .ray(&Point2::new(place[0], place[1]))
-                .unwrap()
-                .normalize();
+            let truth = camera.unproject(&Point2::new(place[0], place[1])).unwrap();
             assert!((Vector3::from_row_slice(&numbers(ray)) - truth).norm() < 1e-12);
         }
     }
@@ -259,7 +255,7 @@ fn cameras_that_do_not_fit_get_a_sentence() {
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(told.contains("is used for 1 of 2 photographs"), "{told}");
     }
-    let folds = CalibratedCamera {
+    let folds = Camera {
         lens: Lens::from_coefficients(LensKind::Fisheye, &[-3.0, 0.0, 0.0, 0.0]).unwrap(),
         ..camera(LensKind::Fisheye)
     };

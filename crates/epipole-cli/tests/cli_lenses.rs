@@ -6,8 +6,7 @@ mod common;
 
 use common::lens::photographs;
 use common::{Folder, epipole, fails, json, motion, numbers, parse, path};
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform, look_at};
+use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform, look_at};
 use epipole::sfm::{AlignmentKind, align_points};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
@@ -17,8 +16,8 @@ const SIZE: u32 = 420;
 const COEFFICIENTS: [f64; 4] = [-0.02, 0.006, -0.002, 0.0003];
 
 /// 175° from border to border.
-fn camera() -> CalibratedCamera {
-    CalibratedCamera {
+fn camera() -> Camera {
+    Camera {
         intrinsics: Intrinsics::new(140.0, 141.0, 210.5, 208.0).unwrap(),
         lens: Lens::Fisheye(Fisheye {
             coefficients: COEFFICIENTS,

@@ -7,7 +7,7 @@ mod common;
 use common::{Folder, fails, json, numbers, path};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
-use epipole::sfm::{BalCamera, BalProblem, Observation};
+use epipole::sfm::{BalCamera, BalProblem, BundleObservation};
 use epipole::synthetic::{MultiViewProblem, MultiViewProblemOptions};
 use nalgebra::{Point2, Vector3};
 use serde_json::Value;
@@ -34,7 +34,7 @@ fn problem(options: &MultiViewProblemOptions) -> BalProblem {
     });
     let observations = world.observations.iter().map(|o| {
         let center = world.cameras[o.camera].intrinsics.principal_point();
-        Observation {
+        BundleObservation {
             camera: o.camera,
             point: o.point,
             pixel: Point2::new(o.pixel.x - center.x, center.y - o.pixel.y),

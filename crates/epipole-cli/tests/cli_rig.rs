@@ -6,8 +6,7 @@ mod common;
 
 use common::lens::{self, KINDS, SIZE, camera_json, wall_photograph};
 use common::{Folder, epipole, fails, json, numbers, parse, path};
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, LensKind, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -23,7 +22,7 @@ fn right_from_left() -> RigidTransform {
     )
 }
 
-fn rig_json(left: &CalibratedCamera, right: &CalibratedCamera) -> Value {
+fn rig_json(left: &Camera, right: &Camera) -> Value {
     let motion = right_from_left();
     let rotation = motion.rotation.to_rotation_matrix();
     let mut rig = camera_json(left);
@@ -36,12 +35,12 @@ fn rig_json(left: &CalibratedCamera, right: &CalibratedCamera) -> Value {
 }
 
 /// Two cameras of one kind, which are never quite the same.
-fn cameras(kind: LensKind) -> [CalibratedCamera; 2] {
+fn cameras(kind: LensKind) -> [Camera; 2] {
     let left = lens::camera(kind);
     let k = &left.intrinsics;
     let (focal_px, center) = (1.03 * k.fu_px(), k.principal_point());
     let intrinsics = Intrinsics::new(focal_px, focal_px, center.x - 4.0, center.y + 5.0);
-    let right = CalibratedCamera {
+    let right = Camera {
         intrinsics: intrinsics.unwrap(),
         ..left
     };

@@ -2,10 +2,10 @@
 //! disparities.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
 use epipole::math::random::Random;
 use epipole::stereo::{
-    DisparityFilter, RectifyOptions, StereoBm, StereoCamera, StereoPaths, StereoSgm, fill_gaps,
+    DisparityFilter, RectifyOptions, StereoBm, StereoPaths, StereoSgm, fill_gaps,
     rectify_calibrated,
 };
 use image::{GrayImage, Luma};
@@ -78,16 +78,18 @@ fn dense(criterion: &mut Criterion) {
 
 fn rectification(criterion: &mut Criterion) {
     let (left, _) = pair();
-    let camera = || -> epipole::Result<StereoCamera> {
-        Ok(StereoCamera {
+    let camera = || -> epipole::Result<Camera> {
+        Ok(Camera {
+            width: WIDTH,
+            height: HEIGHT,
             intrinsics: Intrinsics::centered(460.0, WIDTH, HEIGHT)?,
-            distortion: Distortion::from_coefficients([-0.28, 0.07, 0.0002, 0.0, 0.0])?,
+            lens: Distortion::from_coefficients([-0.28, 0.07, 0.0002, 0.0, 0.0])?.into(),
         })
     };
     let rig = || {
         let motion = RigidTransform::translation(-0.1, 0.002, -0.001);
         let options = RectifyOptions::default();
-        rectify_calibrated(&[camera()?, camera()?], &motion, WIDTH, HEIGHT, &options)
+        rectify_calibrated(&[camera()?, camera()?], &motion, &options)
     };
     let map = rig().and_then(|rig| rig.map(0));
     criterion.bench_function("rectify-map-640x480", |bencher| {

@@ -4,7 +4,7 @@
 
 use epipole::math::random::Random;
 use epipole::prelude::*;
-use epipole::sfm::{Bundle, BundleOptions, Observation, adjust_bundle};
+use epipole::sfm::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
 use std::ops::ControlFlow;
 
 pub(crate) fn run() -> Result<(), Error> {
@@ -28,7 +28,7 @@ pub(crate) fn run() -> Result<(), Error> {
         for camera in 0..5 {
             let exact = bundle.cameras[camera].project(&position)?;
             let noise = Vector2::new(0.5 * random.normal(), 0.5 * random.normal());
-            bundle.observations.push(Observation {
+            bundle.observations.push(BundleObservation {
                 camera,
                 point,
                 pixel: exact + noise,

@@ -15,12 +15,9 @@ pub(crate) fn run() -> Result<(), Error> {
     );
     let (left, truth) = photograph(&RigidTransform::identity())?;
     let (_, other) = photograph(&right_from_left)?;
-    let camera = StereoCamera {
-        intrinsics: left.intrinsics,
-        distortion: Distortion::NONE,
-    };
+    let camera = Camera::pinhole(left.intrinsics, SIZE.0, SIZE.1);
     let options = RectifyOptions::default();
-    let rig = rectify_calibrated(&[camera; 2], &right_from_left, SIZE.0, SIZE.1, &options)?;
+    let rig = rectify_calibrated(&[camera; 2], &right_from_left, &options)?;
     let rows1 = rig.map(0)?.warp_gray(&rgb_to_gray(&truth.image));
     let rows2 = rig.map(1)?.warp_gray(&rgb_to_gray(&other.image));
     let disparity = StereoSgm::default().compute(&rows1, &rows2)?;

@@ -13,7 +13,9 @@ pub use crate::absolute_pose::estimate_absolute_pose;
 pub use crate::calibration::{
     Board, CalibrationOptions, Pattern, calibrate, calibrate_rig, find_board,
 };
-pub use crate::camera::{Distortion, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
+pub use crate::camera::{
+    Camera, Distortion, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform,
+};
 pub use crate::epipolar::{
     decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
     sampson_px,
@@ -28,7 +30,7 @@ pub use crate::imaging::{DecodeOptions, decode_gray, decode_rgb};
 pub use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray, rgb_to_gray_f32};
 pub use crate::robust::{Estimator, RansacOptions, RansacReport, ransac};
 pub use crate::sfm::{PhotoOptions, SfmOptions, reconstruct_photos};
-pub use crate::stereo::{RectifyOptions, StereoCamera, StereoSgm, rectify_calibrated};
+pub use crate::stereo::{RectifyOptions, StereoSgm, rectify_calibrated};
 pub use crate::triangulation::{triangulate_dlt, triangulate_nview};
 pub use crate::two_view::{TwoViewOptions, estimate_two_view, estimate_two_view_calibrated};
 pub use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};

@@ -2,15 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform, SeenRay};
+use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, Observation, RigidTransform};
 use epipole::epipolar::estimate_relative_pose_of_rays;
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
 use nalgebra::{Point3, Vector2, Vector3};
 
-fn fisheye() -> CalibratedCamera {
-    CalibratedCamera {
+fn fisheye() -> Camera {
+    Camera {
         intrinsics: Intrinsics::centered(250.0, 800, 800).unwrap(),
         lens: Lens::Fisheye(Fisheye::default()),
         width: 800,
@@ -19,7 +18,7 @@ fn fisheye() -> CalibratedCamera {
 }
 
 /// Matches with noise of one pixel, 30 % of them wrong; the right ones come first.
-fn matches(seed: u64) -> ([Vec<SeenRay>; 2], usize, RigidTransform) {
+fn matches(seed: u64) -> ([Vec<Observation>; 2], usize, RigidTransform) {
     let mut random = Random::new(seed);
     let camera = fisheye();
     let direction = Vector3::from_fn(|_, _| random.normal()).normalize();
@@ -33,7 +32,7 @@ fn matches(seed: u64) -> ([Vec<SeenRay>; 2], usize, RigidTransform) {
             // Half a turn of view.
             let is_seen = x.z > 0.0 && x.coords.norm() > 1.0;
             let pixel = is_seen.then(|| camera.project(x).ok())?? + off;
-            camera.seen_ray(&pixel).ok()
+            camera.observe(&pixel).ok()
         };
         if let (Some(seen1), Some(seen2)) = (see(&x), see(&(cam2_from_cam1 * x))) {
             seen[0].push(seen1);

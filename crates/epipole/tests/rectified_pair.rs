@@ -3,23 +3,23 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Result;
-use epipole::camera::{Camera, Distortion, look_at, relative_motion};
+use epipole::camera::{Camera, PosedCamera, look_at, relative_motion};
 use epipole::image::GrayImage;
 use epipole::nalgebra::{Point2, Point3, Vector3};
 use epipole::stereo::{
-    DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoCamera, StereoSgm,
-    point_cloud, rectify_calibrated,
+    DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoSgm, point_cloud,
+    rectify_calibrated,
 };
 use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 
 const SIZE: (u32, u32) = (320, 240);
 
 /// The still life from the book's own place and from one beside it, meters.
-fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
+fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
     let first = still_life_camera(SIZE.0, SIZE.1);
     let center = first.center_in_world() + aside;
     let target = Point3::new(0.02, -0.16, 0.05);
-    let second = Camera {
+    let second = PosedCamera {
         cam_from_world: look_at(&center, &target, &Vector3::new(0.0, -1.0, 0.0)).unwrap(),
         ..first
     };
@@ -33,21 +33,18 @@ fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
     (cameras, cameras.map(take))
 }
 
-fn rig_of(cameras: &[Camera; 2]) -> Result<Rectification> {
+fn rig_of(cameras: &[PosedCamera; 2]) -> Result<Rectification> {
     let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
-    let cameras = cameras.map(|camera| StereoCamera {
-        intrinsics: camera.intrinsics,
-        distortion: Distortion::NONE,
-    });
+    let cameras = cameras.map(|camera| Camera::pinhole(camera.intrinsics, SIZE.0, SIZE.1));
     let options = RectifyOptions {
         alpha: 1.0,
         ..RectifyOptions::default()
     };
-    rectify_calibrated(&cameras, &motion, SIZE.0, SIZE.1, &options)
+    rectify_calibrated(&cameras, &motion, &options)
 }
 
 /// Some true points, in the frame of camera 1.
-fn places(camera: &Camera, photograph: &Photograph) -> Vec<Point3<f64>> {
+fn places(camera: &PosedCamera, photograph: &Photograph) -> Vec<Point3<f64>> {
     let pixels = (0..SIZE.1)
         .step_by(12)
         .flat_map(|v| (0..SIZE.0).step_by(12).map(move |u| (u, v)));

@@ -5,7 +5,7 @@
 use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{
-    AlignmentKind, Observation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions, SfmResult,
+    AlignmentKind, BundleObservation, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult,
     VerifiedPair, adjust_bundle, align_points, keep_going, reconstruct, verify_matches,
     why_unregistered,
 };
@@ -156,7 +156,7 @@ fn off_centers(world: &World, result: &SfmResult) -> f64 {
 fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     let world = hall(7, fisheye(), 1);
     let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye).into()],
+        lenses: vec![lens(LensKind::Fisheye)],
         ..SfmOptions::default()
     };
     let result = run(&world, &options);
@@ -179,7 +179,7 @@ fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     assert!(num_behind > 20, "{num_behind}");
     // Each observation is where the lens shows its point.
     let (bundle, _) = found.to_bundle(&world.input.images);
-    assert_eq!(bundle.lenses, [lens(LensKind::Fisheye).into()]);
+    assert_eq!(bundle.lenses, [lens(LensKind::Fisheye)]);
     let largest = (0..bundle.observations.len()).map(|o| bundle.residual_px(o).norm());
     assert!(largest.fold(0.0, f64::max) < 4.5);
 }
@@ -210,11 +210,11 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     let focal_px = found.cameras[4].unwrap().intrinsics.fu_px();
     assert!((focal_px - 300.0).abs() < 0.5, "{focal_px}");
     // The coefficients stand for each other, so what counts is where rays are seen.
-    let truth = SfmLens::from(lens(LensKind::Fisheye)).to_lens();
+    let truth = lens(LensKind::Fisheye);
     for degrees in [20.0f64, 50.0, 80.0, 90.0] {
         let (sine, cosine) = libm::sincos(degrees.to_radians());
         let ray = Vector3::new(sine, 0.0, cosine);
-        let [found_px, true_px] = [(found.lens(4).to_lens(), focal_px), (truth, 300.0)]
+        let [found_px, true_px] = [(found.lens(4), focal_px), (truth, 300.0)]
             .map(|(lens, focal_px)| focal_px * lens.project(&ray).unwrap().x);
         assert!(
             (found_px - true_px).abs() < 0.2,
@@ -242,7 +242,7 @@ fn rational_and_division_lenses_keep_the_errors_of_the_photograph() {
         };
         let world = hall(6, making, 3);
         let options = SfmOptions {
-            lenses: vec![lens(kind).into()],
+            lenses: vec![lens(kind)],
             ..SfmOptions::default()
         };
         let result = run(&world, &options);
@@ -279,7 +279,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
         }
     }
-    let mut lenses = vec![SfmLens::from(lens(LensKind::Fisheye)); 6];
+    let mut lenses = vec![lens(LensKind::Fisheye); 6];
     lenses[5] = brown.into();
     let options = SfmOptions {
         lenses,
@@ -305,7 +305,7 @@ fn a_fisheye_that_only_turned_begins_nothing() {
         5,
     );
     let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye).into()],
+        lenses: vec![lens(LensKind::Fisheye)],
         ..SfmOptions::default()
     };
     let images = [&world.input.images[0], &world.input.images[1]];
@@ -364,15 +364,15 @@ fn k_of(factor: f64) -> Intrinsics {
 fn points_behind_a_lens_are_mirrored_or_refused() {
     let world = hall(3, fisheye(), 7);
     let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye).into()],
+        lenses: vec![lens(LensKind::Fisheye)],
         ..SfmOptions::default()
     };
     let result = run(&world, &options);
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
-        wrong.lenses = vec![lens(kind).into()];
-        let observations: Vec<Observation> = wrong.observations.clone();
+        wrong.lenses = vec![lens(kind)];
+        let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
         let mut go_on = |_: &_| ControlFlow::Continue(());
         if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut go_on) {
@@ -422,7 +422,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
         matches: (0..300).map(|i| (i, i)).collect(),
     };
     let options = SfmOptions {
-        lenses: vec![making.lens.into()],
+        lenses: vec![making.lens],
         ..SfmOptions::default()
     };
     let found = verify_matches(&pair, [&images[0], &images[1]], [&k, &k], &options);

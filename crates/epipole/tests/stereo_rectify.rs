@@ -3,12 +3,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Distortion, Intrinsics, RigidTransform};
-use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
+use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use epipole::stereo::{RectifyOptions, rectify_calibrated};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 
 struct Rig {
-    cameras: [StereoCamera; 2],
+    cameras: [Camera; 2],
     cam2_from_cam1: RigidTransform,
     size: (u32, u32),
     matches: Vec<[Point2<f64>; 2]>,
@@ -23,18 +23,21 @@ fn rig(name: &str) -> Rig {
             .map(|rest| rest.split(' ').map(|x| x.parse().unwrap()).collect())
             .collect()
     };
+    let size = &numbers("size")[0];
     let camera = |key: &str| {
         let c = &numbers(key)[0];
-        StereoCamera {
+        let distortion = Distortion::from_coefficients([c[4], c[5], c[6], c[7], c[8]]).unwrap();
+        Camera {
+            width: size[0] as u32,
+            height: size[1] as u32,
             intrinsics: Intrinsics::new(c[0], c[1], c[2], c[3]).unwrap(),
-            distortion: Distortion::from_coefficients([c[4], c[5], c[6], c[7], c[8]]).unwrap(),
+            lens: distortion.into(),
         }
     };
     let rotation = Matrix3::from_row_slice(&numbers("rotation")[0]);
     let rotation =
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
     let translation = Vector3::from_column_slice(&numbers("translation")[0]);
-    let size = &numbers("size")[0];
     Rig {
         cameras: [camera("left"), camera("right")],
         cam2_from_cam1: RigidTransform::from_parts(translation.into(), rotation),
@@ -59,8 +62,7 @@ fn real_matches_share_a_row() {
         let rig = rig(name);
         let (width, height) = rig.size;
         let options = RectifyOptions::default();
-        let rectified =
-            rectify_calibrated(&rig.cameras, &rig.cam2_from_cam1, width, height, &options).unwrap();
+        let rectified = rectify_calibrated(&rig.cameras, &rig.cam2_from_cam1, &options).unwrap();
         assert!(!rectified.is_vertical);
         let moved: Vec<_> = rig
             .matches

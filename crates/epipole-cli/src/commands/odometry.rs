@@ -16,14 +16,13 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
 use epipole::progress::{Stage, Status};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
     OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
-    SfmInput, SfmLens, SfmStep, match_features, match_rectified, monocular_odometry,
-    photo_features, stereo_odometry,
+    SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
+    stereo_odometry,
 };
 use serde_json::json;
 use std::ops::ControlFlow;
@@ -188,7 +187,7 @@ impl Work<'_> {
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
         let mut options = (self.arguments).options(self.context, some_unknown(guesses));
-        let lens = (frames.lens).map_or(SfmLens::NONE, |kept| kept.lens.into());
+        let lens = (frames.lens).map_or(Lens::NONE, |kept| kept.lens);
         options.sfm.lenses = vec![lens];
         let refined = &self.arguments.refined;
         refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);
@@ -263,7 +262,7 @@ impl Work<'_> {
     }
 
     /// A frame, which keeps what the lens did.
-    fn photo(&self, path: &Path, camera: Option<&CalibratedCamera>) -> Result<Photo, Failure> {
+    fn photo(&self, path: &Path, camera: Option<&Camera>) -> Result<Photo, Failure> {
         let size = self.arguments.size;
         let Some(camera) = camera else {
             return Photo::prepared(path, size, None);

@@ -18,9 +18,7 @@ use clap::Args;
 use epipole::camera::{Distortion, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
 use epipole::robust::MatchSet;
-use epipole::stereo::{
-    PixelMap, RectifyOptions, StereoCamera, rectify_calibrated, rectify_uncalibrated,
-};
+use epipole::stereo::{PixelMap, RectifyOptions, rectify_calibrated, rectify_uncalibrated};
 use nalgebra::{Matrix3, Matrix4, Point2, Translation3, UnitQuaternion};
 use std::path::PathBuf;
 
@@ -175,17 +173,8 @@ fn rectify(
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
-        let camera = |intrinsics| StereoCamera {
-            intrinsics,
-            distortion: Distortion::default(),
-        };
-        let rectification = rectify_calibrated(
-            &[camera(k1), camera(k2)],
-            &cam2_from_cam1,
-            width,
-            height,
-            &arguments.shape(),
-        )?;
+        let cameras = [photos[0].camera(k1), photos[1].camera(k2)];
+        let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, &arguments.shape())?;
         return Ok(Found {
             homographies: rectification.homographies,
             maps: [rectification.map(0)?, rectification.map(1)?],

@@ -1,8 +1,7 @@
 //! Photographs through lenses of any model.
 
 use super::Folder;
-use epipole::calibration::CalibratedCamera;
-use epipole::camera::{Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole_scenes::{Sampling, Scene};
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
@@ -14,14 +13,14 @@ use std::path::PathBuf;
 pub(crate) const SIZE: u32 = 420;
 
 /// A lens of each model: 175° wide, or as narrow as 36°.
-pub(crate) fn camera(kind: LensKind) -> CalibratedCamera {
+pub(crate) fn camera(kind: LensKind) -> Camera {
     let (focal_px, numbers): (f64, &[f64]) = match kind {
         LensKind::Brown => (400.0, &[-0.1, 0.02, 0.001, -0.001, 0.0]),
         LensKind::Rational => (320.0, &[0.3, 0.05, 0.001, -0.001, 0.01, 0.5, 0.1, 0.005]),
         LensKind::Fisheye => (140.0, &[-0.02, 0.006, -0.002, 0.0003]),
         LensKind::Division => (640.0, &[-0.3]),
     };
-    CalibratedCamera {
+    Camera {
         intrinsics: Intrinsics::new(focal_px, focal_px, 210.5, 208.0).unwrap(),
         lens: Lens::from_coefficients(kind, numbers).unwrap(),
         width: SIZE,
@@ -38,7 +37,7 @@ pub(crate) const KINDS: [LensKind; 4] = [
 ];
 
 /// What a file says of a camera.
-pub(crate) fn camera_json(camera: &CalibratedCamera) -> Value {
+pub(crate) fn camera_json(camera: &Camera) -> Value {
     let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
     json!({
         "image": { "width": camera.width, "height": camera.height },
@@ -48,7 +47,7 @@ pub(crate) fn camera_json(camera: &CalibratedCamera) -> Value {
 }
 
 /// The file that `--camera` reads.
-pub(crate) fn write(folder: &Folder, camera: &CalibratedCamera) -> PathBuf {
+pub(crate) fn write(folder: &Folder, camera: &Camera) -> PathBuf {
     folder.write("camera.json", &camera_json(camera).to_string())
 }
 
@@ -62,8 +61,8 @@ fn sides() -> [Matrix3<f64>; 5] {
 /// Where a pixel looks: a side of the cube, and the pixel of it.
 type Sight = Option<(usize, Point2<f64>)>;
 
-fn sight(camera: &CalibratedCamera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
-    let ray = camera.ray(&Point2::from(pixel.map(f64::from))).ok()?;
+fn sight(camera: &Camera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
+    let ray = camera.unproject(&Point2::from(pixel.map(f64::from))).ok()?;
     let facing = |axes: Matrix3<f64>| {
         let turned = axes * ray;
         (turned.z / turned.amax() > 0.999_999).then_some(turned)
@@ -76,7 +75,7 @@ fn sight(camera: &CalibratedCamera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
 /// What a camera sees of the still life through its lens from some places: the sides of a cube, each rendered by a pinhole
 /// camera, and read where the rays of its pixels meet them.
 pub(crate) fn photographs<const N: usize>(
-    camera: &CalibratedCamera,
+    camera: &Camera,
     poses: [RigidTransform; N],
 ) -> [RgbImage; N] {
     let side = 500;
@@ -147,15 +146,12 @@ fn gray(x: f64, y: f64) -> f64 {
 }
 
 /// What a camera sees through its lens of a wall, the plane z = 0 of the world.
-pub(crate) fn wall_photograph(
-    camera: &CalibratedCamera,
-    cam_from_world: &RigidTransform,
-) -> RgbImage {
+pub(crate) fn wall_photograph(camera: &Camera, cam_from_world: &RigidTransform) -> RgbImage {
     let world_from_cam = cam_from_world.inverse();
     let center = world_from_cam.translation.vector;
     RgbImage::from_fn(camera.width, camera.height, |u, v| {
-        let ray = camera.ray(&Point2::new(f64::from(u), f64::from(v)));
-        let direction = ray.map(|ray| world_from_cam.rotation * ray.normalize());
+        let ray = camera.unproject(&Point2::new(f64::from(u), f64::from(v)));
+        let direction = ray.map(|ray| world_from_cam.rotation * ray);
         match direction {
             Ok(direction) if direction.z > 0.02 => {
                 let place = center - direction * (center.z / direction.z);

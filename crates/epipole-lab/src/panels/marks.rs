@@ -85,7 +85,7 @@ pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], 
         let features = project.features(photo)?;
         let seen = features.list.get(keypoint as usize)?;
         let camera = component.cameras.get(image as usize)?.as_ref()?;
-        let [u, v] = camera.project(point.position, component.distortion)?;
+        let [u, v] = camera.project(point.position, &component.lens)?;
         let error_px = libm::hypot(u - seen.u, v - seen.v);
         Some((photo.name.clone(), [seen.u, seen.v], error_px))
     };

@@ -137,8 +137,9 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
         );
     }
     if project.sfm_options().refine_distortion {
-        let [k1, k2] = component.distortion;
-        knobs::row(ui, "radial distortion", format!("{k1:.4}, {k2:.4}"));
+        let terms = component.lens.coefficients();
+        let words = format!("{:.4}, {:.4}", terms[0], terms[1]);
+        knobs::row(ui, "radial distortion", words);
     }
     costs(ui, &found.costs);
 }

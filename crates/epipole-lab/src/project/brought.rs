@@ -222,7 +222,7 @@ fn is_reconstruction(found: &Reconstructed, counts: &[usize]) -> bool {
     let is_component = |component: &Component| {
         component.cameras.len() == counts.len()
             && component.cameras.iter().flatten().all(is_camera)
-            && are_finite(&component.distortion)
+            && are_finite(&component.lens.coefficients())
             && (component.points.iter()).all(|point| {
                 are_finite(&point.position)
                     && point.error_px.is_finite()

@@ -3,6 +3,7 @@
 use super::Project;
 use super::document::{Anchor, Measure};
 use crate::tasks::{CameraFound, Component};
+use epipole::camera::Lens;
 use nalgebra::{Matrix2x3, Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 
 /// A length, one standard deviation beside it.
@@ -187,16 +188,11 @@ impl CameraFound {
         in_camera(self, &Point3::from(position)).1.z
     }
 
-    /// The pixel that shows a place, with radial distortion; `None` behind the camera.
-    pub fn project(&self, position: [f64; 3], distortion: [f64; 2]) -> Option<[f64; 2]> {
+    /// The pixel that shows a place through a lens; `None` where the lens does not see it.
+    pub fn project(&self, position: [f64; 3], lens: &Lens) -> Option<[f64; 2]> {
         let (_, p) = in_camera(self, &Point3::from(position));
-        if p.z <= 0.0 {
-            return None;
-        }
-        let (x, y) = (p.x / p.z, p.y / p.z);
-        let r_sq = x * x + y * y;
-        let bent = 1.0 + r_sq * (distortion[0] + r_sq * distortion[1]);
+        let seen = lens.project(&p.coords)?;
         let [fu, fv, cu, cv] = self.intrinsics;
-        Some([fu * x * bent + cu, fv * y * bent + cv])
+        Some([fu * seen.x + cu, fv * seen.y + cv])
     }
 }

@@ -67,7 +67,7 @@ impl Project {
                 (**self.photograph(second)?).clone(),
             ],
             cameras: self.cameras_of(first, second)?,
-            distortion: component.distortion,
+            lens: component.lens,
             points: points.map(|point| point.position).collect(),
             options: self.document.settings.depth,
         })

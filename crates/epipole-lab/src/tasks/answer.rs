@@ -2,6 +2,7 @@
 
 use super::{Blob, BoardFound, Calibration, Dense, Described, Thumbnail};
 use crate::project::{Computed, Saved};
+use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
 /// A photograph, upright and of a size to work with.
@@ -164,8 +165,9 @@ pub struct PointFound {
 pub struct Component {
     /// The camera of each image, or none.
     pub cameras: Vec<Option<CameraFound>>,
-    /// Radial distortion of all.
-    pub distortion: [f64; 2],
+    /// The lens of all.
+    #[serde(rename = "distortion", with = "super::radial_lens")]
+    pub lens: Lens,
     /// The points.
     pub points: Vec<PointFound>,
 }

@@ -1,7 +1,7 @@
 //! A rendered set of photographs of a chessboard, by a camera whose lens bends lines.
 
-use epipole::calibration::{Board, CalibratedCamera, Pattern, photograph_of_board};
-use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+use epipole::calibration::{Board, Pattern, photograph_of_board};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -35,7 +35,7 @@ pub(super) fn photograph(index: u8) -> Result<Option<RgbImage>, epipole::Error> 
         return Ok(None);
     };
     let board = Board::new(Pattern::Chessboard, 9, 6, 0.025)?;
-    let camera = CalibratedCamera {
+    let camera = Camera {
         intrinsics: Intrinsics::new(520.0, 521.0, 323.0, 236.0)?,
         lens: Lens::from_coefficients(LensKind::Brown, &[-0.26, 0.07, 0.0008, -0.0005, 0.0])?,
         width: 640,

@@ -54,14 +54,14 @@ fn vision(request: Request, progress: Progress<'_>) -> Result<Answer, String> {
         Request::Depth {
             photographs,
             cameras,
-            distortion,
+            lens,
             points,
             options,
         } => {
             let pair = depth::Pair {
                 photographs: &photographs,
                 cameras: &cameras,
-                distortion,
+                lens,
                 points: &points,
             };
             Answer::Depth(depth::depth(&pair, &options, progress)?)

@@ -8,11 +8,9 @@ use super::{CameraFound, ImagePoints, Photograph};
 use super::{Component, PointFound};
 #[cfg(feature = "files")]
 use super::{LensCamera, LensModel};
-#[cfg(feature = "files")]
-use epipole::calibration::CalibratedCamera;
 use epipole::calibration::{Board, Pattern};
 #[cfg(feature = "files")]
-use epipole::camera::{Distortion, Lens, LensKind};
+use epipole::camera::{Camera, Lens, LensKind};
 use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::SfmImage;
 #[cfg(feature = "files")]
@@ -75,7 +73,7 @@ pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board,
 /// # Errors
 /// A sentence, if its numbers are no camera's.
 #[cfg(feature = "files")]
-pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<CalibratedCamera, String> {
+pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     let kind = match camera.lens {
         LensModel::Brown => LensKind::Brown,
         LensModel::Rational => LensKind::Rational,
@@ -83,7 +81,7 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<CalibratedCamera, 
     };
     let [fu, fv, cu, cv] = camera.k;
     let sentence = |error: epipole::Error| error.to_string();
-    Ok(CalibratedCamera {
+    Ok(Camera {
         intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(sentence)?,
         lens: Lens::from_coefficients(kind, &camera.coefficients).map_err(sentence)?,
         width: camera.size.0,
@@ -139,12 +137,6 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
         track: point.track.iter().map(element).collect(),
         error_px: point.error_px,
     };
-    let [k1, k2] = component.distortion;
-    let distortion = Distortion {
-        k1,
-        k2,
-        ..Distortion::NONE
-    };
     Ok(Reconstruction {
         cameras: component
             .cameras
@@ -152,7 +144,7 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
             .map(camera)
             .collect::<Result<_, _>>()?,
         // One lens took them all.
-        lenses: vec![distortion.into(); component.cameras.len()],
+        lenses: vec![component.lens; component.cameras.len()],
         points: component.points.iter().map(point).collect(),
         is_placed: false,
     })

@@ -3,11 +3,11 @@
 use super::convert::{core_camera, sentence, to_image};
 use super::depth_size::{common_size, reduced_factor, span};
 use super::{CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Progress, Told};
-use epipole::camera::{Distortion, Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, Lens, PosedCamera, RigidTransform};
 use epipole::progress::Status;
 use epipole::stereo::{
-    DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoBm, StereoCamera,
-    StereoSgm, rectify_calibrated,
+    DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoBm, StereoSgm,
+    rectify_calibrated,
 };
 use image::imageops::{FilterType, resize};
 use image::{GrayImage, RgbImage};
@@ -17,7 +17,7 @@ use nalgebra::{Point3, UnitQuaternion};
 pub(super) struct Pair<'a> {
     pub(super) photographs: &'a [Photograph; 2],
     pub(super) cameras: &'a [CameraFound; 2],
-    pub(super) distortion: [f64; 2],
+    pub(super) lens: Lens,
     /// Points that both photographs show.
     pub(super) points: &'a [[f64; 3]],
 }
@@ -118,7 +118,7 @@ fn rectify(
     [width, height]: [u32; 2],
 ) -> Result<Rectification, String> {
     let sentence = |error: epipole::Error| format!("these two cannot be rectified: {error}");
-    let camera = |index: usize| -> Result<StereoCamera, String> {
+    let camera = |index: usize| -> Result<Camera, String> {
         let photograph = &pair.photographs[index];
         let shares = [
             f64::from(width) / f64::from(photograph.width),
@@ -128,8 +128,9 @@ fn rectify(
         let center = k.principal_point();
         // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
         let moved = |at: f64, share: f64| (at + 0.5) * share - 0.5;
-        let [k1, k2] = pair.distortion;
-        Ok(StereoCamera {
+        Ok(Camera {
+            width,
+            height,
             intrinsics: Intrinsics::new(
                 k.fu_px() * shares[0],
                 k.fv_px() * shares[1],
@@ -137,11 +138,7 @@ fn rectify(
                 moved(center.y, shares[1]),
             )
             .map_err(sentence)?,
-            distortion: Distortion {
-                k1,
-                k2,
-                ..Distortion::NONE
-            },
+            lens: pair.lens,
         })
     };
     let cam2_from_cam1: RigidTransform =
@@ -154,8 +151,6 @@ fn rectify(
     rectify_calibrated(
         &[camera(first)?, camera(second)?],
         &cam2_from_cam1,
-        width,
-        height,
         &options,
     )
     .map_err(sentence)

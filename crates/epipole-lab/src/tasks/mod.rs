@@ -30,6 +30,7 @@ mod matching;
 mod options;
 #[cfg(feature = "files")]
 mod photograph;
+mod radial_lens;
 #[cfg(feature = "vision")]
 mod reconstruction;
 mod request;

@@ -112,12 +112,11 @@ fn component(found: &Reconstruction) -> Component {
     };
     // One lens took them all.
     let lens = found.lens(0);
-    let numbers = lens.coefficients();
     Component {
         cameras: (found.cameras.iter())
             .map(|c| c.as_ref().map(camera))
             .collect(),
-        distortion: [numbers[0], numbers[1]],
+        lens,
         points: found.points.iter().map(point).collect(),
     }
 }

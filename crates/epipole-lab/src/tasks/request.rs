@@ -5,6 +5,7 @@ use super::{
     LensCamera, MatchOptions, PairOptions, Photograph, Reconstructed, Sample, SfmOptions,
 };
 use crate::project::{Computed, Saved};
+use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
 /// Where a photograph comes from.
@@ -172,8 +173,9 @@ pub enum Request {
         photographs: [Photograph; 2],
         /// Their cameras.
         cameras: [CameraFound; 2],
-        /// Radial distortion of both.
-        distortion: [f64; 2],
+        /// The lens of both.
+        #[serde(rename = "distortion", with = "super::radial_lens")]
+        lens: Lens,
         /// Points that both show.
         points: Vec<[f64; 3]>,
         /// How.

@@ -156,7 +156,7 @@ fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
         let request = Request::Depth {
             photographs,
             cameras,
-            distortion: component.distortion,
+            lens: component.lens,
             points: points.clone(),
             options: DepthOptions::default(),
         };

@@ -3,7 +3,7 @@
 use super::estimate::usable;
 use super::p3p::solve;
 use super::refine::{Pose, rigid};
-use crate::camera::{RigidTransform, SeenRay};
+use crate::camera::{Observation, RigidTransform};
 use crate::math::nearest_orthogonal;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, SMatrix, SVector, Vector3};
 /// the photograph.
 struct RayPoseEstimator {
     points: Vec<Vector3<f64>>,
-    seen: Vec<SeenRay>,
+    seen: Vec<Observation>,
     pixels: Vec<Point2<f64>>,
     unique: Unique,
 }
@@ -80,7 +80,7 @@ impl Estimator for RayPoseEstimator {
 /// The camera turns about its own center, and then moves.
 struct RayPoseProblem<'a> {
     points: &'a [Vector3<f64>],
-    seen: &'a [SeenRay],
+    seen: &'a [Observation],
     used: Subset<'a>,
     loss: RobustLoss,
 }
@@ -139,11 +139,10 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::absolute_pose::estimate_absolute_pose_of_rays;
-/// use epipole::calibration::CalibratedCamera;
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
-/// let camera = CalibratedCamera {
+/// let camera = Camera {
 ///     intrinsics: Intrinsics::centered(200.0, 640, 640)?,
 ///     lens: Lens::Fisheye(Fisheye::default()),
 ///     width: 640,
@@ -154,7 +153,7 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
 /// for i in 0..30 {
 ///     // All around, some of them beside the camera.
 ///     let x = Point3::new(f64::from(i * 7 % 11) - 5.0, f64::from(i * 3 % 7) - 3.0, 0.5 + f64::from(i * i % 5));
-///     seen.push(camera.seen_ray(&camera.project(&(cam_from_world * x))?)?);
+///     seen.push(camera.observe(&camera.project(&(cam_from_world * x))?)?);
 ///     points.push(x);
 /// }
 /// let report = estimate_absolute_pose_of_rays(&points, &seen, &RansacOptions::default(), &mut ())?;
@@ -164,11 +163,11 @@ impl FixedProblem<6> for RayPoseProblem<'_> {
 /// ```
 pub fn estimate_absolute_pose_of_rays(
     points_in_world: &[Point3<f64>],
-    seen: &[SeenRay],
+    seen: &[Observation],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
-    let pixels: Vec<Point2<f64>> = seen.iter().map(SeenRay::pixel).collect();
+    let pixels: Vec<Point2<f64>> = seen.iter().map(Observation::pixel).collect();
     let unique = usable(points_in_world, &pixels)?;
     if unique.len() < 4 {
         return Err(Error::TooFew {
@@ -191,15 +190,14 @@ pub fn estimate_absolute_pose_of_rays(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::CalibratedCamera;
-    use crate::camera::{Intrinsics, Lens, LensKind};
+    use crate::camera::{Camera, Intrinsics, Lens, LensKind};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector, Vector2};
 
-    fn world(num: usize, seed: u64) -> (Vec<Point3<f64>>, Vec<SeenRay>, RigidTransform) {
+    fn world(num: usize, seed: u64) -> (Vec<Point3<f64>>, Vec<Observation>, RigidTransform) {
         let mut random = Random::new(seed);
-        let camera = CalibratedCamera {
+        let camera = Camera {
             intrinsics: Intrinsics::new(250.0, 252.0, 400.0, 390.0).unwrap(),
             lens: Lens::from_coefficients(LensKind::Fisheye, &[-0.02, 0.004, -0.001, 0.0002])
                 .unwrap(),
@@ -221,7 +219,7 @@ mod tests {
             };
             let off = Vector2::from_fn(|_, _| width * random.normal());
             let pixel = camera.project(&in_cam).unwrap() + off;
-            if let Ok(ray) = camera.seen_ray(&pixel) {
+            if let Ok(ray) = camera.observe(&pixel) {
                 seen.push(ray);
                 points.push(x);
             }

@@ -4,7 +4,6 @@
 mod tests;
 
 use super::advice::{CalibrationWarning, warnings};
-use super::camera::CalibratedCamera;
 use super::coverage::coverage;
 use super::problem::{
     OF_CAMERA, Problem, SHARED, SeenMark, State, camera_numbers, intrinsics_of, lens_of,
@@ -13,7 +12,7 @@ use super::problem::{
 use super::start::{board_pose, plain, starts};
 use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
-use crate::camera::{Intrinsics, LensKind, RigidTransform};
+use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use crate::optim::{Iteration, Termination};
 use crate::progress::{Progress, Stage, Status};
 use crate::{Error, Result};
@@ -56,7 +55,7 @@ pub struct CalibratedView {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// The camera.
-    pub camera: CalibratedCamera,
+    pub camera: Camera,
     /// Root mean square of all reprojection errors: distances, not coordinates, in pixels.
     pub rms_px: f64,
     /// One standard deviation of fu, fv, cu, cv, pixels.
@@ -197,7 +196,7 @@ pub fn calibrate_with_progress(
         }));
     };
     let numbers = state.cameras[0];
-    let camera = CalibratedCamera {
+    let camera = Camera {
         intrinsics: intrinsics_of(&numbers)?,
         lens: lens_of(kind, &numbers),
         width,

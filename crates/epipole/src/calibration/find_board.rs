@@ -262,17 +262,16 @@ fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::super::CalibratedCamera;
     use super::super::synthetic::{photograph_of_board, poses, true_view};
     use super::*;
-    use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+    use crate::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
     use crate::math::random::Random;
     use core::f64::consts::FRAC_PI_2;
     use image::Luma;
     use nalgebra::Vector2;
 
-    fn camera(kind: LensKind, focal_px: f64, coefficients: &[f64]) -> CalibratedCamera {
-        CalibratedCamera {
+    fn camera(kind: LensKind, focal_px: f64, coefficients: &[f64]) -> Camera {
+        Camera {
             intrinsics: Intrinsics::new(focal_px, focal_px, 322.0, 236.0).unwrap(),
             lens: Lens::from_coefficients(kind, coefficients).unwrap(),
             width: 640,
@@ -280,7 +279,7 @@ mod tests {
         }
     }
 
-    fn cameras() -> [CalibratedCamera; 3] {
+    fn cameras() -> [Camera; 3] {
         [
             camera(LensKind::Brown, 550.0, &[0.0; 5]),
             camera(LensKind::Brown, 450.0, &[-0.28, 0.08, 0.001, 0.0, 0.0]),

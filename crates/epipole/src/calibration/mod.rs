@@ -14,7 +14,6 @@ mod advice;
 mod blobs;
 mod board;
 mod calibrate;
-mod camera;
 mod chessboard;
 mod circle_grid;
 mod closed_form;
@@ -38,7 +37,6 @@ pub use board::{Board, BoardView, Pattern};
 pub use calibrate::{
     CalibratedView, Calibration, CalibrationOptions, calibrate, calibrate_with_progress,
 };
-pub use camera::CalibratedCamera;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::{BoardSearch, find_board};
 #[cfg(feature = "decode")]

@@ -1,8 +1,8 @@
 //! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is known, not too large.
 
-use super::{CalibratedCamera, Undistortion};
+use super::Undistortion;
 use crate::Result;
-use crate::camera::Intrinsics;
+use crate::camera::{Camera, Intrinsics};
 use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
 use crate::math::Geodetic;
 use image::metadata::Orientation;
@@ -62,14 +62,14 @@ impl PreparedPhoto {
     ///
     /// # Errors
     /// As [`Intrinsics::resized`].
-    pub fn camera(&self, of_sensor: &CalibratedCamera) -> Result<Option<CalibratedCamera>> {
+    pub fn camera(&self, of_sensor: &Camera) -> Result<Option<Camera>> {
         let its_own = (of_sensor.width, of_sensor.height) == self.sensor_size;
         let Some(quarters) = self.quarters.filter(|_| its_own) else {
             return Ok(None);
         };
         let k = of_sensor.intrinsics.turned(quarters, self.sensor_size);
         let (width, height) = self.image.dimensions();
-        Ok(Some(CalibratedCamera {
+        Ok(Some(Camera {
             intrinsics: match self.full_size == (width, height) {
                 true => k,
                 false => k.resized(self.full_size, (width, height))?,
@@ -175,8 +175,8 @@ mod tests {
         bytes
     }
 
-    fn camera() -> CalibratedCamera {
-        CalibratedCamera {
+    fn camera() -> Camera {
+        Camera {
             intrinsics: Intrinsics::new(70.0, 71.0, 42.0, 27.0).unwrap(),
             lens: Lens::from_coefficients(LensKind::Brown, &[-0.2, 0.03, 0.004, -0.006, 0.0])
                 .unwrap(),

@@ -1,9 +1,8 @@
 //! Where a calibration begins.
 
-use super::camera::CalibratedCamera;
 use super::closed_form::{focals_from_planes, intrinsics_from_planes};
 use super::{Board, BoardView};
-use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+use crate::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use crate::homography::fit_homography;
 use crate::math::nearest_orthogonal;
 use crate::{Error, Result};
@@ -66,7 +65,7 @@ pub(super) fn starts(
 pub(super) fn board_pose(
     board: &Board,
     view: &BoardView,
-    camera: &CalibratedCamera,
+    camera: &Camera,
 ) -> Result<RigidTransform> {
     let (mut on_board, mut directions) = (Vec::new(), Vec::new());
     for (mark, pixel) in view.seen() {
@@ -98,12 +97,8 @@ pub(super) fn board_pose(
 }
 
 /// A camera without distortion.
-pub(super) fn plain(
-    intrinsics: Intrinsics,
-    kind: LensKind,
-    (width, height): (u32, u32),
-) -> CalibratedCamera {
-    CalibratedCamera {
+pub(super) fn plain(intrinsics: Intrinsics, kind: LensKind, (width, height): (u32, u32)) -> Camera {
+    Camera {
         intrinsics,
         lens: Lens::of(kind, [0.0; crate::camera::MAX_COEFFICIENTS]),
         width,

@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::BoardView;
 use super::footprint::Footprint;
-use super::{Board, CalibratedCamera, Pattern};
-use crate::camera::RigidTransform;
+use super::{Board, Pattern};
+use crate::camera::{Camera, RigidTransform};
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
 use image::Luma;
@@ -68,10 +68,10 @@ fn gray(board: &Board, seen: &Footprint) -> f64 {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::{Board, CalibratedCamera, Pattern, find_board, photograph_of_board};
-/// use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
+/// use epipole::calibration::{Board, Pattern, find_board, photograph_of_board};
+/// use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 /// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
-/// let camera = CalibratedCamera {
+/// let camera = Camera {
 ///     intrinsics: Intrinsics::centered(200.0, 160, 120)?,
 ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5])?,
 ///     width: 160,
@@ -87,7 +87,7 @@ fn gray(board: &Board, seen: &Footprint) -> f64 {
 /// ```
 pub fn photograph_of_board(
     board: &Board,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     cam_from_board: &RigidTransform,
     noise: f64,
     seed: u64,
@@ -97,7 +97,8 @@ pub fn photograph_of_board(
     let origin = board_from_cam * Point3::origin();
     // The place of the board that an image point sees, in squares.
     let place = |u: f64, v: f64| {
-        let ray: Vector3<f64> = board_from_cam.rotation * camera.ray(&Point2::new(u, v)).ok()?;
+        let ray: Vector3<f64> =
+            board_from_cam.rotation * camera.unproject(&Point2::new(u, v)).ok()?;
         let depth = -origin.z / ray.z;
         (depth > 0.0).then(|| (origin + ray * depth).xy() / board.square_m())
     };
@@ -128,7 +129,7 @@ pub fn photograph_of_board(
 #[cfg(test)]
 pub(crate) fn true_view(
     board: &Board,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     cam_from_board: &RigidTransform,
 ) -> BoardView {
     let pixel = |mark| {
@@ -176,8 +177,8 @@ mod tests {
 
     const SQUARE_M: f64 = 0.03;
 
-    fn camera() -> CalibratedCamera {
-        CalibratedCamera {
+    fn camera() -> Camera {
+        Camera {
             intrinsics: Intrinsics::new(300.0, 300.0, 99.3, 79.8).unwrap(),
             lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5]).unwrap(),
             width: 200,

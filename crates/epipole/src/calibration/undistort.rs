@@ -1,7 +1,6 @@
 //! Photographs redrawn as a camera without distortion shows them.
 
-use super::CalibratedCamera;
-use crate::camera::Intrinsics;
+use crate::camera::{Camera, Intrinsics};
 use crate::stereo::{PixelMap, PixelRect, border_outline, farthest_ray, flat};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
@@ -38,9 +37,9 @@ impl Undistortion {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::calibration::{CalibratedCamera, Keep, Undistortion};
-    /// use epipole::camera::{Intrinsics, Lens, LensKind};
-    /// let camera = CalibratedCamera {
+    /// use epipole::calibration::{Keep, Undistortion};
+    /// use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
+    /// let camera = Camera {
     ///     intrinsics: Intrinsics::centered(500.0, 641, 481)?,
     ///     lens: Lens::from_coefficients(LensKind::Brown, &[-0.2, 0.0, 0.0, 0.0, 0.0])?,
     ///     width: 641,
@@ -54,7 +53,7 @@ impl Undistortion {
     /// ```
     #[doc(alias = "getOptimalNewCameraMatrix")]
     #[doc(alias = "initUndistortRectifyMap")]
-    pub fn new(camera: &CalibratedCamera, keep: Keep) -> Result<Self> {
+    pub fn new(camera: &Camera, keep: Keep) -> Result<Self> {
         let (width, height) = (camera.width, camera.height);
         if width < 2 || height < 2 {
             return Err(Error::OutOfRange {
@@ -65,7 +64,7 @@ impl Undistortion {
         }
         let covered = border_outline(width, height, |u, v| {
             let pixel = Point2::new(u, v);
-            let ray = farthest_ray(&camera.lens, &camera.intrinsics, &pixel, FOLDS)?;
+            let ray = farthest_ray(camera, &pixel, FOLDS)?;
             flat(&ray).or_else(|clipped| match keep {
                 Keep::Valid => Ok(clipped),
                 Keep::All => Err(Error::Degenerate {
@@ -126,8 +125,8 @@ mod tests {
     use super::*;
     use crate::camera::{Lens, LensKind};
 
-    fn camera(kind: LensKind, coefficients: &[f64]) -> CalibratedCamera {
-        CalibratedCamera {
+    fn camera(kind: LensKind, coefficients: &[f64]) -> Camera {
+        Camera {
             intrinsics: Intrinsics::new(458.654, 457.296, 367.215, 248.375).unwrap(),
             lens: Lens::from_coefficients(kind, coefficients).unwrap(),
             width: 752,
@@ -135,7 +134,7 @@ mod tests {
         }
     }
 
-    fn lenses() -> [CalibratedCamera; 4] {
+    fn lenses() -> [Camera; 4] {
         [
             camera(LensKind::Brown, &[-0.2834, 0.074, 0.0002, 1.8e-5, 0.0]),
             camera(
@@ -221,7 +220,7 @@ mod tests {
             assert!(flat.valid.u_max - flat.valid.u_min > 400.0);
             assert!(flat.map.source(376, 240).is_some());
         }
-        let tiny = CalibratedCamera { width: 1, ..wide };
+        let tiny = Camera { width: 1, ..wide };
         assert!(Undistortion::new(&tiny, Keep::Valid).is_err());
     }
 }

@@ -1,44 +1,8 @@
 //! One lens, whichever model describes it.
 
-use super::{Distortion, Division, Fisheye, RationalDistortion};
+use super::{Distortion, Division, Fisheye, Intrinsics, LensKind, RationalDistortion};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Vector3};
-
-/// The models of lenses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum LensKind {
-    /// Five numbers, for usual lenses: [`Distortion`].
-    #[default]
-    Brown,
-    /// Eight numbers, for wide angles: [`RationalDistortion`].
-    Rational,
-    /// Four numbers, for views of 120° and more: [`Fisheye`].
-    Fisheye,
-    /// One number, where there is little to see of a lens that bends much: [`Division`].
-    Division,
-}
-
-impl LensKind {
-    /// How many numbers the model has.
-    pub fn num_coefficients(self) -> usize {
-        match self {
-            Self::Brown => 5,
-            Self::Rational => 8,
-            Self::Fisheye => 4,
-            Self::Division => 1,
-        }
-    }
-
-    /// Its name in files and results: brown, rational, fisheye or division.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Brown => "brown",
-            Self::Rational => "rational",
-            Self::Fisheye => "fisheye",
-            Self::Division => "division",
-        }
-    }
-}
 
 /// What a lens does to rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,10 +17,17 @@ pub enum Lens {
     Division(Division),
 }
 
+const NOT_FINITE: Error = Error::NotFinite {
+    what: "every coefficient of the lens distortion",
+};
+
 /// As many coefficients as any model has.
 pub(crate) const MAX_COEFFICIENTS: usize = 8;
 
 impl Lens {
+    /// A lens that bends nothing.
+    pub const NONE: Self = Self::Brown(Distortion::NONE);
+
     /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6 (rational); k1 to
     /// k4 (fisheye). The division model, which OpenCV does not have, has k alone.
     ///
@@ -79,9 +50,7 @@ impl Lens {
             });
         }
         if coefficients.iter().any(|k| !k.is_finite()) {
-            return Err(Error::NotFinite {
-                what: "every coefficient of the lens distortion",
-            });
+            return Err(NOT_FINITE);
         }
         let mut all = [0.0; MAX_COEFFICIENTS];
         all[..coefficients.len()].copy_from_slice(coefficients);
@@ -122,13 +91,45 @@ impl Lens {
 
     /// Its numbers, in OpenCV's order.
     pub fn coefficients(&self) -> Vec<f64> {
-        let brown = |d: &Distortion| vec![d.k1, d.k2, d.p1, d.p2, d.k3];
+        self.numbers()[..self.kind().num_coefficients()].to_vec()
+    }
+
+    /// Its numbers, in OpenCV's order; those that the model lacks are 0.
+    fn numbers(&self) -> [f64; MAX_COEFFICIENTS] {
+        let brown =
+            |d: &Distortion, [k4, k5, k6]: [f64; 3]| [d.k1, d.k2, d.p1, d.p2, d.k3, k4, k5, k6];
         match self {
-            Self::Brown(d) => brown(d),
-            Self::Rational(r) => [brown(&r.numerator), r.denominator.to_vec()].concat(),
-            Self::Fisheye(f) => f.coefficients.to_vec(),
-            Self::Division(d) => vec![d.k],
+            Self::Brown(d) => brown(d, [0.0; 3]),
+            Self::Rational(r) => brown(&r.numerator, r.denominator),
+            Self::Fisheye(f) => {
+                let [k1, k2, k3, k4] = f.coefficients;
+                [k1, k2, k3, k4, 0.0, 0.0, 0.0, 0.0]
+            }
+            Self::Division(d) => [d.k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         }
+    }
+
+    /// Whether it bends nothing: a pinhole camera's.
+    pub fn is_none(&self) -> bool {
+        *self == Self::NONE
+    }
+
+    /// # Errors
+    /// [`Error::NotFinite`] for a coefficient that is NaN or infinite.
+    pub(crate) fn check(&self) -> Result<()> {
+        match self.numbers().iter().all(|k| k.is_finite()) {
+            true => Ok(()),
+            false => Err(NOT_FINITE),
+        }
+    }
+
+    /// The lens with its first coefficients moved.
+    pub(crate) fn moved(&self, by: &[f64]) -> Self {
+        let mut numbers = self.numbers();
+        for (number, by) in numbers.iter_mut().zip(by) {
+            *number += by;
+        }
+        Self::of(self.kind(), numbers)
     }
 
     /// Where a point of the camera frame is seen, in units of the focal length. `None` for what the lens does
@@ -150,6 +151,36 @@ impl Lens {
             Self::Division(d) => d.distort(&flat()?),
         };
         (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
+    }
+
+    /// Image of a point of the camera frame, in units of the focal length; not finite where there is none. A point
+    /// behind the camera is mirrored through the center, except by a fisheye.
+    #[inline]
+    pub(crate) fn project_or_mirror(&self, p: &Vector3<f64>) -> Point2<f64> {
+        match self {
+            Self::Brown(d) => d.distort(&Point2::new(p.x / p.z, p.y / p.z)),
+            _ => self.project_or_mirror_beyond_brown(p),
+        }
+    }
+
+    /// Kept out of line: bundle adjustment inlines Brown's model into its inner loop.
+    fn project_or_mirror_beyond_brown(&self, p: &Vector3<f64>) -> Point2<f64> {
+        let flat = || Point2::new(p.x / p.z, p.y / p.z);
+        match self {
+            Self::Brown(d) => d.distort(&flat()),
+            Self::Rational(r) => r.distort(&flat()),
+            Self::Fisheye(f) => f.project(p).unwrap_or(Point2::new(f64::NAN, f64::NAN)),
+            Self::Division(d) => d.distort(&flat()),
+        }
+    }
+
+    /// The pixel where a camera with these intrinsics sees a point of the camera frame; `None` where
+    /// [`project`](Self::project) is.
+    pub(crate) fn pixel(&self, k: &Intrinsics, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
+        let seen = self.project(x_in_cam)?;
+        let center = k.principal_point();
+        let pixel = Point2::new(k.fu_px() * seen.x + center.x, k.fv_px() * seen.y + center.y);
+        (pixel.x.is_finite() && pixel.y.is_finite()).then_some(pixel)
     }
 
     /// The ray that is seen at a place, in the camera frame, of any length.
@@ -253,6 +284,12 @@ impl Lens {
     }
 }
 
+impl Default for Lens {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -311,9 +348,27 @@ mod tests {
                 let ray = lens.ray(&lens.project(&x).unwrap()).unwrap();
                 assert!(ray.normalize().cross(&x.normalize()).norm() < 1e-9);
                 assert!(lens.is_seen(&x));
+                assert_eq!(lens.project(&x), Some(lens.project_or_mirror(&x)));
             }
             assert!(!lens.is_seen(&-Vector3::z()));
+            assert!(!lens.is_none() && lens.check().is_ok());
+            assert!(lens.moved(&[f64::NAN]).check().is_err());
         }
+    }
+
+    /// A fisheye without coefficients still is no pinhole camera.
+    #[test]
+    fn only_a_fisheye_sees_behind_its_image_plane() {
+        assert!(Lens::NONE.is_none() && !Lens::from(Fisheye::default()).is_none());
+        let k = Intrinsics::centered(100.0, 200, 200).unwrap();
+        let behind = Vector3::new(1.0, 0.0, -0.2);
+        assert!(Lens::from(Fisheye::default()).pixel(&k, &behind).is_some());
+        assert!(Lens::NONE.pixel(&k, &behind).is_none());
+        assert!(
+            Lens::from(Division { k: -0.1 })
+                .pixel(&k, &behind)
+                .is_none()
+        );
     }
 
     #[test]

@@ -1,31 +1,34 @@
 //! Cameras: what turns a point in the world into a pixel.
 //!
-//! A camera is intrinsics (how rays become pixels) and a rigid transform (where it stands).
+//! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is intrinsics and a rigid transform.
 //! Camera frame: x right, y down, z forward.
 
+mod camera;
 mod distortion;
 mod division;
 mod fisheye;
 mod intrinsics;
 mod lens;
-mod lens_model;
+mod lens_from;
+mod lens_kind;
 pub(crate) mod moving_pose;
+mod observation;
 mod pixel_centers;
 mod posed;
 mod rational;
 mod rigid;
-mod seen_ray;
 mod unbend;
 
+pub use camera::Camera;
 pub use distortion::Distortion;
 pub use division::Division;
 pub use fisheye::Fisheye;
 pub use intrinsics::Intrinsics;
+pub use lens::Lens;
 pub(crate) use lens::MAX_COEFFICIENTS;
-pub use lens::{Lens, LensKind};
-pub use lens_model::LensModel;
+pub use lens_kind::LensKind;
+pub use observation::Observation;
 pub use pixel_centers::{pixel_from_colmap, pixel_to_colmap};
 pub use posed::PosedCamera;
 pub use rational::RationalDistortion;
 pub use rigid::{RigidTransform, cross_matrix, look_at, relative_motion};
-pub use seen_ray::SeenRay;

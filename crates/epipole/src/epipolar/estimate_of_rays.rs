@@ -3,7 +3,7 @@
 use super::essential::signed_depths;
 use super::five_point::{pose_in_front, solve};
 use super::refine_pose::{Pose, essential_derivatives, moved_pose, orthogonal};
-use crate::camera::{RigidTransform, SeenRay, cross_matrix};
+use crate::camera::{Observation, RigidTransform, cross_matrix};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
@@ -26,12 +26,12 @@ const PARALLEL_PX: f64 = 2.0;
 
 impl RayPair {
     /// `None` at the fold of a lens.
-    fn new(seen: [&SeenRay; 2]) -> Option<Self> {
+    fn new(seen: [&Observation; 2]) -> Option<Self> {
         let by_px = [seen[0].ray_by_px()?, seen[1].ray_by_px()?];
         // Half of the squared Frobenius norm is the mean over directions.
         let pixel_sq = 0.5 * (by_px[0].norm_squared() + by_px[1].norm_squared());
         Some(Self {
-            rays: seen.map(SeenRay::ray),
+            rays: seen.map(Observation::ray),
             by_px,
             noise_sq: (PARALLEL_PX * PARALLEL_PX * pixel_sq).min(1.0),
         })
@@ -229,12 +229,11 @@ impl FixedProblem<5> for MotionProblem<'_> {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::CalibratedCamera;
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
 /// use epipole::epipolar::estimate_relative_pose_of_rays;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
-/// let camera = CalibratedCamera {
+/// let camera = Camera {
 ///     intrinsics: Intrinsics::centered(200.0, 640, 640)?,
 ///     lens: Lens::Fisheye(Fisheye::default()),
 ///     width: 640,
@@ -245,8 +244,8 @@ impl FixedProblem<5> for MotionProblem<'_> {
 /// for i in 0..40 {
 ///     // All around, some of them beside the camera.
 ///     let x = Point3::new(f64::from(i * 7 % 11) - 5.0, f64::from(i * 3 % 7) - 3.0, 0.5 + f64::from(i * i % 5));
-///     seen1.push(camera.seen_ray(&camera.project(&x)?)?);
-///     seen2.push(camera.seen_ray(&camera.project(&(cam2_from_cam1 * x))?)?);
+///     seen1.push(camera.observe(&camera.project(&x)?)?);
+///     seen2.push(camera.observe(&camera.project(&(cam2_from_cam1 * x))?)?);
 /// }
 /// let report = estimate_relative_pose_of_rays(&seen1, &seen2, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 40);
@@ -256,13 +255,13 @@ impl FixedProblem<5> for MotionProblem<'_> {
 /// # Ok(()) }
 /// ```
 pub fn estimate_relative_pose_of_rays(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
+    seen1: &[Observation],
+    seen2: &[Observation],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
     let pixels = [seen1, seen2]
-        .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
+        .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(Observation::pixel).collect() });
     let matches = MatchSet::new(&pixels[0], &pixels[1])?;
     matches.at_least(5, "a relative pose from rays")?;
     let kept = matches.unique().first_occurrences();
@@ -288,24 +287,24 @@ pub fn estimate_relative_pose_of_rays(
 /// Source: Hartley & Zisserman 2004, §11.4.3, through the derivative of each lens.
 ///
 /// ```
-/// use epipole::camera::{RigidTransform, SeenRay};
+/// use epipole::camera::{RigidTransform, Observation};
 /// use epipole::epipolar::sampson_px_of_rays;
 /// use nalgebra::{Matrix2x3, Point2, Vector3};
 /// // Pinhole cameras with 100 pixels, and rays straight ahead; the step is to the right.
 /// let by_ray = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
-/// let seen1 = SeenRay::new(Point2::new(0.0, 0.0), Vector3::z(), by_ray).unwrap();
+/// let seen1 = Observation::new(Point2::new(0.0, 0.0), Vector3::z(), by_ray).unwrap();
 /// let step = RigidTransform::translation(-1.0, 0.0, 0.0);
 /// // A pixel that is too low by 2: each photograph is off by half of it.
-/// let seen2 = SeenRay::new(Point2::new(-5.0, 2.0), Vector3::new(-0.05, 0.02, 1.0), by_ray).unwrap();
+/// let seen2 = Observation::new(Point2::new(-5.0, 2.0), Vector3::new(-0.05, 0.02, 1.0), by_ray).unwrap();
 /// assert!((sampson_px_of_rays(&step, &seen1, &seen2) - 2.0_f64.sqrt()).abs() < 0.01);
 /// // It would have to be left of where it was.
-/// let seen2 = SeenRay::new(Point2::new(50.0, 0.0), Vector3::new(0.5, 0.0, 1.0), by_ray).unwrap();
+/// let seen2 = Observation::new(Point2::new(50.0, 0.0), Vector3::new(0.5, 0.0, 1.0), by_ray).unwrap();
 /// assert_eq!(sampson_px_of_rays(&step, &seen1, &seen2), f64::INFINITY);
 /// ```
 pub fn sampson_px_of_rays(
     cam2_from_cam1: &RigidTransform,
-    seen1: &SeenRay,
-    seen2: &SeenRay,
+    seen1: &Observation,
+    seen2: &Observation,
 ) -> f64 {
     let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
     let motion = Motion::from((rotation, cam2_from_cam1.translation.vector));
@@ -318,14 +317,13 @@ pub fn sampson_px_of_rays(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::CalibratedCamera;
-    use crate::camera::{Intrinsics, Lens, LensKind};
+    use crate::camera::{Camera, Intrinsics, Lens, LensKind};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector, Point3};
 
-    fn fisheye() -> CalibratedCamera {
-        CalibratedCamera {
+    fn fisheye() -> Camera {
+        Camera {
             intrinsics: Intrinsics::new(250.0, 252.0, 400.0, 390.0).unwrap(),
             lens: Lens::from_coefficients(LensKind::Fisheye, &[-0.02, 0.004, -0.001, 0.0002])
                 .unwrap(),
@@ -335,7 +333,7 @@ mod tests {
     }
 
     /// Matches all around both cameras with noise, the first of every four wrong.
-    fn world(num: usize, sigma_px: f64, seed: u64) -> ([Vec<SeenRay>; 2], RigidTransform) {
+    fn world(num: usize, sigma_px: f64, seed: u64) -> ([Vec<Observation>; 2], RigidTransform) {
         let mut random = Random::new(seed);
         let camera = fisheye();
         let motion =
@@ -357,9 +355,7 @@ mod tests {
                     true => Vector2::from_fn(|_, _| random.uniform(-150.0, 150.0)),
                     false => noise,
                 };
-                camera
-                    .seen_ray(&(camera.project(x).unwrap() + off))
-                    .unwrap()
+                camera.observe(&(camera.project(x).unwrap() + off)).unwrap()
             };
             let pair = [see(&in_both[0], false), see(&in_both[1], is_wrong)];
             seen1.push(pair[0]);

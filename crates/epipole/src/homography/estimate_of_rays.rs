@@ -3,7 +3,7 @@
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::SeenRay;
+use crate::camera::Observation;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 struct RayHomographyEstimator {
     matches: MatchSet,
     rays1: Vec<Vector3<f64>>,
-    seen2: Vec<SeenRay>,
+    seen2: Vec<Observation>,
 }
 
 /// The three rays, each so long that together they are the fourth: `None` if three of the four lie in a plane.
@@ -106,7 +106,7 @@ impl Estimator for RayHomographyEstimator {
 /// All nine numbers of H are free. Its length, which no error depends on, is held by the damping.
 struct RayHomographyProblem<'a> {
     rays1: &'a [Vector3<f64>],
-    seen2: &'a [SeenRay],
+    seen2: &'a [Observation],
     used: Subset<'a>,
     loss: RobustLoss,
 }
@@ -163,16 +163,14 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, RigidTransform, SeenRay};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
 /// use epipole::homography::estimate_homography_of_rays;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point2, Point3, Vector3};
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
+/// let lens = Lens::Fisheye(Fisheye::default());
+/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
 /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-0.5, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
-/// let see = |x: &Point3<f64>| -> Result<SeenRay, epipole::Error> {
-///     let seen = lens.project(&x.coords).ok_or(epipole::Error::PointBehindCamera)?;
-///     SeenRay::through(&lens, &k, &Point2::new(200.0 * seen.x + 319.5, 200.0 * seen.y + 319.5))
-/// };
+/// let see = |x: &Point3<f64>| camera.observe(&camera.project(x)?);
 /// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
 /// for i in 0..40 {
 ///     // The floor, 1 below the camera; some of it is beside and behind.
@@ -189,13 +187,13 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 /// # Ok(()) }
 /// ```
 pub fn estimate_homography_of_rays(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
+    seen1: &[Observation],
+    seen2: &[Observation],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let pixels = [seen1, seen2]
-        .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(SeenRay::pixel).collect() });
+        .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(Observation::pixel).collect() });
     let matches = MatchSet::new(&pixels[0], &pixels[1])?;
     matches.at_least(4, "a homography of rays")?;
     let kept = matches.unique().first_occurrences();
@@ -213,22 +211,24 @@ pub fn estimate_homography_of_rays(
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
+    use crate::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector, Point3, Vector2};
 
     /// A wall seen by a fisheye with noise, every fourth match wrong.
-    fn wall(num: usize, sigma_px: f64, seed: u64) -> ([Vec<SeenRay>; 2], Matrix3<f64>) {
+    fn wall(num: usize, sigma_px: f64, seed: u64) -> ([Vec<Observation>; 2], Matrix3<f64>) {
         let mut random = Random::new(seed);
-        let k = Intrinsics::centered(250.0, 800, 800).unwrap();
-        let lens = Lens::Fisheye(Fisheye::default());
+        let camera = Camera {
+            lens: Lens::Fisheye(Fisheye::default()),
+            ..Camera::pinhole(Intrinsics::centered(250.0, 800, 800).unwrap(), 800, 800)
+        };
         let motion =
             RigidTransform::new(Vector3::new(-0.4, 0.1, 0.2), Vector3::new(0.1, 0.3, -0.2));
         let mut see = |x: &Vector3<f64>, off_px: f64| {
-            let seen = lens.project(x).unwrap().coords * 250.0 + Vector2::new(399.5, 399.5);
+            let seen = camera.project(&Point3::from(*x)).unwrap();
             let off = Vector2::from_fn(|_, _| off_px * random.normal());
-            SeenRay::through(&lens, &k, &Point2::from(seen + off)).unwrap()
+            camera.observe(&(seen + off)).unwrap()
         };
         let mut places = Random::new(seed + 1);
         let mut seen = [Vec::new(), Vec::new()];
@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn derivatives_are_differences() {
         let (seen, truth) = wall(12, 0.5, 3);
-        let rays1: Vec<_> = seen[0].iter().map(SeenRay::ray).collect();
+        let rays1: Vec<_> = seen[0].iter().map(Observation::ray).collect();
         for i in (0..12usize).filter(|i| i % 4 != 0) {
             let used = [i];
             let problem = RayHomographyProblem {

@@ -1,8 +1,7 @@
 //! Reconstructions as files: COLMAP's text model and PLY point clouds.
 
-use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, SfmImage};
-use crate::camera::{LensKind, pixel_to_colmap};
+use crate::camera::{Camera, Lens, LensKind, pixel_to_colmap};
 use std::fmt::Write;
 
 /// The three files of COLMAP's text model.
@@ -35,12 +34,12 @@ impl Reconstruction {
         let mut camera_of_image = vec![0; images.len()];
         for (index, (image, camera)) in images.iter().zip(&self.cameras).enumerate() {
             let Some(camera) = camera else { continue };
-            let kind = (
-                image.width,
-                image.height,
-                camera.intrinsics,
-                self.lens(index),
-            );
+            let kind = Camera {
+                width: image.width,
+                height: image.height,
+                intrinsics: camera.intrinsics,
+                lens: self.lens(index),
+            };
             let id = kinds
                 .iter()
                 .position(|other| *other == kind)
@@ -50,9 +49,10 @@ impl Reconstruction {
                 });
             camera_of_image[index] = id + 1;
         }
-        for (id, (width, height, intrinsics, lens)) in kinds.iter().enumerate() {
-            let [fx, fy, cx, cy] = intrinsics.to_colmap();
-            let (model, more) = model_of(lens);
+        for (id, kind) in kinds.iter().enumerate() {
+            let Camera { width, height, .. } = kind;
+            let [fx, fy, cx, cy] = kind.intrinsics.to_colmap();
+            let (model, more) = model_of(&kind.lens);
             let id = id + 1;
             let _ = writeln!(
                 cameras,
@@ -156,8 +156,8 @@ impl Reconstruction {
 }
 
 /// COLMAP's model of a lens, and its parameters behind those of the intrinsics.
-fn model_of(lens: &SfmLens) -> (&'static str, String) {
-    let all = lens.coefficients();
+fn model_of(lens: &Lens) -> (&'static str, String) {
+    let all = &lens.coefficients()[..];
     let (model, numbers) = match lens.kind() {
         LensKind::Brown if lens.is_none() => ("PINHOLE", &[][..]),
         LensKind::Brown if all[4] == 0.0 => ("OPENCV", &all[..4]),
@@ -278,7 +278,7 @@ mod tests {
                 "1 FULL_OPENCV 640 480 700 700 320 240 0.5 0.25 0.001 -0.002 0.125 0.75 0.5 -0.25",
             ),
         ] {
-            reconstruction.lenses = vec![lens.into(); 3];
+            reconstruction.lenses = vec![lens; 3];
             assert_eq!(line(&reconstruction), expected);
         }
     }
@@ -292,7 +292,7 @@ mod tests {
             ..Distortion::NONE
         };
         let far = Distortion { k3: 0.5, ..bent };
-        reconstruction.lenses = vec![bent.into(), SfmLens::NONE, far.into()];
+        reconstruction.lenses = vec![bent.into(), Lens::NONE, far.into()];
         let model = reconstruction.to_colmap(&images);
         let lines: Vec<&str> = model.cameras.lines().skip(1).collect();
         assert_eq!(

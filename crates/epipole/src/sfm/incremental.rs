@@ -2,13 +2,12 @@
 
 use super::builder::Builder;
 use super::bundle::PositionPrior;
-use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::shares::{Begin, Shares};
 use super::tracks::{PairMatches, build_tracks, track_of_keypoints};
 use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
 use super::views::Views;
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, Lens};
 use crate::progress::Progress;
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
@@ -55,7 +54,7 @@ pub struct SfmOptions {
     /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
     /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
-    pub lenses: Vec<SfmLens>,
+    pub lenses: Vec<Lens>,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
 }
@@ -239,7 +238,7 @@ pub(super) fn check(
         }
     }
     pair_ransac(options).check()?;
-    options.lenses.iter().try_for_each(SfmLens::check)?;
+    options.lenses.iter().try_for_each(Lens::check)?;
     (input.images.iter())
         .filter_map(|image| image.position.as_ref())
         .try_for_each(PositionPrior::check)?;
@@ -383,7 +382,7 @@ pub fn reconstruct_verified(
 }
 
 /// Of each image, as it is at the start.
-pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<SfmLens> {
+pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
     let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
     images.iter().map(of).collect()
 }

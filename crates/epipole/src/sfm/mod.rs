@@ -22,7 +22,6 @@ mod export;
 mod g2o;
 mod incremental;
 mod keyframes;
-mod lens;
 mod loop_closure;
 mod odometry;
 mod photos;
@@ -36,8 +35,8 @@ mod two_view_reconstruction;
 mod two_view_start;
 mod union_find;
 mod unregistered;
+mod verify_rays;
 mod views;
-mod wide;
 
 pub use alignment::{
     AlignmentKind, ErrorStatistics, RelativePoseError, absolute_trajectory_error, align_points,
@@ -45,7 +44,7 @@ pub use alignment::{
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal, adjust_bal_with_progress};
 pub use bundle::{
-    Bundle, BundleOptions, Gauge, Observation, PositionPrior, Sensor, adjust_bundle,
+    Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
     adjust_bundle_with_progress,
 };
 pub use export::ColmapModel;
@@ -53,7 +52,6 @@ pub use incremental::{
     SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, SfmWatcher, reconstruct,
     reconstruct_verified, reconstruct_with, reconstruct_with_progress,
 };
-pub use lens::SfmLens;
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };

@@ -1,9 +1,8 @@
 //! What structure from motion finds: cameras, points, and which saw which.
 
-use super::bundle::{Bundle, Observation, PositionPrior};
-use super::lens::SfmLens;
+use super::bundle::{Bundle, BundleObservation, PositionPrior};
 use super::tracks::TrackElement;
-use crate::camera::{PosedCamera, RigidTransform};
+use crate::camera::{Lens, PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
 /// A photograph, reduced to its keypoints.
@@ -46,7 +45,7 @@ pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
     pub cameras: Vec<Option<PosedCamera>>,
     /// The lens of each image; missing entries bend nothing.
-    pub lenses: Vec<SfmLens>,
+    pub lenses: Vec<Lens>,
     /// Whether it stands where the known positions of its photographs are, in their unit of length.
     pub is_placed: bool,
     /// The points.
@@ -60,7 +59,7 @@ impl Reconstruction {
     }
 
     /// The lens of an image.
-    pub fn lens(&self, image: usize) -> SfmLens {
+    pub fn lens(&self, image: usize) -> Lens {
         self.lenses.get(image).copied().unwrap_or_default()
     }
 
@@ -135,7 +134,7 @@ impl Reconstruction {
             bundle.points.push(point.position);
             for element in &point.track {
                 let image = element.image as usize;
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera: camera_of_image[image],
                     point: index,
                     pixel: images[image].keypoints[element.keypoint as usize],

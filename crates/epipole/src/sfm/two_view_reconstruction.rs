@@ -1,6 +1,6 @@
 //! Two views whose motion is known: points for their matches, and all of it refined.
 
-use super::bundle::{Bundle, BundleOptions, Observation, adjust_bundle};
+use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
 use crate::optim::{Iteration, LmReport, RobustLoss};
@@ -145,7 +145,7 @@ pub fn two_view_reconstruction(
             continue;
         }
         for (camera, pixel) in [*pixel1, *pixel2].into_iter().enumerate() {
-            start.observations.push(Observation {
+            start.observations.push(BundleObservation {
                 camera,
                 point: matches.len(),
                 pixel,
@@ -270,7 +270,7 @@ fn in_baselines(motion: &RigidTransform) -> RigidTransform {
 /// Some points of a bundle of two cameras with their observations, two a point.
 fn only(bundle: &Bundle, points: &[usize]) -> Bundle {
     let observation = |(new, &old): (usize, &usize)| {
-        [2 * old, 2 * old + 1].map(|observation| Observation {
+        [2 * old, 2 * old + 1].map(|observation| BundleObservation {
             point: new,
             ..bundle.observations[observation]
         })

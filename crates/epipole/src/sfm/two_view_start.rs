@@ -1,11 +1,11 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
 use super::incremental::{SfmOptions, lenses};
-use super::lens::SfmLens;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
+use super::verify_rays::verify_rays;
 use super::views::Views;
-use crate::camera::{Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, Lens, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
 use crate::robust::RansacOptions;
@@ -59,7 +59,7 @@ pub fn verify_matches(
     let images = images.map(Clone::clone);
     let intrinsics = intrinsics.map(|k| *k);
     let of_each = lenses(&images, options);
-    of_each.iter().try_for_each(SfmLens::check)?;
+    of_each.iter().try_for_each(Lens::check)?;
     let views = Views::new(&images, &intrinsics, &of_each);
     // The two are all the images that there are.
     let here = PairMatches {
@@ -105,9 +105,9 @@ pub(super) fn verify_pair(
     let intrinsics = both.map(|image| &intrinsics[image]);
     let pixels = match views {
         Views::Pinhole(pixels) => both.map(|image| &pixels[image][..]),
-        Views::Rays { wide, seen } => {
+        Views::Rays(seen) => {
             let seen = both.map(|image| &seen[image][..]);
-            return (wide.verify)(pair, seen, intrinsics, options, min_num_inliers);
+            return verify_rays(pair, seen, intrinsics, options, min_num_inliers);
         }
     };
     if pair.matches.len() < min_num_inliers.max(5) {

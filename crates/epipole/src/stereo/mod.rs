@@ -31,9 +31,7 @@ pub use pixel_map::PixelMap;
 pub use point_cloud::{PointCloud, depth_image, point_cloud};
 pub use prefilter::StereoPrefilter;
 pub use rectified_pair::RectifiedPair;
-pub use rectify::{
-    PixelRect, Rectification, RectifyOptions, StereoCamera, q_from_rig, rectify_calibrated,
-};
+pub use rectify::{PixelRect, Rectification, RectifyOptions, q_from_rig, rectify_calibrated};
 pub(crate) use rectify::{border_outline, farthest_ray, flat};
 pub use rectify_uncalibrated::{UncalibratedRectification, rectify_uncalibrated};
 pub use semi_global::{StereoPaths, StereoSgm};

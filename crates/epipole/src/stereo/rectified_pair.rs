@@ -1,7 +1,6 @@
 //! Two photographs redrawn for a rectified rig, and the disparities that are matched in them.
 
 use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
-use crate::camera::{Distortion, LensModel};
 use crate::imaging::rgb_to_gray;
 use crate::math::order::at_rank;
 use crate::{Error, Result};
@@ -17,7 +16,7 @@ const WRONG: f64 = 0.02;
 /// Surfaces go on where no point is: so much more on either side, pixels and as a share of the range.
 const BEYOND: (f64, f64) = (2.0, 0.15);
 
-impl<L: LensModel> Rectification<L> {
+impl Rectification {
     /// The pixel of the first rectified picture that shows a point, and the disparity of the point there, pixels.
     /// `None` if the point is not in front of the camera.
     ///
@@ -25,14 +24,12 @@ impl<L: LensModel> Rectification<L> {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::camera::{Distortion, Intrinsics, RigidTransform};
-    /// use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
+    /// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+    /// use epipole::stereo::{RectifyOptions, rectify_calibrated};
     /// use nalgebra::Point3;
-    /// let intrinsics = Intrinsics::centered(500.0, 640, 480)?;
-    /// let camera = StereoCamera { intrinsics, distortion: Distortion::NONE };
+    /// let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480);
     /// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
-    /// let rig = rectify_calibrated(
-    ///     &[camera, camera], &cam2_from_cam1, 640, 480, &RectifyOptions::default())?;
+    /// let rig = rectify_calibrated(&[camera, camera], &cam2_from_cam1, &RectifyOptions::default())?;
     /// let (pixel, disparity) = rig.disparity_of(&Point3::new(0.0, 0.0, 2.0)).unwrap();
     /// assert!((pixel.x - 319.5).abs() < 1e-6 && (disparity - 500.0 * 0.1 / 2.0).abs() < 1e-6);
     /// # Ok(()) }
@@ -99,8 +96,8 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
 /// photograph fills. Borders match each other perfectly, so answers there, and those whose match is there, are taken
 /// back. Where one camera stands above the other the pictures are laid on their side before they are matched.
 #[derive(Debug, Clone)]
-pub struct RectifiedPair<'a, L = Distortion> {
-    rig: &'a Rectification<L>,
+pub struct RectifiedPair<'a> {
+    rig: &'a Rectification,
     pictures: [RgbImage; 2],
     /// Which pixels of the first picture its photograph fills.
     shown: Vec<bool>,
@@ -108,14 +105,14 @@ pub struct RectifiedPair<'a, L = Distortion> {
     trusted: [Vec<bool>; 2],
 }
 
-impl<'a, L: LensModel> RectifiedPair<'a, L> {
+impl<'a> RectifiedPair<'a> {
     /// Redraws two photographs.
     ///
     /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for photographs of different size.
-    pub fn new(rig: &'a Rectification<L>, photographs: [&RgbImage; 2]) -> Result<Self> {
+    pub fn new(rig: &'a Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
             ("the rows of the two photographs", sizes[0].0, sizes[1].0),

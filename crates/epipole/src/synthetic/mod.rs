@@ -9,7 +9,7 @@ mod two_view;
 pub use multi_view::{MultiViewProblem, MultiViewProblemOptions, Path, Sighting};
 pub use two_view::{TwoViewProblem, TwoViewProblemOptions};
 
-use crate::camera::{Camera, Intrinsics, look_at};
+use crate::camera::{Intrinsics, PosedCamera, look_at};
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -94,8 +94,8 @@ fn intrinsics() -> Intrinsics {
 }
 
 /// An upright camera at a place, looking at another.
-fn camera_at(center: &Point3<f64>, target: &Point3<f64>) -> Result<Camera> {
-    Ok(Camera {
+fn camera_at(center: &Point3<f64>, target: &Point3<f64>) -> Result<PosedCamera> {
+    Ok(PosedCamera {
         intrinsics: intrinsics(),
         cam_from_world: look_at(center, target, &Vector3::new(0.0, -1.0, 0.0))?,
     })
@@ -107,7 +107,7 @@ fn in_picture(pixel: &Point2<f64>) -> bool {
 }
 
 /// Where a camera sees a point, if that is in its picture.
-fn observe(camera: &Camera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
+fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
     camera.project(x_in_world).ok().filter(in_picture)
 }
 

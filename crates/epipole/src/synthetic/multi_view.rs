@@ -1,7 +1,7 @@
 //! Many cameras on a path around the points that they see.
 
 use super::{Structure, camera_at, check_world, choose_inliers, draw_points, measured, observe};
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -82,7 +82,7 @@ pub struct Sighting {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MultiViewProblem {
     /// The true cameras.
-    pub cameras: Vec<Camera>,
+    pub cameras: Vec<PosedCamera>,
     /// The true points, in the world.
     pub points: Vec<Point3<f64>>,
     /// All observations: by point, and of one point by camera.
@@ -184,7 +184,7 @@ impl MultiViewProblem {
     }
 }
 
-fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<Camera>> {
+fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<PosedCamera>> {
     let num = options.num_cameras as f64;
     match options.path {
         Path::Arc { radius_m, span_rad } => {
@@ -289,7 +289,7 @@ mod tests {
         let centers: Vec<_> = problem
             .cameras
             .iter()
-            .map(Camera::center_in_world)
+            .map(PosedCamera::center_in_world)
             .collect();
         for i in 0..8 {
             for j in 0..i {

@@ -3,7 +3,7 @@
 use super::{
     Structure, WIDTH, camera_at, check_world, choose_inliers, draw_points, measured, observe,
 };
-use crate::camera::Camera;
+use crate::camera::PosedCamera;
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3};
@@ -46,9 +46,9 @@ impl Default for TwoViewProblemOptions {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewProblem {
     /// The first camera, at (0, 0, −distance), which looks along +z.
-    pub camera1: Camera,
+    pub camera1: PosedCamera,
     /// The second camera, to the right of it, which looks at the world's origin.
-    pub camera2: Camera,
+    pub camera2: PosedCamera,
     /// Measured pixels in the first picture.
     pub pixels1: Vec<Point2<f64>>,
     /// Their matches in the second picture.

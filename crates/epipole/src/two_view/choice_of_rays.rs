@@ -6,7 +6,7 @@ use super::{Configuration, TwoViewModel, TwoViewOptions, TwoViewReport};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::{Intrinsics, RigidTransform, SeenRay, cross_matrix};
+use crate::camera::{Intrinsics, Observation, RigidTransform, cross_matrix};
 use crate::epipolar::{estimate_relative_pose_of_rays, sampson_px_of_rays};
 use crate::homography::{decompose_homography, estimate_homography_of_rays};
 use crate::math::order::at_rank;
@@ -20,7 +20,7 @@ const MAX_SAMPLES: usize = 500;
 /// The homography of rays that explains nearly all inliers of a motion, if there is one: they show a plane, or the
 /// camera only turned.
 pub(crate) fn plane_of_rays(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
 ) -> Option<RansacReport<Matrix3<f64>>> {
     let in_two_dimensions = options.in_two_dimensions();
@@ -29,7 +29,7 @@ pub(crate) fn plane_of_rays(
         ..in_two_dimensions
     };
     let [seen1, seen2] =
-        [0, 1].map(|side| -> Vec<SeenRay> { inliers.iter().map(|pair| pair[side]).collect() });
+        [0, 1].map(|side| -> Vec<Observation> { inliers.iter().map(|pair| pair[side]).collect() });
     let found = estimate_homography_of_rays(&seen1, &seen2, &ransac, &mut ()).ok()?;
     let needed = options.max_homography_share * inliers.len() as f64;
     (found.num_inliers as f64 >= needed).then_some(found)
@@ -53,19 +53,19 @@ pub(crate) fn plane_of_rays(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
+/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens};
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_of_rays};
 /// use nalgebra::{Point2, Rotation3, Vector3};
-/// let (k, lens) = (Intrinsics::centered(200.0, 640, 640)?, Lens::Fisheye(Fisheye::default()));
+/// let lens = Lens::Fisheye(Fisheye::default());
+/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
 /// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
 /// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
 /// for i in 0..60 {
 ///     let pixel = Point2::new(f64::from(120 + i * 37 % 400), f64::from(120 + i * 71 % 400));
-///     let seen = SeenRay::through(&lens, &k, &pixel)?;
-///     let turned = lens.project(&(turn * seen.ray())).ok_or(epipole::Error::PointBehindCamera)?;
-///     let pixel2 = Point2::new(200.0 * turned.x + 319.5, 200.0 * turned.y + 319.5);
+///     let seen = camera.observe(&pixel)?;
+///     let pixel2 = camera.project(&(turn * seen.ray()).into())?;
 ///     seen1.push(seen);
-///     seen2.push(SeenRay::through(&lens, &k, &pixel2)?);
+///     seen2.push(camera.observe(&pixel2)?);
 /// }
 /// let report = estimate_two_view_of_rays(&seen1, &seen2, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Panoramic);
@@ -73,8 +73,8 @@ pub(crate) fn plane_of_rays(
 /// # Ok(()) }
 /// ```
 pub fn estimate_two_view_of_rays(
-    seen1: &[SeenRay],
-    seen2: &[SeenRay],
+    seen1: &[Observation],
+    seen2: &[Observation],
     options: &TwoViewOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
@@ -127,7 +127,7 @@ pub fn estimate_two_view_of_rays(
     if let Some(homography) = flat {
         found.model = TwoViewModel::Homography(homography);
         let reach_px = options.in_two_dimensions().max_error_px;
-        let fits = |(seen1, seen2): (&SeenRay, &SeenRay)| {
+        let fits = |(seen1, seen2): (&Observation, &Observation)| {
             seen2.error_sq(&(homography * seen1.ray())) < reach_px * reach_px
         };
         found.inliers = seen1.iter().zip(seen2).map(fits).collect();
@@ -144,7 +144,11 @@ pub fn estimate_two_view_of_rays(
     Ok(found)
 }
 
-fn inliers_of(seen1: &[SeenRay], seen2: &[SeenRay], inliers: &[bool]) -> Vec<[SeenRay; 2]> {
+fn inliers_of(
+    seen1: &[Observation],
+    seen2: &[Observation],
+    inliers: &[bool],
+) -> Vec<[Observation; 2]> {
     let kept = seen1.iter().zip(seen2).zip(inliers).filter(|(_, is)| **is);
     kept.map(|((seen1, seen2), _)| [*seen1, *seen2]).collect()
 }
@@ -153,7 +157,7 @@ fn inliers_of(seen1: &[SeenRay], seen2: &[SeenRay], inliers: &[bool]) -> Vec<[Se
 ///
 /// * `motion`: that of E
 fn planar_motions(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     motion: &RigidTransform,
     plane: &RansacReport<Matrix3<f64>>,
     options: &TwoViewOptions,
@@ -173,7 +177,7 @@ fn planar_motions(
     }
     let max_error_px = options.ransac.max_error_px;
     let score = |motion: &RigidTransform| {
-        let fits = |[seen1, seen2]: &&[SeenRay; 2]| {
+        let fits = |[seen1, seen2]: &&[Observation; 2]| {
             sampson_px_of_rays(motion, seen1, seen2) < max_error_px
         };
         inliers.iter().filter(fits).count()
@@ -190,7 +194,7 @@ fn planar_motions(
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::camera::{Division, Fisheye, Lens};
+    use crate::camera::{Camera, Division, Fisheye, Lens};
     use crate::math::random::Random;
     use nalgebra::{Point2, Point3};
 
@@ -200,21 +204,22 @@ mod tests {
         focal_px: f64,
         motion: &RigidTransform,
         point: impl Fn(&mut Random) -> Point3<f64>,
-    ) -> [Vec<SeenRay>; 2] {
+    ) -> [Vec<Observation>; 2] {
         let mut random = Random::new(4);
         let k = Intrinsics::centered(focal_px, 800, 800).unwrap();
+        let camera = Camera {
+            lens: *lens,
+            ..Camera::pinhole(k, 800, 800)
+        };
         let mut seen = [Vec::new(), Vec::new()];
         while seen[0].len() < 240 {
             let x = point(&mut random);
             let mut see = |x: &Point3<f64>, off_px: f64| {
                 let off = Point2::new(random.normal(), random.normal()).coords * off_px;
-                let pixel = lens.project(&x.coords)?.coords * focal_px + off;
-                let pixel = Point2::from(pixel) + Vector3::new(399.5, 399.5, 0.0).xy();
+                let pixel = camera.project(x).ok()? + off;
                 let inside = 0.0..800.0;
                 let is_inside = inside.contains(&pixel.x) && inside.contains(&pixel.y);
-                SeenRay::through(lens, &k, &pixel)
-                    .ok()
-                    .filter(|_| is_inside)
+                camera.observe(&pixel).ok().filter(|_| is_inside)
             };
             let off_px = if seen[0].len() % 10 == 0 { 50.0 } else { 0.5 };
             if let (Some(one), Some(two)) = (see(&x, 0.5), see(&(motion * x), off_px)) {

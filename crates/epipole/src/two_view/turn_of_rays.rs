@@ -2,7 +2,7 @@
 
 use super::rotation::align_rays;
 use super::{ExplainingTurn, TwoViewOptions};
-use crate::camera::SeenRay;
+use crate::camera::Observation;
 use nalgebra::{Matrix3, Vector3};
 
 /// How often the turn is found again from the half of the matches that fits it best.
@@ -18,11 +18,12 @@ const ROUNDS: usize = 10;
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, Lens, LensKind, SeenRay};
+/// use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 /// use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
 /// use nalgebra::Point2;
-/// let (k, lens) = (Intrinsics::centered(600.0, 640, 480)?, Lens::from_coefficients(LensKind::Fisheye, &[0.0; 4])?);
-/// let see = |u: i32, v: i32| SeenRay::through(&lens, &k, &Point2::new(f64::from(u), f64::from(v)));
+/// let lens = Lens::from_coefficients(LensKind::Fisheye, &[0.0; 4])?;
+/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(600.0, 640, 480)?, 640, 480) };
+/// let see = |u: i32, v: i32| camera.observe(&Point2::new(f64::from(u), f64::from(v)));
 /// let mut still = Vec::new();
 /// for i in 0..60 {
 ///     still.push([see(i * 37 % 640, i * 71 % 480)?; 2]);
@@ -33,7 +34,7 @@ const ROUNDS: usize = 10;
 /// # Ok(()) }
 /// ```
 pub fn find_explaining_turn_of_rays(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
 ) -> Option<ExplainingTurn> {
     // Two matches fit a turn always.
@@ -65,14 +66,13 @@ pub fn find_explaining_turn_of_rays(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::CalibratedCamera;
-    use crate::camera::{Fisheye, Intrinsics, Lens, RigidTransform};
+    use crate::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
     use crate::math::random::Random;
     use nalgebra::{Point3, Vector2};
 
     #[test]
     fn a_turn_is_told_from_a_step() {
-        let camera = CalibratedCamera {
+        let camera = Camera {
             intrinsics: Intrinsics::centered(250.0, 800, 800).unwrap(),
             lens: Lens::Fisheye(Fisheye::default()),
             width: 800,
@@ -85,7 +85,7 @@ mod tests {
             let mut see = |x: Point3<f64>| {
                 let noise = Vector2::from_fn(|_, _| 0.5 * random.normal());
                 camera
-                    .seen_ray(&(camera.project(&x).unwrap() + noise))
+                    .observe(&(camera.project(&x).unwrap() + noise))
                     .unwrap()
             };
             let mut pairs = Vec::new();

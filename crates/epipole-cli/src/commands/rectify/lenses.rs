@@ -40,15 +40,9 @@ pub(super) fn rectify(
         (motion.translation.vector.normalize() * arguments.baseline_m).into(),
         motion.rotation,
     );
-    let cameras = [0, 1].map(|n| StereoCamera {
-        intrinsics: intrinsics[n],
-        distortion: photos[n]
-            .lens
-            .map_or(Lens::Brown(Distortion::NONE), |kept| kept.lens),
-    });
-    let (width, height) = photos[0].color.dimensions();
+    let cameras = [0, 1].map(|n| photos[n].camera(intrinsics[n]));
     let options = arguments.shape();
-    let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, width, height, &options)?;
+    let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, &options)?;
     Ok(Found {
         homographies: rectification.homographies,
         maps: [rectification.map(0)?, rectification.map(1)?],

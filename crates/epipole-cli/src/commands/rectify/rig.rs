@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::known_camera::tell_of_unseen;
 use crate::lens;
 use crate::photo::{Photo, SizeArguments, check_same_size};
-use epipole::calibration::CalibratedCamera;
-use epipole::stereo::{StereoCamera, rectify_calibrated};
+use epipole::camera::Camera;
+use epipole::stereo::rectify_calibrated;
 use std::path::Path;
 
 /// The two photographs and how they are rectified.
@@ -19,20 +19,15 @@ pub(super) fn rectify(
     context: &Context,
     file: &Path,
 ) -> Result<([Photo; 2], Found), Failure> {
-    let (calibrated, right_from_left) = lens::read_rig(file)?;
-    let [left, right] = &calibrated;
+    let (cameras, right_from_left) = lens::read_rig(file)?;
+    let [left, right] = &cameras;
     let photos = [
         photograph(&arguments.first, left, "left", context)?,
         photograph(&arguments.second, right, "right", context)?,
     ];
     check_same_size(&photos)?;
-    let cameras = calibrated.map(|camera| StereoCamera {
-        intrinsics: camera.intrinsics,
-        distortion: camera.lens,
-    });
-    let (width, height) = photos[0].color.dimensions();
     let options = arguments.shape();
-    let rectification = rectify_calibrated(&cameras, &right_from_left, width, height, &options)?;
+    let rectification = rectify_calibrated(&cameras, &right_from_left, &options)?;
     let found = Found {
         homographies: rectification.homographies,
         maps: [rectification.map(0)?, rectification.map(1)?],
@@ -45,7 +40,7 @@ pub(super) fn rectify(
 /// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a camera that stands otherwise.
 fn photograph(
     path: &Path,
-    camera: &CalibratedCamera,
+    camera: &Camera,
     side: &str,
     context: &Context,
 ) -> Result<Photo, Failure> {

@@ -6,8 +6,8 @@ use crate::matrices::positive;
 use crate::photo::KeptLens;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
-use epipole::camera::Intrinsics;
-use epipole::sfm::{Photo, SfmLens, SfmOptions};
+use epipole::camera::{Intrinsics, Lens};
+use epipole::sfm::{Photo, SfmOptions};
 
 /// Which photographs share a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -81,7 +81,7 @@ impl GrowthArguments {
         photos: &mut [Photo],
         intrinsics: &[Intrinsics],
         kept: &[Option<KeptLens>],
-    ) -> Vec<SfmLens> {
+    ) -> Vec<Lens> {
         let mut kinds = Vec::new();
         for (index, (photo, (k, kept))) in
             (photos.iter_mut().zip(intrinsics.iter().zip(kept))).enumerate()
@@ -98,7 +98,7 @@ impl GrowthArguments {
                 kinds.len() - 1
             });
         }
-        let lens = |kept: Option<KeptLens>| kept.map_or(SfmLens::NONE, |kept| kept.lens.into());
+        let lens = |kept: Option<KeptLens>| kept.map_or(Lens::NONE, |kept| kept.lens);
         kinds.into_iter().map(|(_, kept)| lens(kept)).collect()
     }
 
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::robust::PHOTO_MAX_ERROR;
     use clap::Parser;
-    use epipole::camera::{Fisheye, Lens};
+    use epipole::camera::Fisheye;
 
     #[derive(Debug, Parser)]
     #[command(mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)))]
@@ -183,7 +183,7 @@ mod tests {
             let given: Vec<usize> = photos.iter().map(|photo| photo.lens).collect();
             assert_eq!(given, numbers, "{words}");
             for (photo, kept) in photos.iter().zip(kept) {
-                let expected = kept.map_or(SfmLens::NONE, |kept| kept.lens.into());
+                let expected = kept.map_or(Lens::NONE, |kept| kept.lens);
                 assert_eq!(lenses[photo.lens], expected);
             }
         }

@@ -2,8 +2,8 @@
 
 use crate::context::Context;
 use clap::Args;
-use epipole::camera::LensKind;
-use epipole::sfm::{SfmLens, SfmOptions};
+use epipole::camera::{Lens, LensKind};
+use epipole::sfm::SfmOptions;
 
 /// What of the lenses is refined.
 #[derive(Debug, Clone, Copy, Args)]
@@ -37,9 +37,9 @@ impl RefinedArguments {
     }
 
     /// Says what is asked for and cannot be.
-    pub(crate) fn tell_of_nothing_to_refine(&self, lenses: &[SfmLens], context: &Context) {
+    pub(crate) fn tell_of_nothing_to_refine(&self, lenses: &[Lens], context: &Context) {
         let has_tangential =
-            |lens: &SfmLens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
+            |lens: &Lens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
         if self.refine_tangential && !lenses.iter().any(has_tangential) {
             context.warn(
                 "--refine-tangential makes no difference here: the model of the lens has no tangential terms",

@@ -8,7 +8,7 @@ use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::turn;
-use epipole::camera::{RigidTransform, SeenRay, cross_matrix};
+use epipole::camera::{Observation, RigidTransform, cross_matrix};
 use epipole::epipolar::{decompose_essential, estimate_relative_pose_of_rays, sampson_px_of_rays};
 use epipole::homography::estimate_homography_of_rays;
 use epipole::progress::Stage;
@@ -56,7 +56,7 @@ impl SeenMatches {
 
     /// In image 2.
     fn homography_errors_px(&self, homography: &Matrix3<f64>) -> Vec<f64> {
-        let error = |(a, b): (&SeenRay, &SeenRay)| {
+        let error = |(a, b): (&Observation, &Observation)| {
             let off = b.offset_px(&(homography * a.ray()));
             off.map_or(f64::INFINITY, |off| off.norm())
         };

@@ -8,7 +8,7 @@ use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use epipole::optim::{Iteration, LmOptions, LmReport, RobustLoss};
 use epipole::sfm::{
-    AlignmentKind, Bundle, BundleOptions, Observation, adjust_bundle, align_points,
+    AlignmentKind, Bundle, BundleObservation, BundleOptions, adjust_bundle, align_points,
 };
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -204,7 +204,7 @@ impl Question {
                     // The house is in front of every camera.
                     Err(_) => continue,
                 };
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera,
                     point,
                     pixel,

@@ -2,9 +2,9 @@
 
 use crate::kit::scenes::{PHOTO_SIZE, PHOTO_WIDTH, still_life_pair};
 use epipole::Error;
-use epipole::camera::{Distortion, Intrinsics, PosedCamera, relative_motion};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, relative_motion};
 use epipole::homography::transfer;
-use epipole::stereo::{PixelRect, Rectification, RectifyOptions, StereoCamera, rectify_calibrated};
+use epipole::stereo::{PixelRect, Rectification, RectifyOptions, rectify_calibrated};
 use nalgebra::{Isometry3, Matrix3, Point2, UnitQuaternion, Vector2, Vector3};
 
 /// Meters from center to center, to the right.
@@ -40,13 +40,10 @@ impl Turned {
     pub(super) fn new(forward_m: f64, left_deg: f64, way: Way) -> Result<Self, Error> {
         let taken = still_life_pair(PHOTO_SIZE, RIGHT_M, forward_m, left_deg);
         let motion = relative_motion(&taken[0].cam_from_world, &taken[1].cam_from_world);
-        let cameras = taken.map(|camera| StereoCamera {
-            intrinsics: camera.intrinsics,
-            distortion: Distortion::NONE,
-        });
         let (width, height) = PHOTO_SIZE;
+        let cameras = taken.map(|camera| Camera::pinhole(camera.intrinsics, width, height));
         let options = RectifyOptions::default();
-        let rectified = rectify_calibrated(&cameras, &motion, width, height, &options)?;
+        let rectified = rectify_calibrated(&cameras, &motion, &options)?;
         let frames = match way.shows_all {
             true => frames_of_all(&rectified),
             false => [Frame::SAME; 2],
@@ -243,13 +240,11 @@ mod tests {
                 let done = Way { shows_all, ..DONE };
                 let done = Turned::new(forward_m, left_deg, done).unwrap();
                 let [one, two] = done.taken.map(|camera| camera.cam_from_world);
-                let cameras = done.taken.map(|camera| StereoCamera {
-                    intrinsics: camera.intrinsics,
-                    distortion: Distortion::NONE,
-                });
+                let pinhole = |camera: PosedCamera| Camera::pinhole(camera.intrinsics, 640, 480);
+                let cameras = done.taken.map(pinhole);
                 let options = RectifyOptions::default();
                 let motion = relative_motion(&one, &two);
-                let core = rectify_calibrated(&cameras, &motion, 640, 480, &options).unwrap();
+                let core = rectify_calibrated(&cameras, &motion, &options).unwrap();
                 for index in 0..2 {
                     if !shows_all {
                         let apart = done.shown_from_taken[index] - core.homographies[index];

@@ -4,10 +4,10 @@
 use crate::contract::{Panel, Progress};
 use crate::kit::space::Space;
 use epipole::Error;
-use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::stereo::{
-    DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoCamera,
-    StereoSgm, point_cloud, rectify_calibrated,
+    DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoSgm,
+    point_cloud, rectify_calibrated,
 };
 use image::RgbImage;
 use nalgebra::Point3;
@@ -63,10 +63,7 @@ pub(super) fn surface(
     progress: Progress<'_>,
 ) -> Result<Surface, Error> {
     let (width, height) = photographs[0].dimensions();
-    let cameras = lenses.map(|intrinsics| StereoCamera {
-        intrinsics,
-        distortion: Distortion::NONE,
-    });
+    let cameras = lenses.map(|intrinsics| Camera::pinhole(intrinsics, width, height));
     let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
     let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
     let options = RectifyOptions {
@@ -75,7 +72,7 @@ pub(super) fn surface(
         size: Some((side(width), side(height))),
         ..RectifyOptions::default()
     };
-    let rig = rectify_calibrated(&cameras, cam2_from_cam1, width, height, &options)?;
+    let rig = rectify_calibrated(&cameras, cam2_from_cam1, &options)?;
     let redrawn = RectifiedPair::new(&rig, photographs)?;
     let (min_disparity_px, num_disparities) = searched(rig.disparity_range(places)?);
     let matcher = StereoSgm {

@@ -4,7 +4,7 @@ mod problem;
 mod radial;
 mod text;
 
-use super::bundle::{Observation, observation_pairs};
+use super::bundle::{BundleObservation, observation_pairs};
 use super::shares::iterations;
 use crate::Result;
 use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
@@ -52,7 +52,7 @@ pub struct BalProblem {
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// The observations; their pixels have the origin in the middle of the image and v up.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<BundleObservation>,
 }
 
 impl BalProblem {
@@ -167,7 +167,7 @@ mod tests {
         let state = State::new(&problem);
         for camera in 0..num_cameras {
             for point in 0..num_points {
-                let mut o = Observation {
+                let mut o = BundleObservation {
                     camera,
                     point,
                     pixel: Point2::origin(),

@@ -3,7 +3,7 @@
 use super::BalProblem;
 use super::radial::radial_terms;
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, RobustLoss};
-use crate::sfm::bundle::{Observation, PoseState, move_points, sum_of_squares};
+use crate::sfm::bundle::{BundleObservation, PoseState, move_points, sum_of_squares};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 #[derive(Clone)]
@@ -39,7 +39,7 @@ impl State {
     }
 
     #[inline]
-    pub(super) fn residual(&self, o: &Observation) -> [f64; 2] {
+    pub(super) fn residual(&self, o: &BundleObservation) -> [f64; 2] {
         let camera = &self.cameras[o.camera];
         let p = camera.pose.rotated(&self.points[o.point]) + camera.pose.translation;
         let (x, y) = (-p.x / p.z, -p.y / p.z);
@@ -51,7 +51,7 @@ impl State {
 }
 
 pub(super) struct Problem<'a> {
-    pub(super) observations: &'a [Observation],
+    pub(super) observations: &'a [BundleObservation],
     pub(super) pairs: Vec<(u32, u32)>,
     pub(super) num_cameras: usize,
     pub(super) num_points: usize,

@@ -3,7 +3,7 @@
 use super::super::tokens::Tokens;
 use super::{BalCamera, BalProblem};
 use crate::Result;
-use crate::sfm::Observation;
+use crate::sfm::BundleObservation;
 use nalgebra::{Point2, Point3, Vector3};
 use std::fmt::Write;
 
@@ -31,7 +31,7 @@ impl BalProblem {
             observations: Vec::with_capacity(room(num_observations)),
         };
         for _ in 0..num_observations {
-            problem.observations.push(Observation {
+            problem.observations.push(BundleObservation {
                 camera: tokens.index("an observation's camera", num_cameras)?,
                 point: tokens.index("an observation's point", num_points)?,
                 pixel: Point2::new(

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::camera::Intrinsics;
 use crate::optim::{Iteration, LmOptions, RobustLoss};
-use crate::sfm::bundle::{Bundle, BundleOptions, Observation, Sensor, adjust_bundle};
+use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
 use crate::sfm::incremental::{Reporter, SfmStep};
 use crate::sfm::reconstruction::Lenses;
 use crate::sfm::views::Views;
@@ -86,7 +86,7 @@ impl Builder<'_> {
                         (options.position_priors).push(self.images[image].position);
                     }
                 }
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera: camera_of[image],
                     point: bundle.points.len(),
                     pixel: self.images[element.image as usize].keypoints[element.keypoint as usize],

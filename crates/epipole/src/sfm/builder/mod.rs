@@ -6,14 +6,13 @@ mod points;
 
 use super::bundle::Sensor;
 use super::incremental::{Reporter, SfmOptions, SfmStep};
-use super::lens::SfmLens;
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::TrackElement;
 use super::triangulate_track::Sight;
 use super::two_view_start::{VerifiedPair, pair_ransac};
 use super::views::{View, Views};
-use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::absolute_pose::{estimate_absolute_pose, estimate_absolute_pose_of_rays};
+use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
 
@@ -30,7 +29,7 @@ pub(super) struct Builder<'a> {
     pub(super) views: Views,
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Of each image.
-    pub(super) lenses: Vec<SfmLens>,
+    pub(super) lenses: Vec<Lens>,
     pub(super) tracks: &'a [Vec<TrackElement>],
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: &'a [Vec<u32>],
@@ -296,7 +295,7 @@ impl Builder<'_> {
             Views::Pinhole(_) => {
                 estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac, &mut ())
             }
-            Views::Rays { wide, .. } => (wide.register)(&positions, &rays, &ransac),
+            Views::Rays(_) => estimate_absolute_pose_of_rays(&positions, &rays, &ransac, &mut ()),
         };
         let found = found.ok()?;
         if found.num_unique_inliers < self.options.min_num_inliers {

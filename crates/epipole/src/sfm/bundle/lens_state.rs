@@ -2,8 +2,7 @@
 
 use super::{Bundle, BundleOptions};
 use crate::Result;
-use crate::camera::{Intrinsics, MAX_COEFFICIENTS};
-use crate::sfm::lens::SfmLens;
+use crate::camera::{Intrinsics, Lens, MAX_COEFFICIENTS};
 use nalgebra::Vector2;
 
 /// Room for what is refined of a lens: a factor of the focal lengths, its first coefficients, the principal point's
@@ -21,12 +20,12 @@ pub(super) struct LensState {
     pub(super) focal: f64,
     /// Of the principal point.
     pub(super) shift_px: Vector2<f64>,
-    pub(super) lens: SfmLens,
+    pub(super) lens: Lens,
 }
 
 impl LensState {
     /// As it is before it is refined.
-    pub(super) fn new(lens: SfmLens) -> Self {
+    pub(super) fn new(lens: Lens) -> Self {
         Self {
             focal: 1.0,
             shift_px: Vector2::zeros(),

@@ -2,23 +2,23 @@
 
 use super::tests::{check_derivatives, disturb, everything, go_on, photograph};
 use super::*;
-use crate::camera::{Distortion, Division, Fisheye, Lens};
+use crate::camera::{Division, Fisheye};
 use crate::math::random::Random;
 use nalgebra::Vector3;
 
-fn lens(kind: LensKind) -> SfmLens {
+fn lens(kind: LensKind) -> Lens {
     let numbers: &[f64] = match kind {
         LensKind::Brown => &[-0.05, 0.01, 0.002, -0.001, 0.0],
         LensKind::Rational => &[0.3, 0.05, 0.001, -0.002, 0.01, 0.5, 0.1, 0.005],
         LensKind::Fisheye => &[-0.03, 0.008, -0.003, 0.0004],
         LensKind::Division => &[-0.15],
     };
-    Lens::from_coefficients(kind, numbers).unwrap().into()
+    Lens::from_coefficients(kind, numbers).unwrap()
 }
 
 /// Cameras amid points that are all around them, each point seen by those whose lens sees it within so many degrees of
 /// its axis.
-fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_deg: f64) -> Bundle {
+fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: f64) -> Bundle {
     let mut random = Random::new(31);
     let mut bundle = Bundle {
         lenses: lenses.to_vec(),
@@ -43,7 +43,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_de
         for point in 0..num_points {
             let p = bundle.cameras[camera].cam_from_world * bundle.points[point];
             if p.coords.angle(&Vector3::z()) < half_deg.to_radians() {
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera,
                     point,
                     pixel: Point2::origin(),
@@ -90,7 +90,7 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
 }
 
 /// From a wrong focal length, principal point and coefficients back to the exact ones.
-fn comes_back(lenses: &[SfmLens], start: &[SfmLens], half_deg: f64) -> Bundle {
+fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
     let mut bundle = surrounded(6, 200, lenses, half_deg);
     let truth = bundle.clone();
     disturb(&mut bundle, 0.005);
@@ -129,9 +129,9 @@ fn a_fisheye_of_180_degrees_finds_its_coefficients() {
 fn lenses_of_all_models_in_one_bundle_find_theirs() {
     let kinds = [LensKind::Division, LensKind::Fisheye, LensKind::Brown];
     let start = [
-        SfmLens::from(Division { k: -0.1 }),
+        Lens::from(Division { k: -0.1 }),
         Fisheye::default().into(),
-        Distortion::NONE.into(),
+        Lens::NONE,
     ];
     let bundle = comes_back(&kinds.map(lens), &start, 55.0);
     for (got, want) in bundle.lenses.iter().zip(kinds.map(lens)) {
@@ -150,11 +150,7 @@ fn a_rational_lens_finds_how_it_bends() {
     let exact = bundle.clone();
     disturb(&mut bundle, 0.003);
     let start = [0.28, 0.05, 0.0, 0.0, 0.01, 0.5, 0.1, 0.005];
-    bundle.lenses = vec![
-        Lens::from_coefficients(LensKind::Rational, &start)
-            .unwrap()
-            .into(),
-    ];
+    bundle.lenses = vec![Lens::from_coefficients(LensKind::Rational, &start).unwrap()];
     let options = BundleOptions {
         refine_focal: false,
         refine_principal_point: false,
@@ -164,7 +160,7 @@ fn a_rational_lens_finds_how_it_bends() {
     assert!(report.final_cost < 1e-6, "{report:?}");
     for degrees in [10.0f64, 30.0, 50.0, 59.0] {
         let ray = Vector3::new(libm::tan(degrees.to_radians()), 0.1, 1.0);
-        let off = bundle.lenses[0].shown(&ray) - truth.shown(&ray);
+        let off = bundle.lenses[0].project_or_mirror(&ray) - truth.project_or_mirror(&ray);
         assert!(off.norm() < 1e-5, "{degrees} {off}");
     }
     assert_eq!(bundle.cameras[0].intrinsics, exact.cameras[0].intrinsics);
@@ -184,7 +180,7 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
             };
             let mut bundle = bundle.clone();
             adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
-            let changed: Vec<bool> = (bundle.lenses[0].coefficients().iter())
+            let changed: Vec<bool> = (bundle.lenses[0].coefficients().into_iter())
                 .zip(lens(kind).coefficients())
                 .map(|(new, old)| new != old)
                 .collect();

@@ -9,9 +9,8 @@ mod problem;
 #[cfg(test)]
 mod tests;
 
-use super::lens::SfmLens;
 use super::shares::iterations;
-use crate::camera::{Intrinsics, LensKind, PosedCamera, RigidTransform};
+use crate::camera::{Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use crate::optim::{Iteration, LmReport, SchurSystem, minimize};
 use crate::progress::{Progress, Stage};
 use crate::{Error, Result};
@@ -25,7 +24,7 @@ pub use options::{BundleOptions, Gauge, PositionPrior};
 
 /// A camera saw a point at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observation {
+pub struct BundleObservation {
     /// Index of the camera.
     pub camera: usize,
     /// Index of the point.
@@ -55,13 +54,13 @@ pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<PosedCamera>,
     /// What each lens does to rays; missing entries bend nothing.
-    pub lenses: Vec<SfmLens>,
+    pub lenses: Vec<Lens>,
     /// The lens of each camera; missing entries are 0.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// What was seen where.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<BundleObservation>,
     /// Further cameras bolted to each camera.
     pub sensors: Vec<Sensor>,
     /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
@@ -109,7 +108,7 @@ impl Bundle {
             p = sensor_from_camera * p;
         }
         let lens = self.lenses.get(eye.lens).copied().unwrap_or_default();
-        let shown = lens.shown(&p.coords);
+        let shown = lens.project_or_mirror(&p.coords);
         let center = eye.intrinsics.principal_point();
         Vector2::new(
             eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
@@ -128,7 +127,7 @@ struct Eye<'a> {
 
 /// Checks that observations refer to existing cameras and points and are finite.
 pub(super) fn observation_pairs(
-    observations: &[Observation],
+    observations: &[BundleObservation],
     num_cameras: usize,
     num_points: usize,
 ) -> Result<Vec<(u32, u32)>> {
@@ -201,7 +200,7 @@ pub(super) fn observation_pairs(
 /// }
 /// for (point, place) in bundle.points.iter().enumerate() {
 ///     for (camera, model) in bundle.cameras.iter().enumerate() {
-///         bundle.observations.push(Observation { camera, point, pixel: model.project(place)? });
+///         bundle.observations.push(BundleObservation { camera, point, pixel: model.project(place)? });
 ///     }
 /// }
 /// // A receiver says that all three stand half a meter further along x.
@@ -240,7 +239,7 @@ pub fn adjust_bundle(
             value: sensor as f64,
         });
     }
-    bundle.lenses.iter().try_for_each(SfmLens::check)?;
+    bundle.lenses.iter().try_for_each(Lens::check)?;
     let num_lenses = bundle.num_lenses();
     if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
         return Err(Error::OutOfRange {
@@ -250,25 +249,10 @@ pub fn adjust_bundle(
         });
     }
     // Room for more coefficients costs time, so it is taken only where some lens has more.
-    let more = (bundle.lenses.iter()).find(|lens| lens.kind() == LensKind::Rational);
-    match more.and_then(SfmLens::beyond_brown) {
-        Some(wide) => (wide.adjust)(bundle, options, observer),
-        None => adjust::<OF_BROWN>(bundle, pairs, options, observer),
+    match (bundle.lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
+        true => adjust::<OF_ANY>(bundle, pairs, options, observer),
+        false => adjust::<OF_BROWN>(bundle, pairs, options, observer),
     }
-}
-
-/// [`adjust_bundle`] of a bundle that was checked, with room for the coefficients of any lens.
-pub(super) fn adjust_wide(
-    bundle: &mut Bundle,
-    options: &BundleOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<LmReport> {
-    let pairs = observation_pairs(
-        &bundle.observations,
-        bundle.cameras.len(),
-        bundle.points.len(),
-    )?;
-    adjust::<OF_ANY>(bundle, pairs, options, observer)
 }
 
 /// * `S`: room for what is refined of a lens
@@ -304,7 +288,7 @@ fn adjust<const S: usize>(
     bundle.points = state.points;
     if options.refines_lens() {
         let num_known = bundle.lenses.len().max(num_lenses);
-        bundle.lenses.resize(num_known, SfmLens::NONE);
+        bundle.lenses.resize(num_known, Lens::NONE);
         for (lens, refined) in bundle.lenses.iter_mut().zip(&state.lenses) {
             *lens = refined.lens;
         }

@@ -2,10 +2,9 @@
 
 use super::lens_state::LensState;
 use super::{Bundle, BundleOptions, Eye};
-use crate::camera::MAX_COEFFICIENTS;
 use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
+use crate::camera::{Lens, MAX_COEFFICIENTS};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, RobustLoss};
-use crate::sfm::wide::Wide;
 use nalgebra::{Point2, Point3, Vector3};
 
 #[derive(Clone)]
@@ -130,10 +129,10 @@ impl<const S: usize> Problem<'_, S> {
     }
 
     /// [`linearize`](BundleProblem::linearize) by the derivatives of any lens.
-    fn linearize_beyond_brown(&self, sight: &Sight<'_>, wide: &Wide) -> ObservationTerms<6, S> {
+    fn linearize_beyond_brown(&self, sight: &Sight<'_>) -> ObservationTerms<6, S> {
         let (lens, p) = (&sight.lens.lens, &sight.p);
-        let shown = lens.shown(p);
-        let (by_point, by_coefficients) = lens.derivatives(wide, p);
+        let shown = lens.project_or_mirror(p);
+        let (by_point, by_coefficients) = lens.derivatives(p);
         let mut terms = nothing();
         for row in 0..2 {
             let f = sight.focal_px(row) * sight.lens.focal;
@@ -212,7 +211,7 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
     fn residual(&self, state: &State, observation: usize) -> [f64; 2] {
         let sight = self.sight(state, observation);
         let lens = sight.lens;
-        let shown = lens.lens.shown(&sight.p);
+        let shown = lens.lens.project_or_mirror(&sight.p);
         let center = sight.eye.intrinsics.principal_point() + lens.shift_px;
         [
             lens.focal * sight.eye.intrinsics.fu_px() * shown.x + center.x - sight.pixel.x,
@@ -223,10 +222,9 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
     fn linearize(&self, state: &State, observation: usize) -> ObservationTerms<6, S> {
         let sight = self.sight(state, observation);
         let (p, lens) = (&sight.p, sight.lens);
-        if let Some(wide) = lens.lens.beyond_brown() {
-            return self.linearize_beyond_brown(&sight, wide);
-        }
-        let distortion = lens.lens.brown();
+        let Lens::Brown(distortion) = &lens.lens else {
+            return self.linearize_beyond_brown(&sight);
+        };
         let ray = Point2::new(p.x / p.z, p.y / p.z);
         let shown = distortion.distort(&ray);
         let bend = distortion.jacobian(&ray);

@@ -1,8 +1,8 @@
 //! What a photograph covers once it is rectified, and the zoom that follows from it.
 
 use super::slanted::inscribed;
-use super::{LARGEST_CROP, PixelRect, StereoCamera};
-use crate::camera::{Intrinsics, LensModel};
+use super::{LARGEST_CROP, PixelRect};
+use crate::camera::{Camera, Lens};
 use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
@@ -121,20 +121,18 @@ pub(crate) fn outline(
 /// fisheye there are none.
 ///
 /// # Errors
-/// `folds`, if the model folds less than half-way to the pixel; as [`LensModel::ray`] for what is no fold.
-pub(crate) fn farthest_ray<L: LensModel>(
-    lens: &L,
-    intrinsics: &Intrinsics,
+/// `folds`, if the model folds less than half-way to the pixel; as [`Lens::ray`] for what is no fold.
+pub(crate) fn farthest_ray(
+    camera: &Camera,
     pixel: &Point2<f64>,
     folds: Error,
 ) -> Result<Vector3<f64>> {
-    let ray_to = |place: &Point2<f64>| lens.ray(&intrinsics.ray(place).xy().into());
-    let missing = match ray_to(pixel) {
+    let missing = match camera.ray(pixel) {
         Ok(ray) => return Ok(ray),
         Err(missing) => missing,
     };
-    let center = intrinsics.principal_point();
-    let toward = |share: f64| ray_to(&(center + (pixel - center) * share));
+    let center = camera.intrinsics.principal_point();
+    let toward = |share: f64| camera.ray(&(center + (pixel - center) * share));
     let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
     let mut ray = toward(seen).map_err(|_| match missing {
         Error::Degenerate { .. } => folds,
@@ -161,20 +159,11 @@ pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vec
 }
 
 /// The outline of a photograph whose rays are turned.
-pub(super) fn turned_outline<L: LensModel>(
-    camera: &StereoCamera<L>,
-    rect_from_cam: &Rotation3<f64>,
-    width: u32,
-    height: u32,
-) -> Result<Outline> {
-    let StereoCamera {
-        intrinsics,
-        distortion: lens,
-    } = camera;
-    outline(width, height, |u, v| {
+pub(super) fn turned_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) -> Result<Outline> {
+    outline(camera.width, camera.height, |u, v| {
         let pixel = Point2::new(u, v);
-        let ray = rect_from_cam * farthest_ray(lens, intrinsics, &pixel, FOLDS)?;
-        if lens.is_wide() {
+        let ray = rect_from_cam * farthest_ray(camera, &pixel, FOLDS)?;
+        if matches!(camera.lens, Lens::Fisheye(_)) {
             return Ok(flat(&ray).unwrap_or_else(|clipped| clipped));
         }
         if ray.z < 1e-3 {

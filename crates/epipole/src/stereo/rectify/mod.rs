@@ -1,5 +1,6 @@
 //! Calibrated rectification: both pictures redrawn as if the cameras stood parallel.
 
+mod checks;
 mod cover;
 mod q_matrix;
 mod slanted;
@@ -8,8 +9,9 @@ mod tests;
 mod turn;
 
 use super::PixelMap;
-use crate::camera::{Distortion, Intrinsics, LensModel, RigidTransform};
-use crate::{Error, Result};
+use crate::Result;
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use checks::{check, checked_index, common_size};
 use cover::{around_principal_points, around_what_is_seen, turned_outline};
 pub(crate) use cover::{farthest_ray, flat, outline as border_outline};
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3, Vector2};
@@ -17,15 +19,6 @@ use q_matrix::q_matrix;
 use turn::turn_parallel;
 
 pub use q_matrix::q_from_rig;
-
-/// A camera of a stereo rig: how rays become pixels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StereoCamera<L = Distortion> {
-    /// K.
-    pub intrinsics: Intrinsics,
-    /// The lens; [`Distortion::NONE`] for an ideal one. A [`Lens`](crate::camera::Lens) is of any model.
-    pub distortion: L,
-}
 
 /// The results may be enlarged so many times as much as they have to be, for principal points in the middle and for what
 /// is shown reaching from side to side.
@@ -71,9 +64,9 @@ pub struct PixelRect {
 /// A rectified rig: two virtual cameras that stand parallel and share a focal length, so that
 /// matches share a row (or, if `is_vertical`, a column).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rectification<L = Distortion> {
+pub struct Rectification {
     /// The photographs' cameras.
-    pub cameras: [StereoCamera<L>; 2],
+    pub cameras: [Camera; 2],
     /// Rotation of each camera's rays into the rectified frame.
     pub rect_from_cam: [Rotation3<f64>; 2],
     /// Intrinsics of the rectified pictures.
@@ -103,17 +96,16 @@ pub struct Rectification<L = Distortion> {
 /// columns, if the second camera stands rather above or below). The smallest angle never turns a
 /// picture upside down: a second camera on the left gives negative disparities instead.
 ///
-/// * `cameras`: of the first (left) and second (right) photograph
+/// * `cameras`: of the first (left) and second (right) photograph, of the same size
 /// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
-/// * `width`, `height`: of both photographs, pixels
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras stand at one place; if the baseline is more than 60° off the image plane
+/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the baseline is more than 60° off the image plane
 /// halfway between the cameras, whichever way it slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline
 /// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
 /// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
-/// [`Error::OutOfRange`] for an alpha outside 0 to 1 or an
-/// empty size. [`Error::Degenerate`], too, if a lens model folds less than half-way to the photograph's border; what lies
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an
+/// empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds less than half-way to the photograph's border; what lies
 /// beyond a fold nearer to it is not shown.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
@@ -121,27 +113,24 @@ pub struct Rectification<L = Distortion> {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Distortion, Intrinsics, RigidTransform};
-/// use epipole::stereo::{RectifyOptions, StereoCamera, rectify_calibrated};
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::stereo::{RectifyOptions, rectify_calibrated};
 /// // Two ideal cameras that stand parallel, 0.1 m apart: nothing needs to change.
-/// let intrinsics = Intrinsics::centered(500.0, 640, 480)?;
-/// let camera = StereoCamera { intrinsics, distortion: Distortion::NONE };
+/// let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480);
 /// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
-/// let rig = rectify_calibrated(
-///     &[camera, camera], &cam2_from_cam1, 640, 480, &RectifyOptions::default())?;
+/// let rig = rectify_calibrated(&[camera, camera], &cam2_from_cam1, &RectifyOptions::default())?;
 /// assert!((rig.intrinsics[0].fu_px() - 500.0).abs() < 1e-6);
 /// // A disparity of 25 px in the middle is 500 × 0.1 / 25 = 2 m away.
 /// let x = rig.q * nalgebra::Vector4::new(319.5, 239.5, 25.0, 1.0);
 /// assert!((x.z / x.w - 2.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
-pub fn rectify_calibrated<L: LensModel>(
-    cameras: &[StereoCamera<L>; 2],
+pub fn rectify_calibrated(
+    cameras: &[Camera; 2],
     cam2_from_cam1: &RigidTransform,
-    width: u32,
-    height: u32,
     options: &RectifyOptions,
-) -> Result<Rectification<L>> {
+) -> Result<Rectification> {
+    let (width, height) = common_size(cameras)?;
     let (new_width, new_height) = options.size.unwrap_or((width, height));
     check(width, height, new_width, new_height, options.alpha)?;
     let turned = turn_parallel(cam2_from_cam1)?;
@@ -152,7 +141,7 @@ pub fn rectify_calibrated<L: LensModel>(
         .iter()
         .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
         .fold(f64::INFINITY, f64::min);
-    let outlines = [0, 1].map(|i| turned_outline(&cameras[i], &rect_from_cam[i], width, height));
+    let outlines = [0, 1].map(|i| turned_outline(&cameras[i], &rect_from_cam[i]));
     let [outline1, outline2] = outlines;
     let outlines = [outline1?, outline2?];
 
@@ -210,17 +199,15 @@ pub fn rectify_calibrated<L: LensModel>(
     })
 }
 
-impl<L: LensModel> Rectification<L> {
+impl Rectification {
     /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1, [`Error::PointBehindCamera`] if the
-    /// rectified camera looks away from it, and as [`LensModel::ray`].
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1, [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the
+    /// rectified camera looks away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
     pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         let i = checked_index(index)?;
-        let ray = self.cameras[i].intrinsics.ray(pixel);
-        let ray = self.cameras[i].distortion.ray(&ray.xy().into())?;
-        let turned = self.rect_from_cam[i] * ray;
+        let turned = self.rect_from_cam[i] * self.cameras[i].ray(pixel)?;
         self.intrinsics[i].project(&turned.into())
     }
 
@@ -228,7 +215,7 @@ impl<L: LensModel> Rectification<L> {
     /// one step. None where the camera could not see it.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
     pub fn source_pixel(
         &self,
         index: usize,
@@ -236,26 +223,18 @@ impl<L: LensModel> Rectification<L> {
     ) -> Result<Option<Point2<f64>>> {
         let i = checked_index(index)?;
         let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
-        let lens = &self.cameras[i].distortion;
+        let camera = &self.cameras[i];
         // Beyond its fold the lens model shows the same place twice.
-        if !lens.is_seen(&ray) {
+        if !camera.lens.is_seen(&ray) {
             return Ok(None);
         }
-        let Some(bent) = lens.project(&ray) else {
-            return Ok(None);
-        };
-        let k = &self.cameras[i].intrinsics;
-        let center = k.principal_point();
-        Ok(Some(Point2::new(
-            k.fu_px() * bent.x + center.x,
-            k.fv_px() * bent.y + center.y,
-        )))
+        Ok(camera.project(&ray.into()).ok())
     }
 
     /// The map that redraws photograph 0 or 1.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `index` is 0 or 1.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
     pub fn map(&self, index: usize) -> Result<PixelMap> {
         checked_index(index)?;
         Ok(PixelMap::from_fn(self.width, self.height, |u, v| {
@@ -263,41 +242,4 @@ impl<L: LensModel> Rectification<L> {
             self.source_pixel(index, &rectified).ok().flatten()
         }))
     }
-}
-
-fn checked_index(index: usize) -> Result<usize> {
-    if index < 2 {
-        Ok(index)
-    } else {
-        Err(Error::OutOfRange {
-            what: "the number of a rig's camera",
-            requirement: "0 or 1",
-            value: index as f64,
-        })
-    }
-}
-
-fn check(width: u32, height: u32, new_width: u32, new_height: u32, alpha: f64) -> Result<()> {
-    for (what, value) in [
-        ("the photographs' width", width),
-        ("the photographs' height", height),
-        ("the rectified width", new_width),
-        ("the rectified height", new_height),
-    ] {
-        if value < 2 {
-            return Err(Error::OutOfRange {
-                what,
-                requirement: "at least 2 pixels",
-                value: f64::from(value),
-            });
-        }
-    }
-    if !(0.0..=1.0).contains(&alpha) {
-        return Err(Error::OutOfRange {
-            what: "alpha",
-            requirement: "from 0 to 1",
-            value: alpha,
-        });
-    }
-    Ok(())
 }

@@ -1,14 +1,26 @@
 //! Rigs that turn and converge, photographed and rectified.
 
 use super::*;
-use crate::camera::{Lens, LensKind};
+use crate::Error;
+use crate::camera::{Distortion, Lens, LensKind};
 use crate::math::random::Random;
 use nalgebra::{Point3, UnitQuaternion, Vector3, Vector4};
 
-fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> StereoCamera {
-    StereoCamera {
+fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> Camera {
+    Camera {
+        width: 752,
+        height: 480,
         intrinsics: Intrinsics::new(fu, fv, cu, cv).unwrap(),
-        distortion: Distortion::from_coefficients(k).unwrap(),
+        lens: Lens::Brown(Distortion::from_coefficients(k).unwrap()),
+    }
+}
+
+/// The camera with photographs of another size.
+fn sized(camera: Camera, width: u32, height: u32) -> Camera {
+    Camera {
+        width,
+        height,
+        ..camera
     }
 }
 
@@ -19,18 +31,11 @@ fn motion(rotation: [f64; 3], translation: [f64; 3]) -> RigidTransform {
     )
 }
 
-fn photograph(camera: &StereoCamera, x_in_cam: &Point3<f64>) -> Point2<f64> {
-    let bent = camera.distortion.distort(&Point2::new(
-        x_in_cam.x / x_in_cam.z,
-        x_in_cam.y / x_in_cam.z,
-    ));
-    camera
-        .intrinsics
-        .project(&Point3::new(bent.x, bent.y, 1.0))
-        .unwrap()
+fn photograph(camera: &Camera, x_in_cam: &Point3<f64>) -> Point2<f64> {
+    camera.project(x_in_cam).unwrap()
 }
 
-fn wide_rig() -> [StereoCamera; 2] {
+fn wide_rig() -> [Camera; 2] {
     [
         camera(
             458.654,
@@ -69,7 +74,7 @@ fn matches_share_a_line_and_q_gives_them_back() {
                 ..Default::default()
             };
             let cameras = wide_rig();
-            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, 752, 480, &options).unwrap();
+            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, &options).unwrap();
             assert_eq!(rig.is_vertical, vertical);
             let mut tested = 0;
             for _ in 0..200 {
@@ -133,7 +138,8 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
                         alpha,
                         ..Default::default()
                     };
-                    let rig = rectify_calibrated(&[lens; 2], &cam2_from_cam1, 640, 480, &options);
+                    let rig =
+                        rectify_calibrated(&[sized(lens, 640, 480); 2], &cam2_from_cam1, &options);
                     let rig = match rig {
                         Ok(rig) => rig,
                         Err(error) => {
@@ -183,7 +189,11 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
         for (off_deg, is_within) in [(59.9_f64, true), (60.1, false)] {
             let (ahead, sideways) = libm::sincos(off_deg.to_radians());
             let motion = motion([0.0; 3], [-sideways * cos, -sideways * sin, -ahead]);
-            let rig = rectify_calibrated(&[lens; 2], &motion, 640, 480, &RectifyOptions::default());
+            let rig = rectify_calibrated(
+                &[sized(lens, 640, 480); 2],
+                &motion,
+                &RectifyOptions::default(),
+            );
             match rig {
                 Ok(_) => assert!(is_within, "{slant_deg}° {off_deg}°"),
                 Err(error) => {
@@ -199,29 +209,25 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
 /// rectified, and what lies beyond the fold is not shown.
 #[test]
 fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
-    let folding = |k1: f64| StereoCamera {
+    let folding = |k1: f64| Camera {
+        width: 800,
+        height: 600,
         intrinsics: Intrinsics::new(700.0, 702.0, 400.0, 300.0).unwrap(),
-        distortion: Distortion {
+        lens: Lens::Brown(Distortion {
             k1,
             ..Distortion::NONE
-        },
+        }),
     };
     let cam2_from_cam1 = motion([0.02, 0.03, -0.01], [-0.2, 0.01, 0.02]);
     for k1 in [-0.6, -0.9] {
         let cameras = [folding(k1); 2];
-        let corner = cameras[0].intrinsics.ray(&Point2::new(0.0, 0.0));
-        assert!(
-            cameras[0]
-                .distortion
-                .undistort(&corner.xy().into())
-                .is_err()
-        );
+        assert!(cameras[0].unproject(&Point2::new(0.0, 0.0)).is_err());
         for alpha in [0.0, 1.0] {
             let options = RectifyOptions {
                 alpha,
                 ..Default::default()
             };
-            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, 800, 600, &options).unwrap();
+            let rig = rectify_calibrated(&cameras, &cam2_from_cam1, &options).unwrap();
             let x = Point3::new(0.1, -0.1, 2.0);
             let [a, b] = [(0, x), (1, cam2_from_cam1 * x)]
                 .map(|(i, x)| rig.rectify_pixel(i, &photograph(&cameras[i], &x)).unwrap());
@@ -243,8 +249,6 @@ fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
     let error = rectify_calibrated(
         &[folding(-3.0); 2],
         &cam2_from_cam1,
-        800,
-        600,
         &RectifyOptions::default(),
     );
     assert!(
@@ -272,7 +276,8 @@ fn photographs_that_stand_slanted_are_rectified() {
                 };
                 // They turn toward each other by 7°, too.
                 let cam2_from_cam1 = motion([0.02, 0.12, 0.03], [sideways, up, 0.03]);
-                let rig = rectify_calibrated(&[lens; 2], &cam2_from_cam1, 800, 600, &options);
+                let rig =
+                    rectify_calibrated(&[sized(lens, 800, 600); 2], &cam2_from_cam1, &options);
                 let rig = rig.unwrap_or_else(|error| panic!("{slant_deg}°: {error}"));
                 let focal_px = rig.intrinsics[0].fu_px();
                 // Photographs turned by 45° leave a rectangle that fills the results at 1340 px. To hold the
@@ -316,7 +321,7 @@ fn photographs_that_stand_slanted_are_rectified() {
 fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
     let cam2_from_cam1 = motion([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009]);
     let mut options = RectifyOptions::default();
-    let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+    let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, &options).unwrap();
     for i in 0..2 {
         let mask = tight.map(i).unwrap().mask(752, 480);
         assert!(mask.as_raw().iter().all(|&m| m == 255));
@@ -325,7 +330,7 @@ fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
         assert_eq!((valid.u_max, valid.v_max), (751.0, 479.0));
     }
     options.alpha = 1.0;
-    let wide = rectify_calibrated(&wide_rig(), &cam2_from_cam1, 752, 480, &options).unwrap();
+    let wide = rectify_calibrated(&wide_rig(), &cam2_from_cam1, &options).unwrap();
     for i in 0..2 {
         for (u, v) in [
             (0.0, 0.0),
@@ -345,8 +350,9 @@ fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
 #[test]
 fn hopeless_rigs_are_refused() {
     let options = RectifyOptions::default();
-    let rig =
-        |m: RigidTransform, w, h, o: &RectifyOptions| rectify_calibrated(&wide_rig(), &m, w, h, o);
+    let rig = |m: RigidTransform, w, h, o: &RectifyOptions| {
+        rectify_calibrated(&wide_rig().map(|c| sized(c, w, h)), &m, o)
+    };
     let side = motion([0.0; 3], [-0.1, 0.0, 0.0]);
     assert!(matches!(
         rig(motion([0.1, 0.0, 0.0], [0.0; 3]), 752, 480, &options),
@@ -382,9 +388,11 @@ fn hopeless_rigs_are_refused() {
 #[test]
 fn rigs_of_any_lens_are_rectified() {
     let mut random = Random::new(8);
-    let of = |kind, focal_px: f64, coefficients: &[f64]| StereoCamera {
+    let of = |kind, focal_px: f64, coefficients: &[f64]| Camera {
+        width: 600,
+        height: 400,
         intrinsics: Intrinsics::new(focal_px, focal_px * 1.002, 300.0, 198.0).unwrap(),
-        distortion: Lens::from_coefficients(kind, coefficients).unwrap(),
+        lens: Lens::from_coefficients(kind, coefficients).unwrap(),
     };
     let lenses = [
         of(LensKind::Brown, 450.0, &[-0.28, 0.07, 0.0002, 1e-4, 0.0]),
@@ -398,16 +406,15 @@ fn rigs_of_any_lens_are_rectified() {
     ];
     let cam2_from_cam1 = motion([0.03, 0.08, -0.05], [-0.2, 0.01, 0.02]);
     for camera in lenses {
-        let kind = camera.distortion.kind();
+        let kind = camera.lens.kind();
         let options = RectifyOptions::default();
-        let rig = rectify_calibrated(&[camera; 2], &cam2_from_cam1, 600, 400, &options).unwrap();
+        let rig = rectify_calibrated(&[camera; 2], &cam2_from_cam1, &options).unwrap();
         let mut num_shown = 0;
         for _ in 0..500 {
             let mut to = |reach: f64| random.uniform(-reach, reach);
             let x = Point3::new(to(2.5), to(2.0), 2.0 + to(1.0));
             let seen = [x, cam2_from_cam1 * x].map(|x| {
-                let seen = camera.distortion.project(&x.coords)?;
-                let pixel = camera.intrinsics.project(&Point3::new(seen.x, seen.y, 1.0));
+                let pixel = camera.project(&x);
                 let inside =
                     |p: &Point2<f64>| (0.0..600.0).contains(&p.x) && (0.0..400.0).contains(&p.y);
                 pixel.ok().filter(inside)

@@ -1,21 +1,19 @@
-//! What a pixel of any lens says: a ray, and how the pixel moves with it.
+//! A pixel of any lens with its ray.
 
-use super::{Intrinsics, Lens};
-use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Matrix3x2, Point2, Vector2, Vector3};
 
-/// A pixel, the ray that is seen there, and how the pixel moves with the ray: all that pose and motion want of a lens.
+/// A pixel, its ray, and the derivative of the pixel by the ray: all that pose and motion need of a lens.
 ///
-/// Errors stay those of the photograph, however much the lens bends, because a point near to the ray is seen where
-/// the derivative says; and a ray may point anywhere, to the side and behind as well.
+/// Residuals stay in pixels of the distorted photograph, because the derivative predicts where points near the ray
+/// are seen. A ray may point to the side or behind the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SeenRay {
+pub struct Observation {
     pixel: Point2<f64>,
     ray: Vector3<f64>,
     px_by_ray: Matrix2x3<f64>,
 }
 
-impl SeenRay {
+impl Observation {
     /// * `pixel`: where it is seen
     /// * `ray`: its direction in the camera frame, of any length but 0
     /// * `px_by_ray`: the derivative of the pixel by a ray of length 1, pixels; it is 0 along the ray
@@ -24,11 +22,11 @@ impl SeenRay {
     /// is the fold of a lens.
     ///
     /// ```
-    /// use epipole::camera::SeenRay;
+    /// use epipole::camera::Observation;
     /// use nalgebra::{Matrix2x3, Point2, Vector3};
     /// // A pinhole camera with a focal length of 100 pixels, and the ray of its principal point.
     /// let by_ray = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
-    /// let seen = SeenRay::new(Point2::new(320.0, 240.0), Vector3::z(), by_ray).unwrap();
+    /// let seen = Observation::new(Point2::new(320.0, 240.0), Vector3::z(), by_ray).unwrap();
     /// // A point 1/50 to the right is seen two pixels to the right.
     /// let off_px = seen.offset_px(&Vector3::new(0.1, 0.0, 5.0)).unwrap();
     /// assert!((off_px.x - 2.0).abs() < 1e-12 && off_px.y == 0.0);
@@ -44,37 +42,6 @@ impl SeenRay {
         };
         let numbers = pixel.iter().chain(ray.iter()).chain(px_by_ray.iter());
         (numbers.copied().all(f64::is_finite) && seen.ray_by_px().is_some()).then_some(seen)
-    }
-
-    /// What a camera sees at a pixel through its lens.
-    ///
-    /// # Errors
-    /// As [`Lens::ray`]; [`Error::Degenerate`] also at the very fold of the lens.
-    ///
-    /// ```
-    /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::camera::{Fisheye, Intrinsics, Lens, SeenRay};
-    /// use nalgebra::{Point2, Vector3};
-    /// let (k, lens) = (Intrinsics::new(100.0, 100.0, 200.0, 200.0)?, Lens::Fisheye(Fisheye::default()));
-    /// // A right angle to the right is π/2 focal lengths off the middle.
-    /// let pixel = Point2::new(200.0 + 50.0 * core::f64::consts::PI, 200.0);
-    /// let seen = SeenRay::through(&lens, &k, &pixel)?;
-    /// assert!((seen.ray() - Vector3::x()).norm() < 1e-12);
-    /// // A point 0.01 rad further back is seen a pixel further out.
-    /// let off_px = seen.offset_px(&Vector3::new(1.0, 0.0, -0.01)).unwrap();
-    /// assert!((off_px.x - 1.0).abs() < 1e-9);
-    /// # Ok(()) }
-    /// ```
-    pub fn through(lens: &Lens, k: &Intrinsics, pixel: &Point2<f64>) -> Result<Self> {
-        let ray = lens.ray(&k.ray(pixel).xy().into())?.normalize();
-        let (mut by_ray, _) = lens.derivatives(&ray);
-        for (mut row, focal) in by_ray.row_iter_mut().zip([k.fu_px(), k.fv_px()]) {
-            row *= focal;
-        }
-        Self::new(*pixel, ray, by_ray).ok_or(Error::Degenerate {
-            what: "the ray of a distorted pixel",
-            why: "the lens model folds there",
-        })
     }
 
     /// Where it is seen.
@@ -136,7 +103,7 @@ mod tests {
             let (x, y) = (ray.x / z, ray.y / z);
             let by_ray = Matrix2x3::new(500.0, 0.0, -500.0 * x, 0.0, 520.0, -520.0 * y) / z;
             let pixel = k.project(&ray.into()).unwrap();
-            let seen = SeenRay::new(pixel, at, by_ray).unwrap();
+            let seen = Observation::new(pixel, at, by_ray).unwrap();
             let point = 4.0 * at + 0.3 * Vector3::from_fn(|_, _| random.normal());
             let exact = k.project(&point.into()).unwrap() - pixel;
             let (off, by_point) = seen.offset_with_derivative(&point).unwrap();
@@ -159,10 +126,13 @@ mod tests {
     #[test]
     fn a_fold_and_what_is_not_finite_have_no_ray() {
         let flat = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        assert_eq!(SeenRay::new(Point2::origin(), Vector3::z(), flat), None);
+        assert_eq!(Observation::new(Point2::origin(), Vector3::z(), flat), None);
         let fine = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
-        assert_eq!(SeenRay::new(Point2::origin(), Vector3::zeros(), fine), None);
+        assert_eq!(
+            Observation::new(Point2::origin(), Vector3::zeros(), fine),
+            None
+        );
         let nowhere = Point2::new(f64::NAN, 0.0);
-        assert_eq!(SeenRay::new(nowhere, Vector3::z(), fine), None);
+        assert_eq!(Observation::new(nowhere, Vector3::z(), fine), None);
     }
 }

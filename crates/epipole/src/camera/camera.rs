@@ -1,23 +1,44 @@
-//! A camera with its lens and the size of its photographs.
+//! A camera: image size, intrinsics and lens.
 
-use crate::camera::{Intrinsics, Lens, SeenRay};
+use super::{Intrinsics, Lens, Observation};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// A calibrated camera.
+/// A calibrated camera of any lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CalibratedCamera {
+pub struct Camera {
+    /// Width of its images, pixels.
+    pub width: u32,
+    /// Height of its images, pixels.
+    pub height: u32,
     /// K.
     pub intrinsics: Intrinsics,
     /// The lens.
     pub lens: Lens,
-    /// Size of the photographs, pixels.
-    pub width: u32,
-    /// See `width`.
-    pub height: u32,
 }
 
-impl CalibratedCamera {
+impl Camera {
+    /// A camera without distortion.
+    ///
+    /// * `width`, `height`: of its images, pixels
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::{Camera, Intrinsics};
+    /// use nalgebra::{Point2, Point3};
+    /// let camera = Camera::pinhole(Intrinsics::new(500.0, 500.0, 320.0, 240.0)?, 640, 480);
+    /// assert_eq!(camera.project(&Point3::new(1.0, 0.0, 2.0))?, Point2::new(570.0, 240.0));
+    /// # Ok(()) }
+    /// ```
+    pub const fn pinhole(intrinsics: Intrinsics, width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            intrinsics,
+            lens: Lens::NONE,
+        }
+    }
+
     /// The pixel where a point of the camera frame is seen.
     ///
     /// # Errors
@@ -25,52 +46,78 @@ impl CalibratedCamera {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::calibration::CalibratedCamera;
-    /// use epipole::camera::{Intrinsics, Lens, LensKind};
+    /// use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
     /// use nalgebra::{Point2, Point3};
-    /// let camera = CalibratedCamera {
-    ///     intrinsics: Intrinsics::new(500.0, 500.0, 320.0, 240.0)?,
-    ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.1, 0.0, 0.0, 0.0, 0.0])?,
+    /// let camera = Camera {
     ///     width: 640,
     ///     height: 480,
+    ///     intrinsics: Intrinsics::new(500.0, 500.0, 320.0, 240.0)?,
+    ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.1, 0.0, 0.0, 0.0, 0.0])?,
     /// };
     /// // r² = 0.25, so the ray (0.3, 0.4) bends to 1.025 times as much.
     /// let pixel = camera.project(&Point3::new(0.6, 0.8, 2.0))?;
     /// assert!((pixel - Point2::new(473.75, 445.0)).norm() < 1e-9);
-    /// let ray = camera.ray(&pixel)?;
-    /// assert!((ray.x / ray.z - 0.3).abs() < 1e-12);
+    /// let ray = camera.unproject(&pixel)?;
+    /// assert!((ray.x / ray.z - 0.3).abs() < 1e-12 && (ray.norm() - 1.0).abs() < 1e-15);
     /// # Ok(()) }
     /// ```
     pub fn project(&self, x_in_cam: &Point3<f64>) -> Result<Point2<f64>> {
-        let seen = self
-            .lens
-            .project(&x_in_cam.coords)
-            .ok_or(Error::PointBehindCamera)?;
-        Ok(self.to_pixel(&seen))
+        let pixel = self.lens.pixel(&self.intrinsics, &x_in_cam.coords);
+        pixel.ok_or(Error::PointBehindCamera)
     }
 
-    /// The ray that a pixel sees, in the camera frame, of any length.
+    /// The unit ray through a pixel, in the camera frame.
     ///
     /// # Errors
     /// As [`Lens::ray`].
-    pub fn ray(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
+    pub fn unproject(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
+        Ok(self.ray(pixel)?.normalize())
+    }
+
+    /// The ray through a pixel, in the camera frame, of any length.
+    pub(crate) fn ray(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
         self.lens.ray(&self.intrinsics.ray(pixel).xy().into())
     }
 
-    /// A pixel with its ray, and how it moves with it: what
+    /// A pixel with its ray and its derivative by the ray, as
     /// [`estimate_relative_pose_of_rays`](crate::epipolar::estimate_relative_pose_of_rays) and
-    /// [`estimate_absolute_pose_of_rays`](crate::absolute_pose::estimate_absolute_pose_of_rays) take of any lens.
+    /// [`estimate_absolute_pose_of_rays`](crate::absolute_pose::estimate_absolute_pose_of_rays) take it.
     ///
     /// # Errors
-    /// As [`SeenRay::through`].
-    pub fn seen_ray(&self, pixel: &Point2<f64>) -> Result<SeenRay> {
-        SeenRay::through(&self.lens, &self.intrinsics, pixel)
+    /// As [`Lens::ray`]; [`Error::Degenerate`] also at the very fold of the lens.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens};
+    /// use nalgebra::{Point2, Vector3};
+    /// let intrinsics = Intrinsics::new(100.0, 100.0, 200.0, 200.0)?;
+    /// let camera = Camera { lens: Lens::Fisheye(Fisheye::default()), ..Camera::pinhole(intrinsics, 401, 401) };
+    /// // A right angle to the right is π/2 focal lengths off the middle.
+    /// let pixel = Point2::new(200.0 + 50.0 * core::f64::consts::PI, 200.0);
+    /// let seen = camera.observe(&pixel)?;
+    /// assert!((seen.ray() - Vector3::x()).norm() < 1e-12);
+    /// // A point 0.01 rad further back is seen a pixel further out.
+    /// let off_px = seen.offset_px(&Vector3::new(1.0, 0.0, -0.01)).unwrap();
+    /// assert!((off_px.x - 1.0).abs() < 1e-9);
+    /// # Ok(()) }
+    /// ```
+    pub fn observe(&self, pixel: &Point2<f64>) -> Result<Observation> {
+        let ray = self.unproject(pixel)?;
+        let (mut by_ray, _) = self.lens.derivatives(&ray);
+        let focals_px = [self.intrinsics.fu_px(), self.intrinsics.fv_px()];
+        for (mut row, focal_px) in by_ray.row_iter_mut().zip(focals_px) {
+            row *= focal_px;
+        }
+        Observation::new(*pixel, ray, by_ray).ok_or(Error::Degenerate {
+            what: "the ray of a distorted pixel",
+            why: "the lens model folds there",
+        })
     }
 
     /// The pixel where a camera with the same K and no distortion would see what this one sees at `pixel`.
     ///
     /// Functions that take [`Intrinsics`], for a pose, a motion or a triangulation, take such pixels of any lens,
-    /// together with [`CalibratedCamera::intrinsics`]. Errors in pixels are then those of the straightened
+    /// together with [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
     /// photograph: where the lens squeezes the margin, they count for more there.
     ///
     /// # Errors
@@ -78,10 +125,9 @@ impl CalibratedCamera {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::calibration::CalibratedCamera;
-    /// use epipole::camera::{Intrinsics, Lens, LensKind};
+    /// use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
     /// use nalgebra::Point2;
-    /// let camera = CalibratedCamera {
+    /// let camera = Camera {
     ///     intrinsics: Intrinsics::new(500.0, 500.0, 320.0, 240.0)?,
     ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.1, 0.0, 0.0, 0.0, 0.0])?,
     ///     width: 640,
@@ -96,14 +142,6 @@ impl CalibratedCamera {
     pub fn pinhole_pixel(&self, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         self.intrinsics.project(&self.ray(pixel)?.into())
     }
-
-    pub(super) fn to_pixel(self, seen: &Point2<f64>) -> Point2<f64> {
-        let center = self.intrinsics.principal_point();
-        Point2::new(
-            self.intrinsics.fu_px() * seen.x + center.x,
-            self.intrinsics.fv_px() * seen.y + center.y,
-        )
-    }
 }
 
 #[cfg(test)]
@@ -114,14 +152,14 @@ mod tests {
     use crate::math::random::Random;
     use crate::robust::RansacOptions;
 
-    fn camera(kind: LensKind) -> CalibratedCamera {
+    fn camera(kind: LensKind) -> Camera {
         let coefficients: &[f64] = match kind {
             LensKind::Brown => &[-0.27, 0.05, 0.001, -0.0005, 0.02],
             LensKind::Rational => &[0.5, 0.05, 0.001, 0.0, 0.0, 0.8, 0.15, 0.01],
             LensKind::Fisheye => &[-0.02, 0.004, -0.001, 0.0002],
             LensKind::Division => &[-0.2],
         };
-        CalibratedCamera {
+        Camera {
             intrinsics: Intrinsics::new(400.0, 405.0, 320.0, 240.0).unwrap(),
             lens: Lens::from_coefficients(kind, coefficients).unwrap(),
             width: 640,
