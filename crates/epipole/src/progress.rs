@@ -1,8 +1,9 @@
-//! How far a long computation is, and whether it goes on.
+//! Progress of a long computation, and its cancellation.
 
+use crate::{Error, Result};
 use std::ops::ControlFlow;
 
-/// What a long function is at. Each says in its documentation which stages it has.
+/// Stage of a long computation. Each function documents the stages that it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {
@@ -45,38 +46,137 @@ impl Stage {
     }
 }
 
-/// How far a long function is.
+/// State of a long computation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Status {
-    /// What it is at.
+    /// Current stage.
     pub stage: Stage,
-    /// The share of the whole work, of all stages, that is done, in [0, 1].
+    /// Completed share of the whole work, of all stages, in [0, 1].
     pub share: f32,
 }
 
-/// Hears now and then, on the caller's thread, how far the work is; a share is never less than the one
-/// before. [`ControlFlow::Break`] stops the work, and the function returns
-/// [`Error::Canceled`](crate::Error::Canceled), or what there is so far where that is of use and its
-/// documentation says so.
+/// Observer of a long computation, which can cancel it.
 ///
-/// It is the last argument of every function called `…_with_progress`; the function without goes to its end.
-/// Functions that take an observer show what they do in more detail, each sample of RANSAC for example, and
-/// are answered in the same way.
+/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument. `&mut ()` runs
+/// to the end in silence; a closure sees each [`Status`] and can return [`ControlFlow::Break`], upon which the
+/// function returns [`Error::Canceled`].
+///
+/// Reports come on the caller's thread. The share never falls.
 ///
 /// ```
-/// use epipole::feature::{SiftOptions, detect_sift, detect_sift_with_progress};
-/// use epipole::progress::{Stage, Status};
+/// use epipole::progress::{Monitor, Part, Stage, Status, report};
 /// use std::ops::ControlFlow;
-/// let image = epipole::imaging::GrayImage32::new(64, 64);
-/// let (options, mut last) = (SiftOptions::default(), 0.0);
-/// let watched = detect_sift_with_progress(&image, &options, &mut |Status { stage, share }| {
-///     assert_eq!(stage, Stage::FeatureDetection);
-///     assert!(share >= last && share <= 1.0);
-///     last = share;
+/// fn two_halves(monitor: &mut dyn Monitor) -> epipole::Result<()> {
+///     for half in 0..2 {
+///         report(monitor, Stage::Calibration, 0.5 * half as f32)?;
+///     }
+///     Ok(())
+/// }
+/// assert_eq!(two_halves(&mut ()), Ok(()));
+///
+/// let mut shares = Vec::new();
+/// let mut watch = |status: Status| {
+///     shares.push(status.share);
 ///     ControlFlow::Continue(())
-/// });
-/// assert_eq!(watched, detect_sift(&image, &options));
-/// let stopped = detect_sift_with_progress(&image, &options, &mut |_| ControlFlow::Break(()));
-/// assert_eq!(stopped, Err(epipole::Error::Canceled));
+/// };
+/// two_halves(&mut Part::new(&mut watch, 0.5, 1.0))?;
+/// assert_eq!(shares, [0.5, 0.75]);
+///
+/// let canceled = two_halves(&mut |_| ControlFlow::Break(()));
+/// assert_eq!(canceled, Err(epipole::Error::Canceled));
+/// # Ok::<(), epipole::Error>(())
 /// ```
+pub trait Monitor {
+    /// Receives the current stage and share of the work; [`ControlFlow::Break`] cancels it.
+    fn report(&mut self, status: Status) -> ControlFlow<()>;
+}
+
+/// Ignores progress and never cancels.
+impl Monitor for () {
+    fn report(&mut self, _: Status) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+impl<F: FnMut(Status) -> ControlFlow<()>> Monitor for F {
+    fn report(&mut self, status: Status) -> ControlFlow<()> {
+        self(status)
+    }
+}
+
+/// Reports `stage` and `share`, the completed share of the whole work in [0, 1], to `monitor`.
+///
+/// # Errors
+/// [`Error::Canceled`] if the monitor cancels.
+pub fn report(monitor: &mut dyn Monitor, stage: Stage, share: f32) -> Result<()> {
+    match monitor.report(Status { stage, share }) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Error::Canceled),
+    }
+}
+
+/// Monitor of one part of a longer computation: maps the shares 0 to 1 of the part to `from` to `to` of the whole.
+///
+/// See [`Monitor`] for an example.
+pub struct Part<'a> {
+    monitor: &'a mut dyn Monitor,
+    from: f32,
+    to: f32,
+    stage: Option<Stage>,
+}
+
+impl<'a> Part<'a> {
+    /// Passes reports of the part on to `monitor`, the stage unchanged.
+    pub fn new(monitor: &'a mut dyn Monitor, from: f32, to: f32) -> Self {
+        Self {
+            monitor,
+            from,
+            to,
+            stage: None,
+        }
+    }
+
+    /// Passes reports on as of `stage`, whatever stages the part has.
+    #[must_use]
+    pub fn of_stage(mut self, stage: Stage) -> Self {
+        self.stage = Some(stage);
+        self
+    }
+}
+
+impl Monitor for Part<'_> {
+    fn report(&mut self, status: Status) -> ControlFlow<()> {
+        self.monitor.report(Status {
+            stage: self.stage.unwrap_or(status.stage),
+            share: self.from + (self.to - self.from) * status.share,
+        })
+    }
+}
+
+/// Callback that the functions called `…_with_progress` still take in place of a [`Monitor`].
 pub type Progress<'a> = &'a mut dyn FnMut(Status) -> ControlFlow<()>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_nest_and_pass_cancellation_on() {
+        let mut told = Vec::new();
+        let mut watch = |status: Status| {
+            told.push(status);
+            match told.len() {
+                2 => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        };
+        let mut half = Part::new(&mut watch, 0.5, 1.0).of_stage(Stage::Registration);
+        let mut quarter = Part::new(&mut half, 0.0, 0.5);
+        assert_eq!(report(&mut quarter, Stage::PoseGraph, 0.0), Ok(()));
+        let end = report(&mut quarter, Stage::PoseGraph, 1.0);
+        assert_eq!(end, Err(Error::Canceled));
+        let stage = Stage::Registration;
+        let expected = [0.5, 0.75].map(|share| Status { stage, share });
+        assert_eq!(told, expected);
+    }
+}
