@@ -4,7 +4,7 @@
 //!
 //! | room | what it holds |
 //! |---|---|
-//! | [`progress`] | how far a long computation is, its stage and its share, and whether it goes on |
+//! | [`progress`] | the monitor of long computations: stage, share, cancellation |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |

@@ -10,23 +10,19 @@ use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose_of_rays;
 use crate::camera::{Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, RigidTransform, SeenRay};
 use crate::epipolar::estimate_relative_pose_of_rays;
-use crate::optim::{Iteration, LmReport};
+use crate::optim::LmReport;
+use crate::progress::Monitor;
 use crate::robust::{RansacOptions, RansacReport};
 use crate::two_view::{
     TwoViewOptions, find_explaining_turn_of_rays, find_turn_and_focal, plane_of_rays,
 };
 use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
-use std::ops::ControlFlow;
 
 type Numbers = [f64; MAX_COEFFICIENTS];
 /// The rays of the keypoints of each image; `None` where its lens sees none.
 pub(super) type SeenRays = Vec<Vec<Option<SeenRay>>>;
 type Derivatives = fn(LensKind, &Numbers, &Vector3<f64>) -> (Matrix2x3<f64>, [Numbers; 2]);
-type Adjust = fn(
-    &mut Bundle,
-    &BundleOptions,
-    &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-) -> Result<LmReport>;
+type Adjust = fn(&mut Bundle, &BundleOptions, &mut dyn Monitor) -> Result<LmReport>;
 type Verify = fn(
     &PairMatches,
     [&[Option<SeenRay>]; 2],

@@ -301,7 +301,7 @@ mod tests {
                 ..StereoSgm::default()
             };
             let found = redrawn
-                .disparity(|left, right| matcher.compute(left, right))
+                .disparity(|left, right| matcher.compute(left, right, &mut ()))
                 .unwrap();
             let cloud = crate::stereo::point_cloud(&found, &rig.q, None).unwrap();
             let mut errors: Vec<f64> = (cloud.points.iter())

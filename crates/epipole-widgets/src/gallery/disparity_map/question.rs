@@ -6,6 +6,7 @@ use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::camera::{Camera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
+use epipole::progress::{Monitor, Status};
 use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
 use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
 use image::GrayImage;
@@ -111,7 +112,7 @@ impl question::Question for Question {
         let right = scene.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
         tell(progress, 0.6)?;
         let gray = |photo: &Photograph| rgb_to_gray(&photo.image);
-        let found = self.search(&gray(&left), &gray(&right), &mut |status| {
+        let found = self.search(&gray(&left), &gray(&right), &mut |status: Status| {
             progress(0.6 + 0.4 * f64::from(status.share))
         })?;
         let truth = self.true_disparity(&left);
@@ -143,7 +144,7 @@ impl Question {
         &self,
         left: &GrayImage,
         right: &GrayImage,
-        progress: epipole::progress::Progress<'_>,
+        monitor: &mut dyn Monitor,
     ) -> Result<DisparityImage, Error> {
         match self.method {
             Method::Blocks(window_px) => {
@@ -158,7 +159,7 @@ impl Question {
                     matcher.min_texture = 0.0;
                     matcher.speckle_size = 0;
                 }
-                matcher.compute_with_progress(left, right, progress)
+                matcher.compute(left, right, monitor)
             }
             Method::SemiGlobal => {
                 let mut matcher = StereoSgm {
@@ -170,7 +171,7 @@ impl Question {
                     matcher.uniqueness_percent = 0;
                     matcher.speckle_size = 0;
                 }
-                matcher.compute_with_progress(left, right, progress)
+                matcher.compute(left, right, monitor)
             }
         }
     }
