@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Folder, fails, json, k, motion, moved, numbers, path};
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
@@ -13,7 +13,7 @@ use serde_json::Value;
 const SIZE: (u32, u32) = (400, 300);
 
 /// A camera that goes around the table while it looks at it.
-fn around(n: usize) -> Camera {
+fn around(n: usize) -> PosedCamera {
     let angle = 0.1 * (n as f64 - 2.0);
     // Turns about a point 1.3 m in front of the camera.
     let pivot = Vector3::new(0.0, 0.0, 1.3);
@@ -22,8 +22,8 @@ fn around(n: usize) -> Camera {
     moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
 }
 
-fn centers(cameras: &[Camera]) -> Vec<Point3<f64>> {
-    cameras.iter().map(Camera::center_in_world).collect()
+fn centers(cameras: &[PosedCamera]) -> Vec<Point3<f64>> {
+    cameras.iter().map(PosedCamera::center_in_world).collect()
 }
 
 /// Lines that are no comments.
@@ -35,7 +35,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn an_unknown_focal_length_is_refined() {
     let folder = Folder::new("sfm-focal");
-    let cameras: Vec<Camera> = (0..5).map(around).collect();
+    let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let truth = cameras[0].intrinsics.fu_px();
@@ -66,7 +66,7 @@ fn an_unknown_focal_length_is_refined() {
 #[test]
 fn commands_find_the_same_features() {
     let folder = Folder::new("sfm-features");
-    let cameras: Vec<Camera> = (0..2).map(around).collect();
+    let cameras: Vec<PosedCamera> = (0..2).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
     let files = [0, 1].map(|n| folder.file(&format!("photos/{n}.png")));
     let options = epipole::sfm::PhotoOptions::default();
@@ -98,7 +98,7 @@ fn commands_find_the_same_features() {
 #[test]
 fn every_step_of_a_reconstruction_can_be_set() {
     let folder = Folder::new("sfm-set");
-    let cameras: Vec<Camera> = (0..3).map(around).collect();
+    let cameras: Vec<PosedCamera> = (0..3).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let k = k(&cameras[0]);
@@ -148,7 +148,7 @@ fn every_step_of_a_reconstruction_can_be_set() {
 #[test]
 fn photographs_become_cameras_and_points() {
     let folder = Folder::new("sfm");
-    let cameras: Vec<Camera> = (0..5).map(around).collect();
+    let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
     // What is no photograph is passed over.
     folder.write("photos/notes.txt", "not a photograph");

@@ -7,7 +7,7 @@ mod common;
 
 use common::{finish, jpeg, reopened};
 use epipole::calibration::{
-    Board, BoardView, CalibratedCamera, CalibrationOptions, Keep, Pattern, Undistortion, calibrate,
+    Board, BoardView, CalibrationOptions, Camera, Keep, Pattern, Undistortion, calibrate,
     find_board, photograph_of_board,
 };
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
@@ -34,9 +34,9 @@ fn png(image: &RgbImage) -> Blob {
     bytes.into_inner().into()
 }
 
-fn true_camera(width: u32, height: u32) -> CalibratedCamera {
+fn true_camera(width: u32, height: u32) -> Camera {
     let focal_px = 0.82 * f64::from(width);
-    CalibratedCamera {
+    Camera {
         intrinsics: Intrinsics::centered(focal_px, width, height).unwrap(),
         lens: Lens::from_coefficients(LensKind::Brown, &[-0.2, 0.05, 0.0, 0.0, 0.0]).unwrap(),
         width,
@@ -45,7 +45,7 @@ fn true_camera(width: u32, height: u32) -> CalibratedCamera {
 }
 
 /// A photograph of a board, turned by so many degrees about x and y, its middle 2 cm to the left and so far away.
-fn photographed(board: &Board, camera: &CalibratedCamera, turn_deg: [f64; 2], far_m: f64) -> Blob {
+fn photographed(board: &Board, camera: &Camera, turn_deg: [f64; 2], far_m: f64) -> Blob {
     let [x, y] = turn_deg.map(f64::to_radians);
     let rotation = nalgebra::UnitQuaternion::from_euler_angles(x, y, 0.1);
     let middle = board.mark(board.num_marks() - 1) / 2.0;
@@ -221,7 +221,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     assert_eq!(project.focal_origin(fits), Some(FocalOrigin::Calibration));
     assert_eq!(project.focal_origin(other), Some(FocalOrigin::Guessed));
     // As `epipole undistort` redraws it.
-    let truth = CalibratedCamera {
+    let truth = Camera {
         intrinsics: Intrinsics::new(camera.k[0], camera.k[1], camera.k[2], camera.k[3]).unwrap(),
         lens: Lens::from_coefficients(LensKind::Brown, &camera.coefficients).unwrap(),
         width: 640,

@@ -4,7 +4,7 @@
 
 use epipole::math::random::Random;
 use epipole::prelude::*;
-use epipole::sfm::{Bundle, BundleOptions, Observation, adjust_bundle};
+use epipole::sfm::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
 
 pub(crate) fn run() -> Result<(), Error> {
     let mut random = Random::new(1);
@@ -12,7 +12,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let mut bundle = Bundle::default();
     for i in 0..5 {
         let cam_from_world = RigidTransform::translation(0.4 - 0.2 * f64::from(i), 0.0, 4.0);
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics,
             cam_from_world,
         });
@@ -27,7 +27,7 @@ pub(crate) fn run() -> Result<(), Error> {
         for camera in 0..5 {
             let exact = bundle.cameras[camera].project(&position)?;
             let noise = Vector2::new(0.5 * random.normal(), 0.5 * random.normal());
-            bundle.observations.push(Observation {
+            bundle.observations.push(BundleObservation {
                 camera,
                 point,
                 pixel: exact + noise,

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, LensKind, RigidTransform};
+use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{
-    AlignmentKind, Observation, PairMatches, SfmImage, SfmInput, SfmLens, SfmOptions, SfmResult,
+    AlignmentKind, BundleObservation, Lens, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult,
     VerifiedPair, adjust_bundle, align_points, reconstruct, verify_matches, why_unregistered,
 };
 use nalgebra::{Point2, Point3, Vector2, Vector3};
@@ -13,7 +13,7 @@ use nalgebra::{Point2, Point3, Vector2, Vector3};
 const SIZE: u32 = 1000;
 
 struct World {
-    cameras: Vec<Camera>,
+    cameras: Vec<PosedCamera>,
     input: SfmInput,
 }
 
@@ -68,7 +68,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
         let turn = 0.15 * Vector3::from_fn(|_, _| random.normal());
         let rotation = RigidTransform::new(Vector3::zeros(), turn);
         let shift = -(rotation.rotation * (making.step * center));
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: k(),
             cam_from_world: RigidTransform::from_parts(shift.into(), rotation.rotation),
         };
@@ -208,7 +208,7 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     let focal_px = found.cameras[4].unwrap().intrinsics.fu_px();
     assert!((focal_px - 300.0).abs() < 0.5, "{focal_px}");
     // The coefficients stand for each other, so what counts is where rays are seen.
-    let truth = SfmLens::from(lens(LensKind::Fisheye)).to_lens();
+    let truth = Lens::from(lens(LensKind::Fisheye)).to_lens();
     for degrees in [20.0f64, 50.0, 80.0, 90.0] {
         let (sine, cosine) = libm::sincos(degrees.to_radians());
         let ray = Vector3::new(sine, 0.0, cosine);
@@ -277,7 +277,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
         }
     }
-    let mut lenses = vec![SfmLens::from(lens(LensKind::Fisheye)); 6];
+    let mut lenses = vec![Lens::from(lens(LensKind::Fisheye)); 6];
     lenses[5] = brown.into();
     let options = SfmOptions {
         lenses,
@@ -370,7 +370,7 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
         wrong.lenses = vec![lens(kind).into()];
-        let observations: Vec<Observation> = wrong.observations.clone();
+        let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
         if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut ()) {
             assert!(report.final_cost.is_finite());

@@ -16,13 +16,13 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
-use epipole::calibration::CalibratedCamera;
+use epipole::camera::Camera;
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::progress::Part;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    Odometry, OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions,
-    SfmImage, SfmInput, SfmLens, match_features, match_rectified, photo_features,
+    Lens, Odometry, OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures,
+    PhotoOptions, SfmImage, SfmInput, match_features, match_rectified, photo_features,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -180,7 +180,7 @@ impl Work<'_> {
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
         let mut options = (self.arguments).options(self.context, some_unknown(guesses));
-        let lens = (frames.lens).map_or(SfmLens::NONE, |kept| kept.lens.into());
+        let lens = (frames.lens).map_or(Lens::NONE, |kept| kept.lens.into());
         options.sfm.lenses = vec![lens];
         let refined = &self.arguments.refined;
         refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);
@@ -251,7 +251,7 @@ impl Work<'_> {
     }
 
     /// A frame, which keeps what the lens did.
-    fn photo(&self, path: &Path, camera: Option<&CalibratedCamera>) -> Result<Photo, Failure> {
+    fn photo(&self, path: &Path, camera: Option<&Camera>) -> Result<Photo, Failure> {
         let size = self.arguments.size;
         let Some(camera) = camera else {
             return Photo::prepared(path, size, None);

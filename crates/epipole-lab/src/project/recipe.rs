@@ -173,7 +173,7 @@ impl Project {
                 let [fu, fv, cu, cv] = camera.k;
                 (
                     format!(
-                        "    let lens = Lens::from_coefficients(LensKind::{:?}, &{})?;\n    let camera = CalibratedCamera \
+                        "    let lens = Lens::from_coefficients(LensKind::{:?}, &{})?;\n    let camera = Camera \
                          {{\n        intrinsics: Intrinsics::new({fu:?}, {fv:?}, {cu:?}, {cv:?})?,\n        lens,\n        \
                          width: {},\n        height: {},\n    }};\n    let flat = Undistortion::new(&camera, \
                          Keep::Valid)?;\n    let undistortion = Some(&flat);\n",
@@ -182,7 +182,7 @@ impl Project {
                         camera.size.0,
                         camera.size.1
                     ),
-                    "CalibratedCamera, Keep, PrepareOptions, Undistortion, prepare_photo",
+                    "Camera, Keep, PrepareOptions, Undistortion, prepare_photo",
                     "Intrinsics, Lens, LensKind",
                 )
             }

@@ -3,7 +3,7 @@
 use super::convert::{core_camera, sentence, to_image};
 use super::depth_size::{common_size, reduced_factor, span};
 use super::{CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Progress, Told};
-use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
+use epipole::camera::{Distortion, Intrinsics, PosedCamera, RigidTransform};
 use epipole::progress::Status;
 use epipole::stereo::{
     DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoBm, StereoCamera,
@@ -113,7 +113,7 @@ fn tell(progress: Progress<'_>, share: f32, words: &str) -> Result<(), String> {
 /// * `width`, `height`: what both photographs are resized to, pixels
 fn rectify(
     pair: &Pair<'_>,
-    cameras: &[Camera; 2],
+    cameras: &[PosedCamera; 2],
     [first, second]: [usize; 2],
     [width, height]: [u32; 2],
 ) -> Result<Rectification, String> {
@@ -170,7 +170,7 @@ fn resized(image: RgbImage, [width, height]: [u32; 2]) -> RgbImage {
 }
 
 /// The first rectified camera.
-fn rectified_camera(rig: &Rectification, first: &Camera) -> CameraFound {
+fn rectified_camera(rig: &Rectification, first: &PosedCamera) -> CameraFound {
     let k = rig.intrinsics[0];
     let center = k.principal_point();
     let rotation = UnitQuaternion::from_rotation_matrix(&rig.rect_from_cam[0]);
@@ -184,7 +184,7 @@ fn rectified_camera(rig: &Rectification, first: &Camera) -> CameraFound {
 }
 
 /// Whether the second camera stands to the left of the first, or above it.
-fn stands_before(rig: &Rectification, cameras: &[Camera; 2]) -> bool {
+fn stands_before(rig: &Rectification, cameras: &[PosedCamera; 2]) -> bool {
     let second: Point3<f64> = cameras[1].cam_from_world.inverse() * Point3::origin();
     let in_first = cameras[0].cam_from_world * second;
     let turned = rig.rect_from_cam[0] * in_first;

@@ -5,7 +5,7 @@ use super::{
     Answer, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed,
     SfmOptions, Told,
 };
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::progress::Status;
 use epipole::sfm::{
     IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
@@ -89,7 +89,7 @@ pub(super) fn reconstruct(
 }
 
 fn component(found: &Reconstruction) -> Component {
-    let camera = |camera: &Camera| {
+    let camera = |camera: &PosedCamera| {
         let (k, center) = (camera.intrinsics, camera.intrinsics.principal_point());
         CameraFound {
             intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],

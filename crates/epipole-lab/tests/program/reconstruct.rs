@@ -1,6 +1,6 @@
 //! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and nothing else.
 
-use epipole::calibration::{CalibratedCamera, Keep, PrepareOptions, Undistortion, prepare_photo};
+use epipole::calibration::{Camera, Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Intrinsics, Lens, LensKind};
 use epipole::feature::FeatureKind;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
@@ -15,7 +15,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("photographs/typed.jpg", Some(750.0)),
     ];
     let lens = Lens::from_coefficients(LensKind::Brown, &[-0.01, 0.003, 0.0005, -0.0004, 0.0])?;
-    let camera = CalibratedCamera {
+    let camera = Camera {
         intrinsics: Intrinsics::new(800.0, 801.0, 321.0, 238.5)?,
         lens,
         width: 640,

@@ -5,7 +5,7 @@
 use crate::contract::Progress;
 use crate::kit::scenes::{self, photograph, still_life_pair};
 use epipole::Error;
-use epipole::camera::Camera;
+use epipole::camera::PosedCamera;
 use epipole::feature::{Features, SiftOptions, detect_sift};
 use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
 use epipole::progress::Status;
@@ -128,7 +128,7 @@ fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features
     })
 }
 
-fn cameras() -> [Camera; 2] {
+fn cameras() -> [PosedCamera; 2] {
     let (right_m, forward_m, left_deg) = MOTION;
     still_life_pair(SIZE, right_m, forward_m, left_deg)
 }

@@ -22,9 +22,11 @@ pub(crate) fn read_gray(path: &str) -> Outcome<GrayImage32> {
 
 /// A table with things on it, photographed by a camera that moved: its place, the picture and the depth of each
 /// pixel.
-pub(crate) fn photograph(moved_from_start: &RigidTransform) -> Result<(Camera, Photograph), Error> {
+pub(crate) fn photograph(
+    moved_from_start: &RigidTransform,
+) -> Result<(PosedCamera, Photograph), Error> {
     let start = still_life_camera(SIZE.0, SIZE.1);
-    let camera = Camera {
+    let camera = PosedCamera {
         cam_from_world: moved_from_start * start.cam_from_world,
         ..start
     };

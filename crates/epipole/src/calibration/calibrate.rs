@@ -4,7 +4,7 @@
 mod tests;
 
 use super::advice::{CalibrationWarning, warnings};
-use super::camera::CalibratedCamera;
+use super::camera::Camera;
 use super::coverage::coverage;
 use super::problem::{
     OF_CAMERA, Problem, SHARED, SeenMark, State, camera_numbers, intrinsics_of, lens_of,
@@ -54,7 +54,7 @@ pub struct CalibratedView {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// The camera.
-    pub camera: CalibratedCamera,
+    pub camera: Camera,
     /// Root mean square of all reprojection errors: distances, not coordinates, in pixels.
     pub rms_px: f64,
     /// One standard deviation of fu, fv, cu, cv, pixels.
@@ -157,7 +157,7 @@ pub fn calibrate(
         }));
     };
     let numbers = state.cameras[0];
-    let camera = CalibratedCamera {
+    let camera = Camera {
         intrinsics: intrinsics_of(&numbers)?,
         lens: lens_of(kind, &numbers),
         width: size.0,

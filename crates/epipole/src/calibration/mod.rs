@@ -35,7 +35,7 @@ mod undistort;
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
 pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
-pub use camera::CalibratedCamera;
+pub use camera::Camera;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::{BoardSearch, find_board};
 #[cfg(feature = "decode")]

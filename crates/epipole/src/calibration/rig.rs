@@ -4,7 +4,7 @@ use super::calibrate::{WHAT, check, marks, observations};
 use super::problem::{Problem, SHARED, State, camera_numbers, pose_state, strict};
 use super::start::board_pose;
 use super::uncertainty::standard_deviations;
-use super::{Board, BoardView, CalibratedCamera};
+use super::{Board, BoardView, Camera};
 use crate::camera::RigidTransform;
 use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
@@ -45,11 +45,11 @@ pub struct RigCalibration {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::{Board, BoardView, CalibratedCamera, Pattern, calibrate_rig};
+/// use epipole::calibration::{Board, BoardView, Camera, Pattern, calibrate_rig};
 /// use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
 /// use nalgebra::{Point3, Vector3};
 /// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
-/// let camera = CalibratedCamera {
+/// let camera = Camera {
 ///     intrinsics: Intrinsics::centered(600.0, 640, 480)?,
 ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.0; 5])?,
 ///     width: 640,
@@ -71,7 +71,7 @@ pub struct RigCalibration {
 #[doc(alias = "stereoCalibrate")]
 pub fn calibrate_rig(
     board: &Board,
-    cameras: &[CalibratedCamera; 2],
+    cameras: &[Camera; 2],
     left: &[Option<BoardView>],
     right: &[Option<BoardView>],
     monitor: &mut dyn Monitor,
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn two_different_cameras_find_each_other() {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
-        let camera = |kind, focal: f64, k: &[f64]| CalibratedCamera {
+        let camera = |kind, focal: f64, k: &[f64]| Camera {
             intrinsics: Intrinsics::new(focal, focal, 320.0, 240.0).unwrap(),
             lens: Lens::from_coefficients(kind, k).unwrap(),
             width: 640,
@@ -185,9 +185,7 @@ mod tests {
             Vector3::new(-0.1, 0.02, 0.015),
             Vector3::new(0.03, -0.1, 0.4),
         );
-        let see = |camera: &CalibratedCamera, pose: RigidTransform| {
-            Some(true_view(&board, camera, &pose))
-        };
+        let see = |camera: &Camera, pose: RigidTransform| Some(true_view(&board, camera, &pose));
         let poses = poses(&board, 5, 15.0, 2);
         let mut left: Vec<_> = poses.iter().map(|p| see(&cameras[0], *p)).collect();
         let mut right: Vec<_> = poses.iter().map(|p| see(&cameras[1], truth * p)).collect();

@@ -44,12 +44,14 @@ pub use alignment::{
     relative_pose_error,
 };
 pub use bal::{BalCamera, BalProblem, adjust_bal};
-pub use bundle::{Bundle, BundleOptions, Gauge, Observation, PositionPrior, Sensor, adjust_bundle};
+pub use bundle::{
+    Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
+};
 pub use export::ColmapModel;
 pub use incremental::{
     IncrementalReconstruction, SfmResult, SfmStep, reconstruct, reconstruct_verified,
 };
-pub use lens::SfmLens;
+pub use lens::Lens;
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };

@@ -8,7 +8,7 @@ use super::options::{SfmInput, SfmOptions, check};
 use super::reconstruction::{Reconstruction, SfmImage};
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
@@ -405,7 +405,7 @@ fn start_early(
 /// Starts at the first frame whose two pictures share enough points.
 fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
     for frame in 0..num_frames {
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics: builder.intrinsics[frame],
             cam_from_world: RigidTransform::identity(),
         };

@@ -1,7 +1,7 @@
 //! Input and options of structure from motion, and their checks.
 
 use super::bundle::PositionPrior;
-use super::lens::SfmLens;
+use super::lens::Lens;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
@@ -49,7 +49,7 @@ pub struct SfmOptions {
     /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
     /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
-    pub lenses: Vec<SfmLens>,
+    pub lenses: Vec<Lens>,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
 }
@@ -140,7 +140,7 @@ pub(super) fn check(
         }
     }
     pair_ransac(options).check()?;
-    options.lenses.iter().try_for_each(SfmLens::check)?;
+    options.lenses.iter().try_for_each(Lens::check)?;
     (images.iter())
         .filter_map(|image| image.position.as_ref())
         .try_for_each(PositionPrior::check)?;
@@ -160,7 +160,7 @@ pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
 }
 
 /// Of each image, as it is at the start.
-pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<SfmLens> {
+pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
     let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
     images.iter().map(of).collect()
 }

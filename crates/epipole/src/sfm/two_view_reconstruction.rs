@@ -1,7 +1,7 @@
 //! Two views whose motion is known: points for their matches, and all of it refined.
 
-use super::bundle::{Bundle, BundleOptions, Observation, adjust_bundle};
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
 use crate::optim::{LmReport, RobustLoss};
 use crate::progress::{Monitor, Part};
@@ -93,7 +93,7 @@ pub struct TwoViewReconstruction {
 /// use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 /// use nalgebra::{Point2, Vector3};
 /// let lens = Intrinsics::new(500.0, 500.0, 320.0, 240.0)?;
-/// // Camera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
+/// // PosedCamera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
 /// let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
 /// for i in 0..20 {
 ///     let pixel = Point2::new(300.0 + 8.0 * f64::from(i % 5), 180.0 + 30.0 * f64::from(i / 5));
@@ -122,7 +122,7 @@ pub fn two_view_reconstruction(
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReconstruction> {
     check(pixels1, pixels2, cam2_from_cam1, options)?;
-    let camera = |intrinsics: &Intrinsics, cam_from_world| Camera {
+    let camera = |intrinsics: &Intrinsics, cam_from_world| PosedCamera {
         intrinsics: *intrinsics,
         cam_from_world,
     };
@@ -143,7 +143,7 @@ pub fn two_view_reconstruction(
             continue;
         }
         for (camera, pixel) in [*pixel1, *pixel2].into_iter().enumerate() {
-            start.observations.push(Observation {
+            start.observations.push(BundleObservation {
                 camera,
                 point: matches.len(),
                 pixel,
@@ -274,7 +274,7 @@ fn in_baselines(motion: &RigidTransform) -> RigidTransform {
 /// Some points of a bundle of two cameras with their observations, two a point.
 fn only(bundle: &Bundle, points: &[usize]) -> Bundle {
     let observation = |(new, &old): (usize, &usize)| {
-        [2 * old, 2 * old + 1].map(|observation| Observation {
+        [2 * old, 2 * old + 1].map(|observation| BundleObservation {
             point: new,
             ..bundle.observations[observation]
         })

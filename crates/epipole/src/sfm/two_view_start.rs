@@ -1,6 +1,6 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
-use super::lens::SfmLens;
+use super::lens::Lens;
 use super::options::{SfmOptions, lenses, pair_ransac};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
@@ -60,7 +60,7 @@ pub fn verify_matches(
     let images = images.map(Clone::clone);
     let intrinsics = intrinsics.map(|k| *k);
     let of_each = lenses(&images, options);
-    of_each.iter().try_for_each(SfmLens::check)?;
+    of_each.iter().try_for_each(Lens::check)?;
     let views = Views::new(&images, &intrinsics, &of_each);
     // The two are all the images that there are.
     let here = PairMatches {

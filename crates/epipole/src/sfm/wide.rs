@@ -2,13 +2,13 @@
 //! a model brings along: without one it is no part of a program.
 
 use super::bundle::{Bundle, BundleOptions, adjust_wide};
-use super::lens::SfmLens;
+use super::lens::Lens;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use super::two_view_start::VerifiedPair;
 use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose_of_rays;
-use crate::camera::{Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, RigidTransform, SeenRay};
+use crate::camera::{Intrinsics, Lens, LensKind, MAX_COEFFICIENTS, Observation, RigidTransform};
 use crate::epipolar::estimate_relative_pose_of_rays;
 use crate::optim::LmReport;
 use crate::progress::Monitor;
@@ -20,26 +20,26 @@ use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
 
 type Numbers = [f64; MAX_COEFFICIENTS];
 /// The rays of the keypoints of each image; `None` where its lens sees none.
-pub(super) type SeenRays = Vec<Vec<Option<SeenRay>>>;
+pub(super) type Observations = Vec<Vec<Option<Observation>>>;
 type Derivatives = fn(LensKind, &Numbers, &Vector3<f64>) -> (Matrix2x3<f64>, [Numbers; 2]);
 type Adjust = fn(&mut Bundle, &BundleOptions, &mut dyn Monitor) -> Result<LmReport>;
 type Verify = fn(
     &PairMatches,
-    [&[Option<SeenRay>]; 2],
+    [&[Option<Observation>]; 2],
     [&Intrinsics; 2],
     &RansacOptions,
     usize,
 ) -> Option<VerifiedPair>;
 type Register =
-    fn(&[Point3<f64>], &[SeenRay], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
+    fn(&[Point3<f64>], &[Observation], &RansacOptions) -> Result<RansacReport<RigidTransform>>;
 
 /// Functions that only lenses beyond Brown's model call.
 pub(super) struct Wide {
-    /// As [`SfmLens::shown`].
+    /// As [`Lens::shown`].
     pub(super) shown: fn(LensKind, &Numbers, &Vector3<f64>) -> Point2<f64>,
     /// The derivatives of it by the point and by the coefficients.
     pub(super) derivatives: Derivatives,
-    pub(super) rays: fn(&[SfmImage], &[Intrinsics], &[SfmLens]) -> SeenRays,
+    pub(super) rays: fn(&[SfmImage], &[Intrinsics], &[Lens]) -> Observations,
     pub(super) verify: Verify,
     pub(super) register: Register,
     /// Bundle adjustment with room for the coefficients of every model.
@@ -69,11 +69,11 @@ fn shown(kind: LensKind, numbers: &Numbers, p: &Vector3<f64>) -> Point2<f64> {
 }
 
 /// The rays of all keypoints. Keypoints beyond what a lens model bends rays to have none.
-fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> SeenRays {
-    let mut rays: SeenRays = vec![Vec::new(); images.len()];
+fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[Lens]) -> Observations {
+    let mut rays: Observations = vec![Vec::new(); images.len()];
     crate::optim::parallel::for_each_chunk(&mut rays, 1, |index, rays| {
         let (k, lens) = (&intrinsics[index], lenses[index].to_lens());
-        let seen = |pixel| SeenRay::through(&lens, k, pixel).ok();
+        let seen = |pixel| Observation::through(&lens, k, pixel).ok();
         rays[0] = images[index].keypoints.iter().map(seen).collect();
     });
     rays
@@ -82,7 +82,7 @@ fn rays(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[SfmLens]) -> S
 /// As `verify_pair`, from rays.
 fn verify(
     pair: &PairMatches,
-    seen: [&[Option<SeenRay>]; 2],
+    seen: [&[Option<Observation>]; 2],
     intrinsics: [&Intrinsics; 2],
     options: &RansacOptions,
     min_num_inliers: usize,
@@ -135,13 +135,13 @@ fn verify(
 /// Whether a turn by another focal length explains what lies on a plane. Of matches seen far to the side nothing is said:
 /// [`find_turn_and_focal`] knows pinhole cameras.
 fn turned_otherwise(
-    inliers: &[[SeenRay; 2]],
+    inliers: &[[Observation; 2]],
     intrinsics: [&Intrinsics; 2],
     on_plane: &[bool],
     judging: &TwoViewOptions,
 ) -> bool {
     let straight = |side: usize| -> Option<Vec<Point2<f64>>> {
-        let pixel = |pair: &[SeenRay; 2]| {
+        let pixel = |pair: &[Observation; 2]| {
             let ray = pair[side].ray();
             let k = (ray.z > NARROW).then_some(intrinsics[side])?;
             k.project(&ray.into()).ok()

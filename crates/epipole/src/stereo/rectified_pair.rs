@@ -231,7 +231,7 @@ fn filled(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Camera, Distortion, look_at, relative_motion};
+    use crate::camera::{Distortion, PosedCamera, look_at, relative_motion};
     use crate::stereo::{RectifyOptions, StereoCamera, StereoSgm, rectify_calibrated};
     use crate::synthetic::{Photograph, Sampling, Scene, still_life_camera};
     use nalgebra::Vector3;
@@ -239,11 +239,11 @@ mod tests {
     const SIZE: (u32, u32) = (320, 240);
 
     /// The still life from the book's own place and from one beside it, meters.
-    fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
+    fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
         let first = still_life_camera(SIZE.0, SIZE.1);
         let center = first.center_in_world() + aside;
         let target = Point3::new(0.02, -0.16, 0.05);
-        let second = Camera {
+        let second = PosedCamera {
             cam_from_world: look_at(&center, &target, &Vector3::new(0.0, -1.0, 0.0)).unwrap(),
             ..first
         };
@@ -257,7 +257,7 @@ mod tests {
         (cameras, cameras.map(take))
     }
 
-    fn rig_of(cameras: &[Camera; 2]) -> Result<Rectification> {
+    fn rig_of(cameras: &[PosedCamera; 2]) -> Result<Rectification> {
         let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
         let cameras = cameras.map(|camera| StereoCamera {
             intrinsics: camera.intrinsics,
@@ -271,7 +271,7 @@ mod tests {
     }
 
     /// Some true points, in the frame of camera 1.
-    fn places(camera: &Camera, photograph: &Photograph) -> Vec<Point3<f64>> {
+    fn places(camera: &PosedCamera, photograph: &Photograph) -> Vec<Point3<f64>> {
         let pixels = (0..SIZE.1)
             .step_by(12)
             .flat_map(|v| (0..SIZE.0).step_by(12).map(move |u| (u, v)));

@@ -2,7 +2,7 @@
 
 use crate::world::{Making, World, ball, errors, intrinsics, photograph};
 use epipole::Error;
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{OdometryOptions, monocular_odometry, stereo_odometry};
 use nalgebra::{Point3, Vector3};
@@ -25,7 +25,7 @@ fn drive(frames: usize, making: Making) -> (World, Vec<Point3<f64>>) {
             let turn = Vector3::new(0.0, 0.01 * i as f64, 0.0);
             let world_from_cam =
                 RigidTransform::new(Vector3::new(0.02 * along * along, 0.0, along), turn);
-            Camera {
+            PosedCamera {
                 intrinsics: intrinsics(),
                 cam_from_world: world_from_cam.inverse(),
             }
@@ -106,10 +106,10 @@ fn a_stereo_rig_is_followed_in_meters() {
     };
     let (left, points) = drive(20, making);
     let right_from_left = RigidTransform::translation(-0.5, 0.0, 0.0);
-    let right_cameras: Vec<Camera> = left
+    let right_cameras: Vec<PosedCamera> = left
         .cameras
         .iter()
-        .map(|camera| Camera {
+        .map(|camera| PosedCamera {
             cam_from_world: right_from_left * camera.cam_from_world,
             ..*camera
         })
@@ -170,7 +170,7 @@ fn a_stereo_rig_is_followed_in_meters() {
 #[test]
 fn a_camera_that_only_turns_has_no_path() {
     let cameras = (0..6)
-        .map(|i| Camera {
+        .map(|i| PosedCamera {
             intrinsics: intrinsics(),
             cam_from_world: RigidTransform::new(
                 Vector3::zeros(),

@@ -1,6 +1,6 @@
 //! Made worlds, photographed: matches whose truth is known.
 
-use epipole::camera::{Camera, Distortion, Intrinsics, look_at};
+use epipole::camera::{Distortion, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult, align_points,
@@ -9,7 +9,7 @@ use epipole::sfm::{
 use nalgebra::{Point2, Point3, Vector3};
 
 pub(crate) struct World {
-    pub(crate) cameras: Vec<Camera>,
+    pub(crate) cameras: Vec<PosedCamera>,
     pub(crate) input: SfmInput,
 }
 
@@ -36,7 +36,7 @@ impl Default for Making {
 }
 
 pub(crate) fn photograph(
-    cameras: Vec<Camera>,
+    cameras: Vec<PosedCamera>,
     points: &[Point3<f64>],
     making: Making,
     seed: u64,
@@ -118,13 +118,13 @@ pub(crate) fn ball(count: usize, center: Point3<f64>, seed: u64) -> Vec<Point3<f
 }
 
 /// Cameras on an arc around `center`.
-pub(crate) fn arc(count: usize, center: Point3<f64>) -> Vec<Camera> {
+pub(crate) fn arc(count: usize, center: Point3<f64>) -> Vec<PosedCamera> {
     (0..count)
         .map(|i| {
             let (s, c) = libm::sincos(0.2 * i as f64);
             let eye = center + Vector3::new(5.0 * s, 0.3 * (i % 3) as f64, -5.0 * c);
             let up = Vector3::new(0.0, -1.0, 0.0);
-            Camera {
+            PosedCamera {
                 intrinsics: intrinsics(),
                 cam_from_world: look_at(&eye, &center, &up).expect("a view"),
             }
@@ -137,7 +137,7 @@ pub(crate) fn run(world: &World, options: &SfmOptions) -> SfmResult {
 }
 
 /// Largest errors of centers and of rotations in degrees, after the best similarity.
-pub(crate) fn errors(world: &World, cameras: &[Option<Camera>]) -> (f64, f64) {
+pub(crate) fn errors(world: &World, cameras: &[Option<PosedCamera>]) -> (f64, f64) {
     let (mut found, mut truth) = (Vec::new(), Vec::new());
     for (got, want) in cameras.iter().zip(&world.cameras) {
         if let Some(got) = got {
@@ -145,8 +145,9 @@ pub(crate) fn errors(world: &World, cameras: &[Option<Camera>]) -> (f64, f64) {
             truth.push(*want);
         }
     }
-    let centers =
-        |list: &[Camera]| -> Vec<_> { list.iter().map(Camera::center_in_world).collect() };
+    let centers = |list: &[PosedCamera]| -> Vec<_> {
+        list.iter().map(PosedCamera::center_in_world).collect()
+    };
     let align = align_points(
         &centers(&found),
         &centers(&truth),

@@ -8,7 +8,7 @@ use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use epipole::optim::{LmOptions, LmReport, RobustLoss};
 use epipole::sfm::{
-    AlignmentKind, Bundle, BundleOptions, Observation, adjust_bundle, align_points,
+    AlignmentKind, Bundle, BundleObservation, BundleOptions, adjust_bundle, align_points,
 };
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -190,7 +190,7 @@ impl Question {
                     // The house is in front of every camera.
                     Err(_) => continue,
                 };
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera,
                     point,
                     pixel,
@@ -222,7 +222,7 @@ impl Question {
 /// is turned and how large it is, so the similarity that fits best takes these seven away.
 fn aligned(bundle: &Bundle, house: &House) -> Result<State, Error> {
     let true_from_found = align_points(&bundle.points, &house.points, AlignmentKind::Similarity)?;
-    let pose = |camera: &epipole::camera::Camera| {
+    let pose = |camera: &epipole::camera::PosedCamera| {
         let center = true_from_found * camera.center_in_world();
         let rotation = camera.cam_from_world.rotation * true_from_found.isometry.rotation.inverse();
         RigidTransform::from_parts(Translation3::from(-(rotation * center.coords)), rotation)

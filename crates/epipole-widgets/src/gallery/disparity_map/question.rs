@@ -4,7 +4,7 @@ use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
 use epipole::Error;
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
 use epipole::progress::{Monitor, Status};
 use epipole::stereo::{DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
@@ -80,10 +80,10 @@ pub(super) fn focal_px() -> f64 {
 }
 
 /// The left camera, and the right one a baseline further along its rows.
-fn cameras(baseline_m: f64) -> [Camera; 2] {
+fn cameras(baseline_m: f64) -> [PosedCamera; 2] {
     let left = still_life_camera(SIZE.0, SIZE.1);
     // Left of the composition's own viewpoint, so that both see the table.
-    let shifted = |x_m: f64| Camera {
+    let shifted = |x_m: f64| PosedCamera {
         cam_from_world: RigidTransform::translation(-x_m, 0.0, 0.0) * left.cam_from_world,
         ..left
     };

@@ -126,7 +126,7 @@ fn searched([first, last]: [i32; 2]) -> (i32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::camera::{Camera, look_at, relative_motion};
+    use epipole::camera::{PosedCamera, look_at, relative_motion};
     use epipole::synthetic::{Photograph, Sampling, Scene, still_life_camera};
     use nalgebra::Point2;
     use nalgebra::Vector3;
@@ -135,12 +135,12 @@ mod tests {
     const SIZE: (u32, u32) = (320, 240);
 
     /// Photographs of the still life from the book's own place and from one beside it, meters.
-    fn pair(aside: Vector3<f64>) -> ([Camera; 2], [Photograph; 2]) {
+    fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
         let first = still_life_camera(SIZE.0, SIZE.1);
         let center = first.center_in_world() + aside;
         let target = Point3::new(0.02, -0.16, 0.05);
         let up = Vector3::new(0.0, -1.0, 0.0);
-        let second = Camera {
+        let second = PosedCamera {
             cam_from_world: look_at(&center, &target, &up).unwrap(),
             ..first
         };
@@ -155,7 +155,7 @@ mod tests {
     }
 
     /// What is found for a pair with known cameras, and some true points.
-    fn found(cameras: &[Camera; 2], photographs: &[Photograph; 2]) -> Result<Surface, Error> {
+    fn found(cameras: &[PosedCamera; 2], photographs: &[Photograph; 2]) -> Result<Surface, Error> {
         let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
         let places: Vec<_> = (0..SIZE.1)
             .step_by(16)

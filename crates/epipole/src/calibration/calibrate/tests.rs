@@ -13,14 +13,14 @@ fn board() -> Board {
     Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap()
 }
 
-fn truth(kind: LensKind) -> CalibratedCamera {
+fn truth(kind: LensKind) -> Camera {
     let (focal, coefficients): (f64, &[f64]) = match kind {
         LensKind::Brown => (540.0, &[-0.27, 0.05, 0.001, -0.0005, 0.02]),
         LensKind::Rational => (400.0, &[0.5, 0.05, 0.001, 0.0, 0.0, 0.8, 0.15, 0.01]),
         LensKind::Fisheye => (260.0, &[-0.02, 0.004, -0.001, 0.0002]),
         LensKind::Division => (380.0, &[-0.35]),
     };
-    CalibratedCamera {
+    Camera {
         intrinsics: Intrinsics::new(focal, focal + 3.0, 342.0, 235.0).unwrap(),
         lens: Lens::from_coefficients(kind, coefficients).unwrap(),
         width: 640,
@@ -28,11 +28,7 @@ fn truth(kind: LensKind) -> CalibratedCamera {
     }
 }
 
-fn views(
-    camera: &CalibratedCamera,
-    poses: &[RigidTransform],
-    noise: f64,
-) -> Vec<Option<BoardView>> {
+fn views(camera: &Camera, poses: &[RigidTransform], noise: f64) -> Vec<Option<BoardView>> {
     let mut random = Random::new(9);
     let view = |pose: &RigidTransform| {
         let mut view = true_view(&board(), camera, pose);

@@ -4,7 +4,7 @@ mod problem;
 mod radial;
 mod text;
 
-use super::bundle::{Observation, observation_pairs};
+use super::bundle::{BundleObservation, observation_pairs};
 use crate::optim::{LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
 use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
@@ -50,7 +50,7 @@ pub struct BalProblem {
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// The observations; their pixels have the origin in the middle of the image and v up.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<BundleObservation>,
 }
 
 impl BalProblem {
@@ -149,7 +149,7 @@ mod tests {
         let state = State::new(&problem);
         for camera in 0..num_cameras {
             for point in 0..num_points {
-                let mut o = Observation {
+                let mut o = BundleObservation {
                     camera,
                     point,
                     pixel: Point2::origin(),

@@ -4,7 +4,7 @@ use super::Builder;
 use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
-use crate::sfm::bundle::{Bundle, BundleOptions, Observation, Sensor, adjust_bundle};
+use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
 use crate::sfm::reconstruction::Lenses;
 use crate::sfm::views::Views;
 use crate::{Error, Result};
@@ -89,7 +89,7 @@ impl Builder {
                         (options.position_priors).push(self.images[image].position);
                     }
                 }
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera: camera_of[image],
                     point: bundle.points.len(),
                     pixel: self.images[element.image as usize].keypoints[element.keypoint as usize],

@@ -5,7 +5,7 @@ mod place;
 mod points;
 
 use super::bundle::Sensor;
-use super::lens::SfmLens;
+use super::lens::Lens;
 use super::options::{SfmOptions, lenses, pair_ransac};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::{PairMatches, TrackElement, build_tracks};
@@ -14,7 +14,7 @@ use super::two_view_start::VerifiedPair;
 use super::views::{View, Views};
 use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::progress::Monitor;
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
@@ -34,7 +34,7 @@ pub(super) struct Builder {
     pub(super) views: Views,
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Of each image.
-    pub(super) lenses: Vec<SfmLens>,
+    pub(super) lenses: Vec<Lens>,
     pub(super) tracks: Vec<Vec<TrackElement>>,
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: Vec<Vec<u32>>,
@@ -42,7 +42,7 @@ pub(super) struct Builder {
     pub(super) taken: Vec<bool>,
     /// Of a stereo rig: the second half of the images is what the right camera saw.
     pub(super) rig: Option<Sensor>,
-    pub(super) cameras: Vec<Option<Camera>>,
+    pub(super) cameras: Vec<Option<PosedCamera>>,
     pub(super) points: Vec<Option<TrackPoint>>,
     /// Whether the world is that of the known positions.
     pub(super) is_placed: bool,
@@ -112,10 +112,10 @@ impl Builder {
     }
 
     /// Places a camera, and with it the right one of its rig.
-    pub(super) fn place(&mut self, image: usize, camera: Option<Camera>) {
+    pub(super) fn place(&mut self, image: usize, camera: Option<PosedCamera>) {
         self.cameras[image] = camera;
         if let Some(rig) = self.rig {
-            self.cameras[self.images.len() / 2 + image] = camera.map(|camera| Camera {
+            self.cameras[self.images.len() / 2 + image] = camera.map(|camera| PosedCamera {
                 intrinsics: rig.intrinsics,
                 cam_from_world: rig.sensor_from_camera * camera.cam_from_world,
             });
@@ -179,7 +179,7 @@ impl Builder {
     ) -> Result<bool> {
         let (a, b) = (verified.pair.image1, verified.pair.image2);
         let camera = |intrinsics, cam_from_world| {
-            Some(Camera {
+            Some(PosedCamera {
                 intrinsics,
                 cam_from_world,
             })
@@ -284,7 +284,7 @@ impl Builder {
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
-        let camera = Camera {
+        let camera = PosedCamera {
             intrinsics,
             cam_from_world: found.model,
         };

@@ -6,7 +6,7 @@ use crate::camera::{Distortion, Division, Fisheye, Lens};
 use crate::math::random::Random;
 use nalgebra::Vector3;
 
-fn lens(kind: LensKind) -> SfmLens {
+fn lens(kind: LensKind) -> Lens {
     let numbers: &[f64] = match kind {
         LensKind::Brown => &[-0.05, 0.01, 0.002, -0.001, 0.0],
         LensKind::Rational => &[0.3, 0.05, 0.001, -0.002, 0.01, 0.5, 0.1, 0.005],
@@ -18,7 +18,7 @@ fn lens(kind: LensKind) -> SfmLens {
 
 /// Cameras amid points that are all around them, each point seen by those whose lens sees it within so many degrees of
 /// its axis.
-fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_deg: f64) -> Bundle {
+fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: f64) -> Bundle {
     let mut random = Random::new(31);
     let mut bundle = Bundle {
         lenses: lenses.to_vec(),
@@ -28,7 +28,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_de
     for _ in 0..num_cameras {
         let turn = 0.3 * Vector3::from_fn(|_, _| random.normal());
         let shift = 0.6 * Vector3::from_fn(|_, _| random.normal());
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics: Intrinsics::new(300.0, 303.0, 500.0, 490.0).unwrap(),
             cam_from_world: RigidTransform::new(shift, turn),
         });
@@ -43,7 +43,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[SfmLens], half_de
         for point in 0..num_points {
             let p = bundle.cameras[camera].cam_from_world * bundle.points[point];
             if p.coords.angle(&Vector3::z()) < half_deg.to_radians() {
-                bundle.observations.push(Observation {
+                bundle.observations.push(BundleObservation {
                     camera,
                     point,
                     pixel: Point2::origin(),
@@ -90,7 +90,7 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
 }
 
 /// From a wrong focal length, principal point and coefficients back to the exact ones.
-fn comes_back(lenses: &[SfmLens], start: &[SfmLens], half_deg: f64) -> Bundle {
+fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
     let mut bundle = surrounded(6, 200, lenses, half_deg);
     let truth = bundle.clone();
     disturb(&mut bundle, 0.005);
@@ -129,7 +129,7 @@ fn a_fisheye_of_180_degrees_finds_its_coefficients() {
 fn lenses_of_all_models_in_one_bundle_find_theirs() {
     let kinds = [LensKind::Division, LensKind::Fisheye, LensKind::Brown];
     let start = [
-        SfmLens::from(Division { k: -0.1 }),
+        Lens::from(Division { k: -0.1 }),
         Fisheye::default().into(),
         Distortion::NONE.into(),
     ];

@@ -9,8 +9,8 @@ mod problem;
 #[cfg(test)]
 mod tests;
 
-use super::lens::SfmLens;
-use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
+use super::lens::Lens;
+use crate::camera::{Intrinsics, LensKind, PosedCamera, RigidTransform};
 use crate::optim::{LmReport, SchurSystem, minimize};
 use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
@@ -23,7 +23,7 @@ pub use options::{BundleOptions, Gauge, PositionPrior};
 
 /// A camera saw a point at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observation {
+pub struct BundleObservation {
     /// Index of the camera.
     pub camera: usize,
     /// Index of the point.
@@ -51,15 +51,15 @@ pub struct Sensor {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
-    pub cameras: Vec<Camera>,
+    pub cameras: Vec<PosedCamera>,
     /// What each lens does to rays; missing entries bend nothing.
-    pub lenses: Vec<SfmLens>,
+    pub lenses: Vec<Lens>,
     /// The lens of each camera; missing entries are 0.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// What was seen where.
-    pub observations: Vec<Observation>,
+    pub observations: Vec<BundleObservation>,
     /// Further cameras bolted to each camera.
     pub sensors: Vec<Sensor>,
     /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
@@ -126,7 +126,7 @@ struct Eye<'a> {
 
 /// Checks that observations refer to existing cameras and points and are finite.
 pub(super) fn observation_pairs(
-    observations: &[Observation],
+    observations: &[BundleObservation],
     num_cameras: usize,
     num_points: usize,
 ) -> Result<Vec<(u32, u32)>> {
@@ -182,13 +182,13 @@ pub(super) fn observation_pairs(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
-/// use epipole::sfm::{Bundle, BundleOptions, Observation, PositionPrior, adjust_bundle};
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::sfm::{Bundle, BundleOptions, BundleObservation, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
 /// // Three cameras look along z; each has a lens of its own.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
 /// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
-///     bundle.cameras.push(Camera {
+///     bundle.cameras.push(PosedCamera {
 ///         intrinsics: Intrinsics::centered(500.0, 640, 480)?,
 ///         cam_from_world: RigidTransform::translation(-x, -y, 0.0),
 ///     });
@@ -199,11 +199,11 @@ pub(super) fn observation_pairs(
 /// }
 /// for (point, place) in bundle.points.iter().enumerate() {
 ///     for (camera, model) in bundle.cameras.iter().enumerate() {
-///         bundle.observations.push(Observation { camera, point, pixel: model.project(place)? });
+///         bundle.observations.push(BundleObservation { camera, point, pixel: model.project(place)? });
 ///     }
 /// }
 /// // A receiver says that all three stand half a meter further along x.
-/// let known = |camera: &Camera| {
+/// let known = |camera: &PosedCamera| {
 ///     let center_in_world = camera.center_in_world() + 0.5 * Vector3::x();
 ///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })
 /// };
@@ -238,7 +238,7 @@ pub fn adjust_bundle(
             value: sensor as f64,
         });
     }
-    bundle.lenses.iter().try_for_each(SfmLens::check)?;
+    bundle.lenses.iter().try_for_each(Lens::check)?;
     let num_lenses = bundle.num_lenses();
     if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
         return Err(Error::OutOfRange {
@@ -249,7 +249,7 @@ pub fn adjust_bundle(
     }
     // Room for more coefficients costs time, so it is taken only where some lens has more.
     let more = (bundle.lenses.iter()).find(|lens| lens.kind() == LensKind::Rational);
-    match more.and_then(SfmLens::beyond_brown) {
+    match more.and_then(Lens::beyond_brown) {
         Some(wide) => (wide.adjust)(bundle, options, monitor),
         None => adjust::<OF_BROWN>(bundle, pairs, options, monitor),
     }
@@ -306,7 +306,7 @@ fn adjust<const S: usize>(
     bundle.points = state.points;
     if options.refines_lens() {
         let num_known = bundle.lenses.len().max(num_lenses);
-        bundle.lenses.resize(num_known, SfmLens::NONE);
+        bundle.lenses.resize(num_known, Lens::NONE);
         for (lens, refined) in bundle.lenses.iter_mut().zip(&state.lenses) {
             *lens = refined.lens;
         }

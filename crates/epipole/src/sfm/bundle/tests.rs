@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use std::ops::ControlFlow;
 
 /// Cameras on an arc look at a ball of points.
-fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) -> Bundle {
+fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<Lens>) -> Bundle {
     let mut random = Random::new(21);
     let mut bundle = Bundle {
         lenses: vec![distortion.into()],
@@ -19,7 +19,7 @@ fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) ->
     for i in 0..num_cameras {
         let (s, c) = libm::sincos(0.15 * i as f64);
         let center = Point3::new(6.0 * s, 0.2 * i as f64, -6.0 * c);
-        bundle.cameras.push(Camera {
+        bundle.cameras.push(PosedCamera {
             intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
             cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
         });
@@ -32,7 +32,7 @@ fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<SfmLens>) ->
     }
     for camera in 0..num_cameras {
         for point in 0..num_points {
-            bundle.observations.push(Observation {
+            bundle.observations.push(BundleObservation {
                 camera,
                 point,
                 pixel: Point2::origin(),
@@ -177,7 +177,7 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
 }
 
 /// That a camera stands where it does, to within so much.
-fn known(camera: &Camera, sigma: f64) -> Option<PositionPrior> {
+fn known(camera: &PosedCamera, sigma: f64) -> Option<PositionPrior> {
     Some(PositionPrior {
         center_in_world: camera.center_in_world(),
         sigma: Vector3::new(sigma, 2.0 * sigma, 3.0 * sigma),
@@ -327,7 +327,7 @@ fn a_rig_knows_its_size() {
     });
     bundle.sensor_of_observation = vec![0; bundle.observations.len()];
     for index in 0..bundle.observations.len() {
-        let copy = Observation {
+        let copy = BundleObservation {
             pixel: Point2::origin(),
             ..bundle.observations[index]
         };
