@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod circles;
+
 use epipole_tests::{files_below, root};
 use std::collections::BTreeSet;
 use std::fs;

@@ -138,7 +138,7 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         MATCH => {
             if let Some([first, second]) = &room.descriptors {
-                room.neighbors = nearest_two(first, second)?;
+                room.neighbors = nearest_two(first, second, &mut ())?;
             }
         }
         HOMOGRAPHY => {
@@ -153,7 +153,7 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         SEMI_GLOBAL => {
             let [left, right] = &room.pair;
-            let found = StereoSgm::default().compute(left, right)?;
+            let found = StereoSgm::default().compute(left, right, &mut ())?;
             room.disparities = found.as_raw().to_vec();
         }
         _ => {}

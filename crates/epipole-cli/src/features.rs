@@ -10,8 +10,8 @@ use crate::photo::Photo;
 use crate::progress::Progress;
 use clap::{ArgAction, Args, ValueEnum};
 use epipole::feature::{
-    AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
-    detect_features_with_progress, match_any_descriptors,
+    AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
+    match_any_descriptors,
 };
 use nalgebra::Point2;
 
@@ -80,11 +80,7 @@ impl FeatureArguments {
     pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<AnyFeatures, Failure> {
         let progress = Progress::new(context, "features");
         let watch = &mut |status| progress.show(status);
-        Ok(detect_features_with_progress(
-            &photo.gray(),
-            &self.options(),
-            watch,
-        )?)
+        Ok(detect_features(&photo.gray(), &self.options(), watch)?)
     }
 }
 
@@ -161,7 +157,7 @@ impl MatchArguments {
         second: &AnyFeatures,
     ) -> Result<Vec<Match>, Failure> {
         let (a, b) = (&first.descriptors, &second.descriptors);
-        Ok(match_any_descriptors(a, b, &self.options())?)
+        Ok(match_any_descriptors(a, b, &self.options(), &mut ())?)
     }
 }
 

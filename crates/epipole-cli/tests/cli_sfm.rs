@@ -75,7 +75,7 @@ fn commands_find_the_same_features() {
             image: image::open(file).unwrap().to_rgb8(),
             ..epipole::sfm::Photo::default()
         };
-        epipole::sfm::photo_features(&photo, &options).unwrap()
+        epipole::sfm::photo_features(&photo, &options, &mut ()).unwrap()
     });
     let places = |rows: &Value| -> Vec<(f64, f64)> {
         let rows = rows.as_array().unwrap().iter().map(numbers);
@@ -86,7 +86,7 @@ fn commands_find_the_same_features() {
     assert!(expected.len() > 100);
     assert_eq!(places(&found["keypoints"]), expected);
     let matched = json(&["match", path(&files[0]), path(&files[1])]);
-    let expected = epipole::sfm::match_pair(&features[0], &features[1], &options).unwrap();
+    let expected = epipole::sfm::match_pair(&features[0], &features[1], &options, &mut ()).unwrap();
     let expected: Vec<_> = (expected.iter())
         .map(|(i, j)| (f64::from(*i), f64::from(*j)))
         .collect();

@@ -145,7 +145,7 @@ fn files_give_what_the_core_gives_bit_for_bit() {
             lens: kind,
             ..CalibrationOptions::default()
         };
-        let direct = match calibrate(&board, &views, (400, 300), &options) {
+        let direct = match calibrate(&board, &views, (400, 300), &options, &mut ()) {
             Ok(direct) => direct,
             // Five views leave eight numbers of a usual lens open.
             Err(error) => {

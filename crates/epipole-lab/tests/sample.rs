@@ -13,7 +13,6 @@ use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal};
 use epipole_lab::tasks::{Answer, FeatureKind, Sample};
 use image::RgbImage;
-use std::ops::ControlFlow;
 
 #[test]
 fn the_sample_is_solved_as_the_core_solves_it() {
@@ -49,8 +48,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
     let mut how = PhotoOptions::default();
     how.features.max_features = 8192;
     let options = SfmOptions::default();
-    let go_on = &mut |_: &_| ControlFlow::Continue(());
-    let (_, direct) = reconstruct_photos(&photos, &intrinsics, &how, &options, go_on).unwrap();
+    let (_, direct) = reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ()).unwrap();
     assert_eq!(direct.components.len(), 1);
     let places = |points: &[epipole::sfm::ScenePoint]| -> Vec<[f64; 3]> {
         points.iter().map(|p| p.position.coords.into()).collect()

@@ -51,7 +51,7 @@ fn features(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("features");
     group.sample_size(10);
     group.bench_function("sift 800x640", |b| {
-        b.iter(|| detect_sift(black_box(&photograph), &SiftOptions::default()));
+        b.iter(|| detect_sift(black_box(&photograph), &SiftOptions::default(), &mut ()));
     });
     group.bench_function("orb 800x640", |b| {
         b.iter(|| detect_orb(black_box(&photograph), &OrbOptions::default()));
@@ -60,7 +60,7 @@ fn features(criterion: &mut Criterion) {
     let mut list = || -> Vec<u8> { (0..2048 * 128).map(|_| random.below(160) as u8).collect() };
     let bytes = [list(), list()].map(|v| Descriptors::from_bytes(128, v).expect("whole rows"));
     group.bench_function("two nearest 2048x2048x128", |b| {
-        b.iter(|| nearest_two(black_box(&bytes[0]), black_box(&bytes[1])));
+        b.iter(|| nearest_two(black_box(&bytes[0]), black_box(&bytes[1]), &mut ()));
     });
     group.finish();
 }

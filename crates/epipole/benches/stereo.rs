@@ -41,7 +41,7 @@ fn dense(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(u64::from(WIDTH * HEIGHT * 64)));
     let bm = StereoBm::default();
     group.bench_function("block-matching", |bencher| {
-        bencher.iter(|| bm.compute(black_box(&left), black_box(&right)));
+        bencher.iter(|| bm.compute(black_box(&left), black_box(&right), &mut ()));
     });
     let plain = StereoBm {
         filter: DisparityFilter {
@@ -52,7 +52,7 @@ fn dense(criterion: &mut Criterion) {
         ..StereoBm::default()
     };
     group.bench_function("block-matching-plain", |bencher| {
-        bencher.iter(|| plain.compute(black_box(&left), black_box(&right)));
+        bencher.iter(|| plain.compute(black_box(&left), black_box(&right), &mut ()));
     });
     for (name, paths) in [
         ("semi-global-4", StereoPaths::Four),
@@ -64,11 +64,11 @@ fn dense(criterion: &mut Criterion) {
             ..StereoSgm::default()
         };
         group.bench_function(name, |bencher| {
-            bencher.iter(|| sgm.compute(black_box(&left), black_box(&right)));
+            bencher.iter(|| sgm.compute(black_box(&left), black_box(&right), &mut ()));
         });
     }
     group.finish();
-    let disparity = StereoSgm::default().compute(&left, &right);
+    let disparity = StereoSgm::default().compute(&left, &right, &mut ());
     if let Ok(disparity) = disparity {
         criterion.bench_function("stereo-fill-640x480", |bencher| {
             bencher.iter(|| fill_gaps(black_box(&disparity), &left));

@@ -5,7 +5,6 @@
 use epipole::math::random::Random;
 use epipole::prelude::*;
 use epipole::sfm::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
-use std::ops::ControlFlow;
 
 pub(crate) fn run() -> Result<(), Error> {
     let mut random = Random::new(1);
@@ -38,11 +37,10 @@ pub(crate) fn run() -> Result<(), Error> {
     for point in &mut bundle.points {
         *point += Vector3::new(random.normal(), random.normal(), random.normal()) * 0.05;
     }
-    let mut tell = |step: &epipole::optim::Iteration| {
+    let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut ())?;
+    for step in &report.history {
         println!("{:2}: cost {:.2}", step.index, step.cost);
-        ControlFlow::Continue(())
-    };
-    let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut tell)?;
+    }
     let rms_px = (2.0 * report.final_cost / bundle.observations.len() as f64).sqrt();
     println!("{rms_px:.3} px after {} steps", report.iterations);
     assert!((0.4..0.75).contains(&rms_px));

@@ -35,7 +35,13 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
             views.push(Some(BoardView { pixels }));
         }
     }
-    let found = calibrate(&board, &views, size, &CalibrationOptions::default())?;
+    let found = calibrate(
+        &board,
+        &views,
+        size,
+        &CalibrationOptions::default(),
+        &mut (),
+    )?;
     let (camera, [sigma, ..]) = (found.camera, found.std_dev_k);
     println!("off by {:.3} px", found.rms_px);
     println!(

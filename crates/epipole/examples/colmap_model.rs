@@ -6,7 +6,6 @@ mod common;
 
 use common::{Outcome, photos};
 use epipole::prelude::*;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
@@ -15,9 +14,8 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     let first = photos.first().ok_or("which photographs?")?;
     let (width, height) = first.image.dimensions();
     let k = Intrinsics::centered(focal_px, width, height)?;
-    let mut go_on = |_: &_| ControlFlow::Continue(());
     let (features, options) = (PhotoOptions::default(), SfmOptions::default());
-    let (input, result) = reconstruct_photos(&photos, &[k], &features, &options, &mut go_on)?;
+    let (input, result) = reconstruct_photos(&photos, &[k], &features, &options, &mut ())?;
     let model = result
         .components
         .first()

@@ -11,11 +11,10 @@ mod timing;
 
 use epipole::camera::RigidTransform;
 use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
-use epipole::optim::{Iteration, LmOptions, RobustLoss};
+use epipole::optim::{LmOptions, RobustLoss};
 use epipole::sfm::{BalProblem, adjust_bal};
 use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoPaths, StereoSgm};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
-use std::ops::ControlFlow;
 use std::path::Path;
 use timing::timed;
 
@@ -83,8 +82,10 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
         },
         ..StereoBm::default()
     };
-    run("bm_plain", &|| plain.compute(&left, &right))?;
-    run("bm", &|| StereoBm::default().compute(&left, &right))?;
+    run("bm_plain", &|| plain.compute(&left, &right, &mut ()))?;
+    run("bm", &|| {
+        StereoBm::default().compute(&left, &right, &mut ())
+    })?;
     for (name, paths) in [
         ("sgm_4", StereoPaths::Four),
         ("sgm_5", StereoPaths::Five),
@@ -94,28 +95,25 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
             paths,
             ..StereoSgm::default()
         };
-        run(name, &|| matcher.compute(&left, &right))?;
+        run(name, &|| matcher.compute(&left, &right, &mut ()))?;
     }
     Ok(())
 }
 
 fn adjust(path: &str, cost: f64, rounds: usize) -> Outcome {
     let problem = BalProblem::parse(&std::fs::read_to_string(path)?)?;
-    let options = LmOptions {
-        max_iterations: 200,
-        ..LmOptions::default()
-    };
-    let work = || {
-        let mut problem = problem.clone();
-        let mut stop = |iteration: &Iteration| {
-            if iteration.cost <= cost {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+    let adjust = |max_iterations| {
+        let options = LmOptions {
+            max_iterations,
+            ..LmOptions::default()
         };
-        adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut stop)
+        adjust_bal(&mut problem.clone(), &options, RobustLoss::Trivial, &mut ())
     };
+    // Untimed: how many steps lead to the cost.
+    let history = adjust(200)?.history;
+    let reached = history.iter().find(|step| step.cost <= cost);
+    let max_iterations = reached.map_or(200, |step| step.index);
+    let work = || adjust(max_iterations);
     time("ba", rounds, work, |report| match report {
         Ok(report) => format!("{:.3}", report.final_cost),
         Err(error) => format!("{error:?}"),

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             },
             ..SiftOptions::default()
         };
-        let features = detect_sift(&image, &options)?;
+        let features = detect_sift(&image, &options, &mut ())?;
         let bytes = features.descriptors.as_bytes().unwrap_or_default().to_vec();
         (features.keypoints, bytes, 128)
     };

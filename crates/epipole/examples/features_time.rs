@@ -110,7 +110,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         max_features,
         ..SiftOptions::default()
     };
-    let sift = || detect_sift(&image, &options);
+    let sift = || detect_sift(&image, &options, &mut ());
     time("sift", rounds, sift, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()
     })?;
@@ -127,7 +127,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Descriptors::from_floats(DIMENSION, values)
         };
         let (first, second) = (list(&lists[0])?, list(&lists[1])?);
-        let near = time(name, rounds, || nearest_two(&first, &second), no_note)?;
+        let near = time(
+            name,
+            rounds,
+            || nearest_two(&first, &second, &mut ()),
+            no_note,
+        )?;
         let indices = near.iter().map(|near| near.index as f32);
         write(&folder.join(format!("{name}.f32")), indices)?;
     }

@@ -20,7 +20,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let rig = rectify_calibrated(&[camera; 2], &right_from_left, &options)?;
     let rows1 = rig.map(0)?.warp_gray(&rgb_to_gray(&truth.image));
     let rows2 = rig.map(1)?.warp_gray(&rgb_to_gray(&other.image));
-    let disparity = StereoSgm::default().compute(&rows1, &rows2)?;
+    let disparity = StereoSgm::default().compute(&rows1, &rows2, &mut ())?;
     println!("{:.0} % have a disparity", 100.0 * disparity.density());
 
     let mut errors = Vec::new();

@@ -20,9 +20,12 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         (gray(&first), gray(&photograph(&step)?.1), camera.intrinsics)
     };
     let sift = SiftOptions::default();
-    let (left, right) = (detect_sift(&left, &sift)?, detect_sift(&right, &sift)?);
+    let (left, right) = (
+        detect_sift(&left, &sift, &mut ())?,
+        detect_sift(&right, &sift, &mut ())?,
+    );
     let options = MatchOptions::default();
-    let matches = match_descriptors(&left.descriptors, &right.descriptors, &options)?;
+    let matches = match_descriptors(&left.descriptors, &right.descriptors, &options, &mut ())?;
     let (pixels1, pixels2): (Vec<_>, Vec<_>) = matches
         .iter()
         .map(|m| {

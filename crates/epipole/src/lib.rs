@@ -4,7 +4,7 @@
 //!
 //! | room | what it holds |
 //! |---|---|
-//! | [`progress`] | how far a long computation is, its stage and its share, and whether it goes on |
+//! | [`progress`] | the monitor of long computations: stage, share, cancellation |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
 //! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
@@ -25,7 +25,7 @@
 //!
 //! * Image coordinates are (u, v) = (column, row): u to the right, v down, pixel centers at
 //!   integers.
-//! * Camera frame: x right, y down, z forward. `x_in_cam = cam_from_world * x_in_world`.
+//! * PosedCamera frame: x right, y down, z forward. `x_in_cam = cam_from_world * x_in_world`.
 //! * Disparity is `u_left − u_right ≥ 0`.
 //! * A random choice takes a `u64` seed and gives the same result on every platform.
 //! * Geometry is `f64`, images are `f32`.

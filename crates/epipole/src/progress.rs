@@ -25,6 +25,8 @@ pub enum Stage {
     DenseMatching,
     /// Intrinsics, distortion and the poses of boards are refined.
     Calibration,
+    /// The parameters of a least-squares problem are refined.
+    Refinement,
 }
 
 impl Stage {
@@ -45,6 +47,7 @@ impl Stage {
             Self::RobustEstimation => "drawing samples",
             Self::DenseMatching => "matching along the rows",
             Self::Calibration => "fitting the lens",
+            Self::Refinement => "refining",
         }
     }
 }
@@ -155,9 +158,6 @@ impl Monitor for Part<'_> {
         })
     }
 }
-
-/// Callback that the functions called `…_with_progress` still take in place of a [`Monitor`].
-pub type Progress<'a> = &'a mut dyn FnMut(Status) -> ControlFlow<()>;
 
 #[cfg(test)]
 mod tests {

@@ -60,14 +60,15 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
         assert_eq!(views.iter().flatten().count(), 13);
     }
     let options = CalibrationOptions::default();
-    let found = sides
-        .each_ref()
-        .map(|views| calibrate(&board, views, (640, 480), &options).expect("a calibration"));
+    let found = sides.each_ref().map(|views| {
+        calibrate(&board, views, (640, 480), &options, &mut ()).expect("a calibration")
+    });
     let rig = calibrate_rig(
         &board,
         &found.each_ref().map(|calibration| calibration.camera),
         &sides[0],
         &sides[1],
+        &mut (),
     )
     .expect("a rig");
     for calibration in &found {
@@ -98,7 +99,8 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
             lens: kind,
             ..options
         };
-        let other = calibrate(&board, &sides[0], (640, 480), &options).expect("a calibration");
+        let other =
+            calibrate(&board, &sides[0], (640, 480), &options, &mut ()).expect("a calibration");
         println!("{kind:?}: {} px", other.rms_px);
         assert!(other.rms_px < 1.1 * found[0].rms_px);
     }

@@ -6,7 +6,6 @@
 use epipole::optim::{DenseProblem, LmOptions, check_jacobian, minimize_dense};
 use libm::{atan, exp, log, pow};
 use nalgebra::{DMatrix, DVector};
-use std::ops::ControlFlow;
 
 type Model = fn(f64, &[f64]) -> f64;
 type Gradient = fn(f64, &[f64], &mut [f64]);
@@ -522,8 +521,7 @@ fn certified_values_from_both_starts() {
     for set in data_sets() {
         for start in &set.starts {
             let mut b = DVector::from_vec(start.clone());
-            let report =
-                minimize_dense(&set, &mut b, &options, &mut |_| ControlFlow::Continue(())).unwrap();
+            let report = minimize_dense(&set, &mut b, &options, &mut ()).unwrap();
             let mut digits: f64 = 11.0;
             for (got, want) in b.iter().zip(&set.certified) {
                 digits = digits.min(-libm::log10(((got - want) / want).abs() + 1e-11));

@@ -4,6 +4,7 @@
 
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::imaging::{DecodeOptions, decode_rgb};
+use epipole::progress::Status;
 use epipole::sfm::{
     AlignmentKind, OdometryOptions, Photo, PhotoOptions, SfmInput, absolute_trajectory_error,
     match_photos, monocular_odometry,
@@ -61,15 +62,15 @@ fn kitti_turn_is_followed() {
         ..PhotoOptions::default()
     };
     photo_options.features.max_features = 3000;
-    let mut observer = |progress: &_| {
-        println!("{:?} {progress:?}", begin.elapsed());
+    let mut observer = |status: Status| {
+        println!("{:?} {status:?}", begin.elapsed());
         ControlFlow::Continue(())
     };
     let (images, pairs) = match_photos(&photos, &photo_options, &mut observer).expect("matches");
     let input = SfmInput {
         images,
         intrinsics: vec![intrinsics],
-        pairs: pairs.expect("pairs"),
+        pairs,
     };
     for final_adjustment in [false, true] {
         let options = OdometryOptions {

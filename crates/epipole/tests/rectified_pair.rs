@@ -74,7 +74,7 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
             ..StereoSgm::default()
         };
         let found = redrawn
-            .disparity(|left, right| matcher.compute(left, right))
+            .disparity(|left, right| matcher.compute(left, right, &mut ()))
             .unwrap();
         let cloud = point_cloud(&found, &rig.q, None).unwrap();
         let mut errors: Vec<f64> = (cloud.points.iter())

@@ -6,11 +6,9 @@ use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTra
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, BundleObservation, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult,
-    VerifiedPair, adjust_bundle, align_points, keep_going, reconstruct, verify_matches,
-    why_unregistered,
+    VerifiedPair, adjust_bundle, align_points, reconstruct, verify_matches, why_unregistered,
 };
 use nalgebra::{Point2, Point3, Vector2, Vector3};
-use std::ops::ControlFlow;
 
 const SIZE: u32 = 1000;
 
@@ -133,7 +131,7 @@ fn fisheye() -> Making {
 }
 
 fn run(world: &World, options: &SfmOptions) -> SfmResult {
-    reconstruct(&world.input, options, &mut keep_going).unwrap()
+    reconstruct(&world.input, options, &mut ()).unwrap()
 }
 
 /// Largest distance between true and found centers, after the best similarity.
@@ -279,7 +277,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
         }
     }
-    let mut lenses = vec![lens(LensKind::Fisheye); 6];
+    let mut lenses = vec![Lens::from(lens(LensKind::Fisheye)); 6];
     lenses[5] = brown.into();
     let options = SfmOptions {
         lenses,
@@ -314,7 +312,7 @@ fn a_fisheye_that_only_turned_begins_nothing() {
     assert_eq!(found.map(|pair| pair.median_angle_rad), Some(0.0));
     let result = run(&world, &options);
     assert!(result.components.is_empty());
-    let why = why_unregistered(&world.input, &options, &result).unwrap();
+    let why = why_unregistered(&world.input, &options, &result, &mut ()).unwrap();
     assert!(
         why[0].to_string().contains("nearly the same place"),
         "{}",
@@ -330,7 +328,7 @@ fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
         ..SfmOptions::default()
     };
     for k in [f64::NAN, f64::NEG_INFINITY] {
-        let refused = reconstruct(&world.input, &with([0.0, 0.0, k, 0.0]), &mut keep_going);
+        let refused = reconstruct(&world.input, &with([0.0, 0.0, k, 0.0]), &mut ());
         let told = refused.unwrap_err().to_string();
         assert!(told.contains("every coefficient of the lens"), "{told}");
         let images = [&world.input.images[0], &world.input.images[1]];
@@ -371,11 +369,10 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
-        wrong.lenses = vec![lens(kind)];
+        wrong.lenses = vec![lens(kind).into()];
         let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
-        let mut go_on = |_: &_| ControlFlow::Continue(());
-        if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut go_on) {
+        if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut ()) {
             assert!(report.final_cost.is_finite());
         }
         assert!(wrong.points.iter().all(|p| p.iter().all(|x| x.is_finite())));

@@ -99,7 +99,7 @@ fn matchers(
             };
             all.push((
                 format!("{paths:?} {cost:?}"),
-                Box::new(move |a, b| matcher.compute(a, b).unwrap()),
+                Box::new(move |a, b| matcher.compute(a, b, &mut ()).unwrap()),
             ));
         }
     }
@@ -112,7 +112,7 @@ fn matchers(
         };
         all.push((
             format!("{prefilter:?}"),
-            Box::new(move |a, b| matcher.compute(a, b).unwrap()),
+            Box::new(move |a, b| matcher.compute(a, b, &mut ()).unwrap()),
         ));
     }
     all
@@ -219,7 +219,7 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
         },
         ..Default::default()
     };
-    let found = matcher.compute(&left, &right).unwrap();
+    let found = matcher.compute(&left, &right, &mut ()).unwrap();
     let seen = |u: u32, v: u32| (!is_hidden(u, v)).then(|| truth(u, v));
     let (answered, good, _) = score(&found, 20, seen);
     assert!(answered > 0.95, "{answered} answered");
@@ -241,18 +241,22 @@ fn a_range_may_begin_anywhere() {
         num_disparities: 16,
         ..Default::default()
     };
-    let (answered, good, _) = score(&narrow.compute(&left, &right).unwrap(), 24, |_, _| {
-        Some(20.0)
-    });
+    let (answered, good, _) = score(
+        &narrow.compute(&left, &right, &mut ()).unwrap(),
+        24,
+        |_, _| Some(20.0),
+    );
     assert!(answered > 0.95 && good > 0.99);
     let block = StereoBm {
         min_disparity_px: 16,
         num_disparities: 9,
         ..Default::default()
     };
-    let (answered, good, _) = score(&block.compute(&left, &right).unwrap(), 24, |_, _| {
-        Some(20.0)
-    });
+    let (answered, good, _) = score(
+        &block.compute(&left, &right, &mut ()).unwrap(),
+        24,
+        |_, _| Some(20.0),
+    );
     assert!(answered > 0.9 && good > 0.99);
     // Exchanged pictures: disparities are negative, and the right border is the open one.
     let negative = StereoSgm {
@@ -260,7 +264,7 @@ fn a_range_may_begin_anywhere() {
         num_disparities: 20,
         ..Default::default()
     };
-    let found = negative.compute(&right, &left).unwrap();
+    let found = negative.compute(&right, &left, &mut ()).unwrap();
     let (answered, good, _) = score(&found, 0, |u, _| (u < 160 - 24).then_some(-20.0));
     assert!(answered > 0.95 && good > 0.99, "{answered} {good}");
 }
@@ -273,10 +277,13 @@ fn without_texture_blocks_give_no_answers_and_paths_one_surface() {
             prefilter,
             ..Default::default()
         };
-        assert_eq!(matcher.compute(&flat, &flat).unwrap().density(), 0.0);
+        assert_eq!(
+            matcher.compute(&flat, &flat, &mut ()).unwrap().density(),
+            0.0
+        );
     }
     // Smoothness alone answers here, if anything does: with one surface.
-    let found = StereoSgm::default().compute(&flat, &flat).unwrap();
+    let found = StereoSgm::default().compute(&flat, &flat, &mut ()).unwrap();
     if let Some((low, high)) = found.range_px() {
         assert!(high - low < 1.0);
     }
@@ -293,7 +300,7 @@ fn small_pictures_and_wide_ranges_are_no_trouble() {
                     paths,
                     ..Default::default()
                 };
-                let found = matcher.compute(&picture, &picture).unwrap();
+                let found = matcher.compute(&picture, &picture, &mut ()).unwrap();
                 assert_eq!((found.width(), found.height()), (width, height));
             }
         }
@@ -304,15 +311,15 @@ fn small_pictures_and_wide_ranges_are_no_trouble() {
             num_disparities,
             ..Default::default()
         };
-        matcher.compute(&picture, &picture).unwrap();
+        matcher.compute(&picture, &picture, &mut ()).unwrap();
     }
 }
 
 #[test]
 fn bad_input_is_refused_in_a_sentence() {
     let picture = GrayImage::new(40, 30);
-    let sgm = |matcher: StereoSgm| matcher.compute(&picture, &picture).unwrap_err();
-    let bm = |matcher: StereoBm| matcher.compute(&picture, &picture).unwrap_err();
+    let sgm = |matcher: StereoSgm| matcher.compute(&picture, &picture, &mut ()).unwrap_err();
+    let bm = |matcher: StereoBm| matcher.compute(&picture, &picture, &mut ()).unwrap_err();
     let out_of_range = |error: Error| {
         assert!(matches!(error, Error::OutOfRange { .. }), "{error:?}");
         assert!(error.to_string().contains(" must be "), "{error}");
@@ -398,24 +405,32 @@ fn bad_input_is_refused_in_a_sentence() {
     let higher = GrayImage::new(40, 31);
     for other in [&wider, &higher] {
         for error in [
-            StereoSgm::default().compute(&picture, other).unwrap_err(),
-            StereoBm::default().compute(&picture, other).unwrap_err(),
+            StereoSgm::default()
+                .compute(&picture, other, &mut ())
+                .unwrap_err(),
+            StereoBm::default()
+                .compute(&picture, other, &mut ())
+                .unwrap_err(),
         ] {
             assert!(matches!(error, Error::SizeMismatch { .. }), "{error:?}");
         }
     }
     let empty = GrayImage::new(0, 0);
     assert!(matches!(
-        StereoSgm::default().compute(&empty, &empty),
+        StereoSgm::default().compute(&empty, &empty, &mut ()),
         Err(Error::TooFew { .. })
     ));
     let mut float = ImageBuffer::<Luma<f32>, Vec<f32>>::new(40, 30);
     float.put_pixel(3, 3, Luma([f32::NAN]));
     assert!(matches!(
-        StereoSgm::default().compute_f32(&float, &float),
+        StereoSgm::default().compute_f32(&float, &float, &mut ()),
         Err(Error::NotFinite { .. })
     ));
-    assert!(StereoBm::default().compute_f32(&float, &float).is_err());
+    assert!(
+        StereoBm::default()
+            .compute_f32(&float, &float, &mut ())
+            .is_err()
+    );
 }
 
 #[test]
@@ -432,13 +447,13 @@ fn floats_from_0_to_255_are_the_same_pictures() {
         let (a, b) = (float(&left, scale), float(&right, scale));
         let sgm = StereoSgm::default();
         assert_eq!(
-            sgm.compute_f32(&a, &b).unwrap(),
-            sgm.compute(&left, &right).unwrap()
+            sgm.compute_f32(&a, &b, &mut ()).unwrap(),
+            sgm.compute(&left, &right, &mut ()).unwrap()
         );
         let bm = StereoBm::default();
         assert_eq!(
-            bm.compute_f32(&a, &b).unwrap(),
-            bm.compute(&left, &right).unwrap()
+            bm.compute_f32(&a, &b, &mut ()).unwrap(),
+            bm.compute(&left, &right, &mut ()).unwrap()
         );
     }
 }
@@ -457,10 +472,8 @@ fn work_can_be_watched_and_stopped() {
             shares.push(status.share);
             ControlFlow::Continue(())
         };
-        let watched = matcher
-            .compute_with_progress(&left, &right, &mut watch)
-            .unwrap();
-        assert_eq!(watched, matcher.compute(&left, &right).unwrap());
+        let watched = matcher.compute(&left, &right, &mut watch).unwrap();
+        assert_eq!(watched, matcher.compute(&left, &right, &mut ()).unwrap());
         assert!(shares.len() > 3);
         assert!(shares.is_sorted() && shares.iter().all(|s| (0.0..=1.0).contains(s)));
         for stop_at in [0, 2] {
@@ -473,13 +486,12 @@ fn work_can_be_watched_and_stopped() {
                     ControlFlow::Continue(())
                 }
             };
-            let stopped = matcher.compute_with_progress(&left, &right, &mut stop);
+            let stopped = matcher.compute(&left, &right, &mut stop);
             assert_eq!(stopped, Err(Error::Canceled));
             assert_eq!(calls, stop_at + 1);
         }
     }
-    let stopped =
-        StereoBm::default().compute_with_progress(&left, &right, &mut |_| ControlFlow::Break(()));
+    let stopped = StereoBm::default().compute(&left, &right, &mut |_| ControlFlow::Break(()));
     assert_eq!(stopped, Err(Error::Canceled));
 }
 
@@ -571,7 +583,7 @@ fn real_pairs_are_matched_better_than_by_the_usual_matcher() {
                     num_disparities,
                     ..Default::default()
                 }
-                .compute(&left, &right)
+                .compute(&left, &right, &mut ())
                 .unwrap(),
                 sgbm,
             ),
@@ -580,7 +592,7 @@ fn real_pairs_are_matched_better_than_by_the_usual_matcher() {
                     num_disparities,
                     ..Default::default()
                 }
-                .compute(&left, &right)
+                .compute(&left, &right, &mut ())
                 .unwrap(),
                 bm,
             ),

@@ -7,8 +7,8 @@ use crate::progress::Progress;
 use crate::refinement::RefinementArguments;
 use crate::report::Report;
 use clap::Args;
+use epipole::Error;
 use epipole::optim::Termination;
-use epipole::progress::{Stage, Status};
 use epipole::sfm::{BalProblem, adjust_bal};
 use std::path::{Path, PathBuf};
 
@@ -39,41 +39,83 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let options = arguments.refinement.options(arguments.max_iterations);
     let loss = arguments.refinement.loss();
     let progress = Progress::new(context, "bundle adjustment");
-    let mut history = Vec::new();
-    let report = adjust_bal(&mut problem, &options, loss, &mut |iteration| {
-        history.push((iteration.index, iteration.cost));
-        progress.show(Status {
-            stage: Stage::BundleAdjustment,
-            share: iteration.index as f32 / arguments.max_iterations.max(1) as f32,
-        })
+    let initial_cost = problem.cost(loss);
+    let mut num_reports = 0;
+    let report = adjust_bal(&mut problem, &options, loss, &mut |status| {
+        num_reports += 1;
+        progress.show(status)
     });
-    let report = report.map_err(|error| cannot_begin(error, &arguments.problem))?;
     drop(progress);
+    let outcome = match report {
+        Ok(report) => Outcome {
+            initial_cost: report.initial_cost,
+            final_cost: report.final_cost,
+            iterations: report.iterations,
+            termination: termination(report.termination),
+            history: (report.history.iter())
+                .map(|step| (step.index, step.cost))
+                .collect(),
+        },
+        // The first report comes before the first step.
+        Err(Error::Canceled) => {
+            Outcome::canceled(initial_cost, problem.cost(loss), num_reports - 1)
+        }
+        Err(error) => return Err(cannot_begin(error, &arguments.problem)),
+    };
     if let Some(path) = &arguments.output {
         files::write(path, problem.to_text().as_bytes())?;
     }
     Ok(Report::default()
-        .field("initial_cost", report.initial_cost)
-        .field("final_cost", report.final_cost)
-        .field("iterations", report.iterations)
-        .field("termination", termination(report.termination))
-        .field("history", history)
-        .row("initial cost", format!("{:.4}", report.initial_cost))
-        .row("final cost", format!("{:.6}", report.final_cost))
-        .row("iterations", report.iterations)
-        .row("ended by", termination(report.termination)))
+        .field("initial_cost", outcome.initial_cost)
+        .field("final_cost", outcome.final_cost)
+        .field("iterations", outcome.iterations)
+        .field("termination", outcome.termination)
+        .field("history", outcome.history)
+        .row("initial cost", format!("{:.4}", outcome.initial_cost))
+        .row("final cost", format!("{:.6}", outcome.final_cost))
+        .row("iterations", outcome.iterations)
+        .row("ended by", outcome.termination))
 }
 
+/// Course of an adjustment, finished or canceled.
+struct Outcome {
+    initial_cost: f64,
+    final_cost: f64,
+    iterations: usize,
+    termination: &'static str,
+    /// Index and cost of each step.
+    history: Vec<(usize, f64)>,
+}
+
+impl Outcome {
+    fn canceled(initial_cost: f64, final_cost: f64, iterations: usize) -> Self {
+        let mut history = vec![(0, initial_cost)];
+        if iterations > 0 {
+            history.push((iterations, final_cost));
+        }
+        Self {
+            initial_cost,
+            final_cost,
+            iterations,
+            termination: CANCELED,
+            history,
+        }
+    }
+}
+
+/// What ends a loop that Ctrl-C ends, as a word for scripts.
+pub(super) const CANCELED: &str = "canceled";
+
 /// What is wrong with the file, where the problem has no cost to begin with.
-fn cannot_begin(error: epipole::Error, path: &Path) -> Failure {
+fn cannot_begin(error: Error, path: &Path) -> Failure {
     match error {
-        epipole::Error::NotFinite { .. } => Failure::new(
+        Error::NotFinite { .. } => Failure::new(
             "not-finite",
             "the errors at the start are no finite numbers: a point is level with the center of a camera that sees it, or \
              a number is far too large",
         )
         .about(path),
-        epipole::Error::TooFew { .. } => Failure::from(error).about(path),
+        Error::TooFew { .. } => Failure::from(error).about(path),
         error => error.into(),
     }
 }
@@ -85,7 +127,6 @@ pub(super) fn termination(termination: Termination) -> &'static str {
         Termination::SmallStep => "small-step",
         Termination::SmallCostChange => "small-cost-change",
         Termination::MaxIterations => "max-iterations",
-        Termination::Canceled => "canceled",
         Termination::Stuck => "stuck",
     }
 }

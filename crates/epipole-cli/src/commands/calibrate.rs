@@ -12,8 +12,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::calibration::{
-    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate_rig,
-    calibrate_with_progress,
+    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate, calibrate_rig,
 };
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -100,6 +99,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             &cameras,
             &left.photographs.views,
             &right.photographs.views,
+            &mut (),
         )?;
         warnings.extend(right.warnings("right camera: "));
         fields.insert("right".to_owned(), Value::Object(right.fields()));
@@ -141,7 +141,7 @@ impl Side {
         let progress = Progress::new(context, "calibration");
         let (views, size) = (&photographs.views, photographs.size);
         let mut watch = |status| progress.show(status);
-        let found = calibrate_with_progress(board, views, size, options, &mut watch);
+        let found = calibrate(board, views, size, options, &mut watch);
         drop(progress);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);

@@ -17,15 +17,13 @@ use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
 use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
-use epipole::progress::{Stage, Status};
+use epipole::progress::Part;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions, SfmImage,
-    SfmInput, SfmStep, match_features, match_rectified, monocular_odometry, photo_features,
-    stereo_odometry,
+    Odometry, OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions,
+    SfmImage, SfmInput, match_features, match_rectified, photo_features,
 };
 use serde_json::json;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Follow a camera, or a stereo rig, through its frames.
@@ -107,8 +105,8 @@ impl Arguments {
 const MAX_FEATURES: &str = "3000";
 
 /// The shares of the work at which features, and then matches, are done.
-const DETECTED: f64 = 0.5;
-const MATCHED: f64 = 0.7;
+const DETECTED: f32 = 0.5;
+const MATCHED: f32 = 0.7;
 
 /// What all steps share.
 struct Work<'a> {
@@ -163,10 +161,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let result = work.follow(left, right, &options)?;
     let Work { progress, .. } = work;
     drop(progress);
-    if result.canceled {
+    if !result.is_complete {
         context.warn(interrupt::ENDED_EARLY);
     }
-    let refined_from = (options.final_adjustment && options.sfm.refine_focal && !result.canceled)
+    let refined_from = (options.final_adjustment && options.sfm.refine_focal && result.is_complete)
         .then_some(begun_with_px);
     Ok(report(
         &result,
@@ -177,12 +175,6 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 impl Work<'_> {
-    /// Shows how far the whole is, and says whether to go on.
-    fn watch(&self, stage: Stage, share: f64) -> ControlFlow<()> {
-        let share = share as f32;
-        self.progress.show(Status { stage, share })
-    }
-
     /// How the path is followed, and what is told of the camera.
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
@@ -249,14 +241,10 @@ impl Work<'_> {
                 image: photo.color,
                 ..SfmPhoto::default()
             };
-            (frames.features).push(photo_features(&photo, &self.options)?);
-            let share = (index + 1) as f64 / paths.len() as f64;
-            if self
-                .watch(Stage::FeatureDetection, DETECTED * share)
-                .is_break()
-            {
-                return Err(epipole::Error::Canceled.into());
-            }
+            let share = |done: usize| DETECTED * done as f32 / paths.len() as f32;
+            let watch = &mut |status| self.progress.show(status);
+            let mut part = Part::new(watch, share(index), share(index + 1));
+            (frames.features).push(photo_features(&photo, &self.options, &mut part)?);
         }
         frames.ok_or_else(|| Failure::new("too-few", "a path needs frames"))
     }
@@ -285,37 +273,13 @@ impl Work<'_> {
         options: &OdometryOptions,
     ) -> Result<OdometryResult, Failure> {
         let (intrinsics, left) = (left.intrinsics, left.features);
-        let num_frames = left.len();
-        let mut observer = |step: &SfmStep| {
-            let part = |stage, from: f64, to: f64, done: usize, total: usize| {
-                self.watch(
-                    stage,
-                    from + (to - from) * done as f64 / total.max(1) as f64,
-                )
-            };
-            let verified = (MATCHED + 1.0) / 2.0;
-            match *step {
-                SfmStep::Matched { done, total } => {
-                    part(Stage::FeatureMatching, DETECTED, MATCHED, done, total)
-                }
-                SfmStep::Verified { done, total } => {
-                    part(Stage::PairVerification, MATCHED, verified, done, total)
-                }
-                SfmStep::Registered { num_registered, .. } => part(
-                    Stage::Registration,
-                    verified,
-                    1.0,
-                    num_registered,
-                    num_frames,
-                ),
-                _ if interrupt::requested() => ControlFlow::Break(()),
-                _ => ControlFlow::Continue(()),
-            }
-        };
-        let pairs = match_features(&left, &self.options, &mut observer)?;
+        let watch = &mut |status| self.progress.show(status);
+        let mut part = Part::new(watch, DETECTED, MATCHED);
+        let pairs = match_features(&left, &self.options, &mut part)?;
         let mut left_right = Vec::new();
         for (a, b) in left.iter().zip(&right) {
-            left_right.push(match_rectified(a, b, &self.options)?);
+            let mut part = Part::new(watch, MATCHED, MATCHED);
+            left_right.push(match_rectified(a, b, &self.options, &mut part)?);
         }
         // Descriptors are the larger part of the memory.
         let images = |features: Vec<PhotoFeatures>| -> Vec<SfmImage> {
@@ -324,24 +288,29 @@ impl Work<'_> {
         let input = SfmInput {
             images: images(left),
             intrinsics: vec![intrinsics],
-            pairs: pairs.ok_or(epipole::Error::Canceled)?,
+            pairs,
         };
-        let result = match self.arguments.stereo_baseline_m {
-            Some(baseline_m) => stereo_odometry(
+        let monitor = &mut Part::new(watch, MATCHED, 1.0);
+        let mut run = match self.arguments.stereo_baseline_m {
+            Some(baseline_m) => Odometry::stereo(
                 &input,
                 &images(right),
                 &left_right,
                 &RigidTransform::translation(-baseline_m, 0.0, 0.0),
                 &intrinsics,
                 options,
-                &mut observer,
+                monitor,
             )?,
-            None => monocular_odometry(&input, options, &mut observer)?,
+            None => Odometry::monocular(&input, options, monitor)?,
         };
-        if result.canceled && result.world_from_cam.iter().all(Option::is_none) {
-            return Err(epipole::Error::Canceled.into());
+        loop {
+            match run.step(monitor) {
+                Ok(Some(_)) => {}
+                // Ctrl-C ends the path where it is.
+                Ok(None) | Err(epipole::Error::Canceled) => return Ok(run.finish()),
+                Err(error) => return Err(error.into()),
+            }
         }
-        Ok(result)
     }
 }
 
@@ -394,7 +363,7 @@ fn report(
         }
     }
     report
-        .field("complete", !result.canceled)
+        .field("complete", result.is_complete)
         .row(
             "frames placed",
             format!("{} of {}", placed.len(), paths.len()),

@@ -1,6 +1,6 @@
 //! `epipole posegraph`: poses that agree with measurements between them.
 
-use super::ba::termination;
+use super::ba::{CANCELED, termination};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
@@ -44,23 +44,34 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let options = arguments.refinement.options(arguments.max_iterations);
     let loss = arguments.refinement.loss();
     let progress = Progress::new(context, "pose graph");
-    let mut watch = |status| progress.show(status);
-    let report = graph.optimize_with_progress(&options, loss, &mut watch)?;
+    let initial_chi2 = graph.chi2();
+    let mut num_reports = 0;
+    let report = graph.optimize(&options, loss, &mut |status| {
+        num_reports += 1;
+        progress.show(status)
+    });
     drop(progress);
+    let (iterations, ended_by) = match report {
+        Ok(report) => (report.iterations, termination(report.termination)),
+        // The first report comes before the first step.
+        Err(epipole::Error::Canceled) => (num_reports - 1, CANCELED),
+        Err(error) => return Err(error.into()),
+    };
+    let final_chi2 = graph.chi2();
     if let Some(path) = &arguments.output {
         files::write(path, graph.to_g2o().as_bytes())?;
     }
     let (vertices, edges) = graph.size();
     Ok(Report::default()
-        .field("initial_chi2", report.initial_chi2)
-        .field("final_chi2", report.final_chi2)
-        .field("iterations", report.iterations)
-        .field("termination", termination(report.termination))
+        .field("initial_chi2", initial_chi2)
+        .field("final_chi2", final_chi2)
+        .field("iterations", iterations)
+        .field("termination", ended_by)
         .field("num_vertices", vertices)
         .field("num_edges", edges)
         .row("vertices and edges", format!("{vertices} and {edges}"))
-        .row("initial χ²", format!("{:.3}", report.initial_chi2))
-        .row("final χ²", format!("{:.3}", report.final_chi2))
-        .row("iterations", report.iterations)
-        .row("ended by", termination(report.termination)))
+        .row("initial χ²", format!("{:.3}", initial_chi2))
+        .row("final χ²", format!("{:.3}", final_chi2))
+        .row("iterations", iterations)
+        .row("ended by", ended_by))
 }

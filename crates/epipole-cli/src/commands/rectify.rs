@@ -15,7 +15,7 @@ use crate::robust::RobustArguments;
 use crate::turn::{self, find_turn, left_open};
 use crate::{files, picture};
 use clap::Args;
-use epipole::camera::{Distortion, RigidTransform};
+use epipole::camera::RigidTransform;
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
 use epipole::robust::MatchSet;
 use epipole::stereo::{PixelMap, RectifyOptions, rectify_calibrated, rectify_uncalibrated};

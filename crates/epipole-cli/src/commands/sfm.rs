@@ -21,10 +21,11 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
+use epipole::progress::{Monitor, Part};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult, WhyUnregistered,
-    reconstruct_photos_with_progress, why_unregistered,
+    IncrementalReconstruction, PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
+    WhyUnregistered, match_photos, why_unregistered,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -109,16 +110,22 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let progress = Progress::new(context, "structure from motion");
     let watch = &mut |status| progress.show(status);
-    let (mut input, result) =
-        reconstruct_photos_with_progress(&photos, &intrinsics, &photo_options, &options, watch)?;
+    let (images, pairs) =
+        match_photos(&photos, &photo_options, &mut Part::new(watch, 0.0, MATCHED))?;
+    let mut input = SfmInput {
+        images,
+        intrinsics: intrinsics.clone(),
+        pairs,
+    };
+    let result = grown(&input, &options, &mut Part::new(watch, MATCHED, 1.0))?;
     drop(progress);
     let Some(largest) = result.components.first() else {
-        if result.canceled {
+        if !result.is_complete {
             return Err(epipole::Error::Canceled.into());
         }
         return Err(no_start(&input, &options, &result)?);
     };
-    if result.canceled {
+    if !result.is_complete {
         context.warn(interrupt::ENDED_EARLY);
     }
     let unregistered = unregistered(&input, &options, &result)?;
@@ -206,7 +213,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("images", registered)
         .field("unregistered", &unregistered)
         .field("components", components)
-        .field("complete", !result.canceled)
+        .field("complete", result.is_complete)
         .row(
             "registered",
             format!("{registered_count} of {}", photos.len()),
@@ -215,6 +222,25 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("mean reprojection error", format!("{mean_px:.3} px"))
         .row("components", result.components.len())
         .row("written", written.join(", ")))
+}
+
+/// Share of the work after which all photographs are matched.
+const MATCHED: f32 = 0.6;
+
+/// Reconstructs; Ctrl-C ends it with what there is.
+fn grown(
+    input: &SfmInput,
+    options: &SfmOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<SfmResult, epipole::Error> {
+    let mut run = IncrementalReconstruction::new(input, options, monitor)?;
+    loop {
+        match run.step(monitor) {
+            Ok(Some(_)) => {}
+            Ok(None) | Err(epipole::Error::Canceled) => return Ok(run.finish()),
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 /// A photograph that is not in the largest component.
@@ -230,7 +256,7 @@ fn no_start(
     options: &SfmOptions,
     result: &SfmResult,
 ) -> Result<Failure, Failure> {
-    let reasons = why_unregistered(input, options, result)?;
+    let reasons = why_unregistered(input, options, result, &mut ())?;
     let begins = |why: &WhyUnregistered| {
         matches!(why, WhyUnregistered::NoBaseline | WhyUnregistered::NoStart)
     };
@@ -251,7 +277,7 @@ fn unregistered(
     options: &SfmOptions,
     result: &SfmResult,
 ) -> Result<Vec<LeftOut>, Failure> {
-    let reasons = why_unregistered(input, options, result)?;
+    let reasons = why_unregistered(input, options, result, &mut ())?;
     let mut left_out: Vec<(usize, String)> = result
         .unregistered
         .iter()

@@ -121,11 +121,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut disparity = match arguments.method {
         Method::Sgm => {
             let matcher = arguments.sgm.matcher(&arguments.keep, disparities);
-            matcher.compute_with_progress(&left, &right, &mut watch)?
+            matcher.compute(&left, &right, &mut watch)?
         }
         Method::Bm => {
             let matcher = arguments.bm.matcher(&arguments.keep, disparities);
-            matcher.compute_with_progress(&left, &right, &mut watch)?
+            matcher.compute(&left, &right, &mut watch)?
         }
     };
     drop(progress);

@@ -196,8 +196,7 @@ impl Project {
             "//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and nothing else.\n\n\
              use epipole::calibration::{{{imports}}};\nuse epipole::camera::{{{kinds}}};\n\
              use epipole::feature::FeatureKind;\n\
-             use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\
-             use std::ops::ControlFlow;\n\n\
+             use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\n\
              pub fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
              // Files, and their focal lengths in pixels where they do not tell it.\n    \
              let files: [(&str, Option<f64>); {count}] = [\n{photos}    ];\n{undistortion}    \
@@ -224,7 +223,7 @@ impl Project {
              let options = SfmOptions {{\n        min_num_inliers: {enough},\n        refine_focal: {refine_focal},\n        \
              refine_distortion: {refine_distortion},\n        seed: {seed},\n        ..SfmOptions::default()\n    }};\n    \
              let (input, found) =\n        \
-             reconstruct_photos(&photos, &intrinsics, &how, &options, &mut |_| ControlFlow::Continue(()))?;\n    \
+             reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;\n    \
              let largest = found.components.first().ok_or(\"no two photographs show enough of the same thing\")?;\n    \
              let model = largest.to_colmap(&input.images);\n    \
              std::fs::create_dir_all(\"sparse/0\")?;\n    \

@@ -2,9 +2,7 @@
 
 use super::convert::core_board;
 use super::{Calibration, CalibrationOptions, LensCamera, LensModel, Progress, Told, ViewFound};
-use epipole::calibration::{
-    BoardView, CalibratedView, CalibrationWarning, calibrate_with_progress,
-};
+use epipole::calibration::{BoardView, CalibratedView, CalibrationWarning, calibrate};
 use epipole::camera::LensKind;
 use epipole::progress::Status;
 use nalgebra::Point2;
@@ -37,7 +35,7 @@ pub(super) fn calibration(
         ..epipole::calibration::CalibrationOptions::default()
     };
     let mut watch = |status: Status| progress(Told::Share(status.share, status.stage.words()));
-    let found = calibrate_with_progress(&board, &views, size, &how, &mut watch);
+    let found = calibrate(&board, &views, size, &how, &mut watch);
     let found = found.map_err(|error| match error {
         epipole::Error::Canceled => "stopped".to_owned(),
         epipole::Error::TooFew { .. } | epipole::Error::Degenerate { .. } => format!(

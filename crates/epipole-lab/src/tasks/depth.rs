@@ -204,12 +204,12 @@ fn matched(
             num_disparities,
             ..StereoSgm::default()
         }
-        .compute_with_progress(left, right, &mut watch),
+        .compute(left, right, &mut watch),
         DepthMethod::Block => StereoBm {
             min_disparity_px,
             num_disparities,
             ..StereoBm::default()
         }
-        .compute_with_progress(left, right, &mut watch),
+        .compute(left, right, &mut watch),
     }
 }

@@ -5,12 +5,12 @@ use super::{
     Described, Feature, FeatureKind, FeatureOptions, Features, Photograph, Progress, Told,
 };
 use epipole::feature::{self, Descriptors};
-use epipole::sfm::{Photo, PhotoOptions, photo_features_with_progress};
+use epipole::sfm::{Photo, PhotoOptions, photo_features};
 
 /// Finds features just as `epipole sfm` does.
 ///
 /// # Errors
-/// As [`photo_features_with_progress`], if `progress` wants no more, too.
+/// As [`photo_features`], if `progress` wants no more, too.
 pub(super) fn features(
     photograph: &Photograph,
     options: &FeatureOptions,
@@ -28,7 +28,7 @@ pub(super) fn features(
         FeatureKind::Sift => feature::FeatureKind::Sift,
     };
     let mut watch = |_| progress(Told::Share(0.0, ""));
-    let found = photo_features_with_progress(&photo, &how, &mut watch).map_err(sentence)?;
+    let found = photo_features(&photo, &how, &mut watch).map_err(sentence)?;
     let list = (found.keypoints.iter().zip(&found.image.colors))
         .map(|(keypoint, color)| Feature {
             u: keypoint.u,

@@ -2,12 +2,12 @@
 
 use super::convert::sentence;
 use super::{Described, Match, MatchOptions, Progress, Told};
-use epipole::feature::{Descriptors, match_descriptors_with_progress};
+use epipole::feature::{Descriptors, match_descriptors};
 
 /// Matches descriptors.
 ///
 /// # Errors
-/// As [`match_descriptors_with_progress`], if `progress` wants no more, too.
+/// As [`match_descriptors`], if `progress` wants no more, too.
 pub(super) fn matches(
     first: Described,
     second: Described,
@@ -21,7 +21,7 @@ pub(super) fn matches(
     };
     let mut watch = |_| progress(Told::Share(0.0, ""));
     let (first, second) = (read(first)?, read(second)?);
-    let found = match_descriptors_with_progress(&first, &second, &how, &mut watch);
+    let found = match_descriptors(&first, &second, &how, &mut watch);
     let found = found.map_err(sentence)?;
     let plain = |m: &epipole::feature::Match| Match {
         first: m.index1 as u32,

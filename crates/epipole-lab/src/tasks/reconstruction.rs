@@ -1,13 +1,15 @@
 //! Cameras and points from all photographs.
 
-use super::convert::{intrinsics, sfm_images};
+use super::convert::{intrinsics, sentence, sfm_images};
 use super::{
     Answer, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed,
     SfmOptions, Told,
 };
 use epipole::camera::PosedCamera;
-use epipole::sfm::{PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep};
-use std::cell::RefCell;
+use epipole::progress::Status;
+use epipole::sfm::{
+    IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
+};
 
 /// Reconstructs just as `epipole sfm` does.
 ///
@@ -19,7 +21,6 @@ pub(super) fn reconstruct(
     options: &SfmOptions,
     progress: Progress<'_>,
 ) -> Result<Reconstructed, String> {
-    let sentence = |error: epipole::Error| error.to_string();
     let plain = |pair: &PairOf| PairMatches {
         image1: pair.first as usize,
         image2: pair.second as usize,
@@ -39,58 +40,50 @@ pub(super) fn reconstruct(
         seed: options.seed,
         ..epipole::sfm::SfmOptions::default()
     };
-    let progress = RefCell::new(progress);
-    let mut costs = Vec::new();
-    let mut last = (0.3, String::new());
-    let mut observer = |step: &SfmStep| {
-        let (share, words) = match step {
-            SfmStep::Verified { done, total } => (
-                0.3 * *done as f32 / (*total).max(1) as f32,
-                format!("{done} of {total} pairs checked"),
-            ),
-            SfmStep::Started { num_points, .. } => {
-                (0.35, format!("started with two, {num_points} points"))
+    let mut share = 0.0;
+    let mut run = IncrementalReconstruction::new(&input, &how, &mut |status: Status| {
+        share = status.share;
+        progress(Told::Share(share, status.stage.words()))
+    })
+    .map_err(sentence)?;
+    let mut words = String::new();
+    loop {
+        // Within a step there is nothing new to say, only to ask.
+        let step = run.step(&mut |status: Status| {
+            share = status.share;
+            progress(Told::Share(share, &words))
+        });
+        words = match step.map_err(sentence)? {
+            None => break,
+            Some(SfmStep::Started { num_points, .. }) => {
+                format!("started with two, {num_points} points")
             }
-            SfmStep::Registered {
+            Some(SfmStep::Registered {
                 num_registered,
                 num_points,
                 ..
-            } => (
-                0.35 + 0.6 * *num_registered as f32 / images.len().max(1) as f32,
-                format!("{num_registered} photographs, {num_points} points"),
-            ),
-            SfmStep::Adjusted { cost } => {
-                costs.push(*cost);
-                return std::ops::ControlFlow::Continue(());
-            }
-            // Within an adjustment there is nothing new to say, only to ask.
-            SfmStep::Refined { .. } => last.clone(),
-            SfmStep::Detected { .. } | SfmStep::Matched { .. } => {
-                return std::ops::ControlFlow::Continue(());
-            }
+            }) => format!("{num_registered} photographs, {num_points} points"),
+            Some(_) => continue,
         };
-        last = (share, words.clone());
-        (progress.borrow_mut())(Told::Share(share, &words))
-    };
-    let mut watcher = |so_far: Reconstruction| {
+        let so_far = run.current().unwrap_or_default();
         let answer = Answer::Reconstruction(Reconstructed {
             mean_error_px: vec![so_far.mean_reprojection_px(&input.images)],
             components: vec![component(&so_far)],
             costs: Vec::new(),
         });
-        (progress.borrow_mut())(Told::SoFar(answer.to_bytes()))
-    };
-    let found = epipole::sfm::reconstruct_with(&input, &how, &mut observer, &mut watcher)
-        .map_err(sentence)?;
-    if found.canceled {
-        return Err("stopped".to_owned());
+        if progress(Told::Share(share, &words)).is_break()
+            || progress(Told::SoFar(answer.to_bytes())).is_break()
+        {
+            return Err("stopped".to_owned());
+        }
     }
+    let found = run.finish();
     let mean_error_px = (found.components.iter())
         .map(|component| component.mean_reprojection_px(&input.images))
         .collect();
     Ok(Reconstructed {
         components: found.components.iter().map(component).collect(),
-        costs,
+        costs: found.steps.iter().filter_map(SfmStep::cost).collect(),
         mean_error_px,
     })
 }

@@ -4,7 +4,6 @@ use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 use epipole::feature::FeatureKind;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
-use std::ops::ControlFlow;
 
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Files, and their focal lengths in pixels where they do not tell it.
@@ -54,7 +53,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..SfmOptions::default()
     };
     let (input, found) =
-        reconstruct_photos(&photos, &intrinsics, &how, &options, &mut |_| ControlFlow::Continue(()))?;
+        reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;
     let largest = found.components.first().ok_or("no two photographs show enough of the same thing")?;
     let model = largest.to_colmap(&input.images);
     std::fs::create_dir_all("sparse/0")?;

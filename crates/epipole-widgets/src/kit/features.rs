@@ -6,8 +6,9 @@ use crate::contract::Progress;
 use crate::kit::scenes::{self, photograph, still_life_pair};
 use epipole::Error;
 use epipole::camera::PosedCamera;
-use epipole::feature::{Features, SiftOptions, detect_sift_with_progress};
+use epipole::feature::{Features, SiftOptions, detect_sift};
 use epipole::imaging::{BT601_WEIGHTS, rgb_to_gray_f32};
+use epipole::progress::Status;
 use epipole_scenes::Transfer;
 use image::RgbImage;
 use nalgebra::Point2;
@@ -105,7 +106,7 @@ impl Pair {
 /// The strongest SIFT features of two photographs.
 ///
 /// # Errors
-/// As [`detect_sift_with_progress`].
+/// As [`detect_sift`].
 pub(crate) fn detect(
     photographs: [&RgbImage; 2],
     progress: Progress<'_>,
@@ -122,7 +123,7 @@ fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features
         ..SiftOptions::default()
     };
     let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
-    detect_sift_with_progress(&gray, &options, &mut |status| {
+    detect_sift(&gray, &options, &mut |status: Status| {
         progress(f64::from(status.share))
     })
 }

@@ -49,10 +49,15 @@ pub(crate) fn matches(
 ) -> Result<(Pixels, Pixels), Error> {
     let options = SiftOptions::default();
     let [a, b] = [
-        detect_sift(first, &options)?,
-        detect_sift(second, &options)?,
+        detect_sift(first, &options, &mut ())?,
+        detect_sift(second, &options, &mut ())?,
     ];
-    let matches = match_descriptors(&a.descriptors, &b.descriptors, &MatchOptions::default())?;
+    let matches = match_descriptors(
+        &a.descriptors,
+        &b.descriptors,
+        &MatchOptions::default(),
+        &mut (),
+    )?;
     let place = |m: &epipole::feature::Match| {
         (a.keypoints[m.index1].point(), b.keypoints[m.index2].point())
     };

@@ -13,11 +13,9 @@ use super::start::{board_pose, plain, starts};
 use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
 use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
-use crate::optim::{Iteration, Termination};
-use crate::progress::{Progress, Stage, Status};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use nalgebra::Point3;
-use std::ops::ControlFlow;
 
 pub(super) const WHAT: &str = "a calibration";
 
@@ -82,7 +80,8 @@ pub struct Calibration {
 /// # Errors
 /// [`Error::TooFew`] for fewer than two views, and for a view with fewer than four marks; [`Error::Degenerate`] if a
 /// view's marks are on one line, and if all boards are parallel or fit no camera; [`Error::SizeMismatch`] for views of another board,
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for an image without pixels.
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for an image without pixels,
+/// [`Error::Canceled`]. The one stage is [`Stage::Calibration`].
 ///
 /// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.
 ///
@@ -102,7 +101,7 @@ pub struct Calibration {
 ///     };
 ///     views.push(Some(BoardView { pixels: (0..board.num_marks()).map(pixel).collect() }));
 /// }
-/// let found = calibrate(&board, &views, (640, 480), &CalibrationOptions::default())?;
+/// let found = calibrate(&board, &views, (640, 480), &CalibrationOptions::default(), &mut ())?;
 /// assert!(found.rms_px < 1e-6);
 /// assert!((found.camera.intrinsics.fv_px() - 605.0).abs() < 1e-3);
 /// # Ok(()) }
@@ -113,48 +112,9 @@ pub fn calibrate(
     views: &[Option<BoardView>],
     size: (u32, u32),
     options: &CalibrationOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Calibration> {
-    calibrate_with_progress(board, views, size, options, &mut |_| {
-        ControlFlow::Continue(())
-    })
-}
-
-/// [`calibrate`] that reports how far it is and can be stopped.
-///
-/// * `progress`: hears, after each step of refinement, what share of the starts is done, in the one stage
-///   [`Stage::Calibration`], and says whether to go on
-///
-/// # Errors
-/// As [`calibrate`], and [`Error::Canceled`] if `progress` said so.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::{Board, Pattern, calibrate_with_progress};
-/// use std::ops::ControlFlow;
-/// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
-/// let views = [None, None];
-/// let stop = &mut |_| ControlFlow::Break(());
-/// let stopped = calibrate_with_progress(&board, &views, (640, 480), &Default::default(), stop);
-/// assert_eq!(stopped.map(drop), Err(epipole::Error::Canceled));
-/// # Ok(()) }
-/// ```
-pub fn calibrate_with_progress(
-    board: &Board,
-    views: &[Option<BoardView>],
-    (width, height): (u32, u32),
-    options: &CalibrationOptions,
-    progress: Progress<'_>,
-) -> Result<Calibration> {
-    let mut tell = |share| {
-        progress(Status {
-            stage: Stage::Calibration,
-            share,
-        })
-    };
-    if tell(0.0).is_break() {
-        return Err(Error::Canceled);
-    }
-    let size = (width, height);
+    report(monitor, Stage::Calibration, 0.0)?;
     check(board, views, size)?;
     let given: Vec<&BoardView> = views.iter().flatten().collect();
     if given.len() < 2 {
@@ -178,8 +138,8 @@ pub fn calibrate_with_progress(
     let num_starts = starts.len() as f32;
     for (index, start) in starts.into_iter().enumerate() {
         let share = index as f32 / num_starts;
-        let mut watch = |_: &Iteration| tell(share);
-        match refine_from(board, &given, start, size, options, &problem, &mut watch) {
+        let mut step = Part::new(monitor, share, share).of_stage(Stage::Calibration);
+        match refine_from(board, &given, start, size, options, &problem, &mut step) {
             Err(Error::Canceled) => return Err(Error::Canceled),
             Ok((cost, state)) => {
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -199,8 +159,8 @@ pub fn calibrate_with_progress(
     let camera = Camera {
         intrinsics: intrinsics_of(&numbers)?,
         lens: lens_of(kind, &numbers),
-        width,
-        height,
+        width: size.0,
+        height: size.1,
     };
     let open = Error::Degenerate {
         what: WHAT,
@@ -303,7 +263,7 @@ fn refine_from(
     size: (u32, u32),
     options: &CalibrationOptions,
     problem: &Problem,
-    watch: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<(f64, State)> {
     let camera = plain(start, options.lens, size);
     let mut poses = Vec::new();
@@ -326,13 +286,7 @@ fn refine_from(
         problem.kinds,
         few,
     );
-    let begun = first.minimize(&mut state, &strict(30), watch)?;
-    if begun.termination == Termination::Canceled {
-        return Err(Error::Canceled);
-    }
-    let report = problem.minimize(&mut state, &strict(options.max_iterations), watch)?;
-    match report.termination {
-        Termination::Canceled => Err(Error::Canceled),
-        _ => Ok((report.final_cost, state)),
-    }
+    first.minimize(&mut state, &strict(30), monitor)?;
+    let report = problem.minimize(&mut state, &strict(options.max_iterations), monitor)?;
+    Ok((report.final_cost, state))
 }

@@ -34,9 +34,7 @@ mod undistort;
 
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
-pub use calibrate::{
-    CalibratedView, Calibration, CalibrationOptions, calibrate, calibrate_with_progress,
-};
+pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::{BoardSearch, find_board};
 #[cfg(feature = "decode")]

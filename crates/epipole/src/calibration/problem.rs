@@ -3,12 +3,12 @@
 use crate::camera::moving_pose::PoseState;
 use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
 use crate::optim::{
-    BundleProblem, BundleStep, Iteration, LmOptions, LmReport, ObservationTerms, RobustLoss,
-    SchurSystem, minimize,
+    BundleProblem, BundleStep, LmOptions, LmReport, ObservationTerms, RobustLoss, SchurSystem,
+    minimize,
 };
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
-use std::ops::ControlFlow;
 
 /// Numbers of a camera: fu, fv, cu, cv and those of its lens.
 pub(super) const OF_CAMERA: usize = 12;
@@ -98,9 +98,9 @@ impl Problem {
         &self,
         state: &mut State,
         options: &LmOptions,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        monitor: &mut dyn Monitor,
     ) -> Result<LmReport> {
-        minimize(&mut SchurSystem::new(self), state, options, observer)
+        minimize(&mut SchurSystem::new(self), state, options, monitor)
     }
 
     /// The point in the frame of the camera that sees it, and before the rig's motion, turned only and whole.

@@ -6,8 +6,8 @@ use super::start::board_pose;
 use super::uncertainty::standard_deviations;
 use super::{Board, BoardView};
 use crate::camera::{Camera, RigidTransform};
+use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
-use std::ops::ControlFlow;
 
 /// Two cameras that are bolted together.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,7 @@ pub struct RigCalibration {
 ///
 /// * `cameras`: left and right, from [`calibrate`](super::calibrate)
 /// * `left`, `right`: views of the same moments, in the same order; `None` where no board was found
+/// * `monitor`: hears after each step of the refinement, in the one stage [`Stage::Calibration`]
 ///
 /// # Errors
 /// [`Error::TooFew`] if no board was seen by both, [`Error::SizeMismatch`] for lists of different length, and as
@@ -63,7 +64,7 @@ pub struct RigCalibration {
 ///     };
 ///     vec![Some(BoardView { pixels: (0..board.num_marks()).map(pixel).collect() })]
 /// };
-/// let found = calibrate_rig(&board, &[camera, camera], &see(pose), &see(right_from_left * pose))?;
+/// let found = calibrate_rig(&board, &[camera, camera], &see(pose), &see(right_from_left * pose), &mut ())?;
 /// assert!((found.baseline_m - right_from_left.translation.vector.norm()).abs() < 1e-9);
 /// # Ok(()) }
 /// ```
@@ -73,6 +74,7 @@ pub fn calibrate_rig(
     cameras: &[Camera; 2],
     left: &[Option<BoardView>],
     right: &[Option<BoardView>],
+    monitor: &mut dyn Monitor,
 ) -> Result<RigCalibration> {
     if left.len() != right.len() {
         return Err(Error::SizeMismatch {
@@ -132,8 +134,8 @@ pub fn calibrate_rig(
             .each_ref()
             .map(|camera| camera_numbers(&camera.intrinsics, &camera.lens)),
     };
-    let mut go_on = |_: &_| ControlFlow::Continue(());
-    problem.minimize(&mut state, &strict(200), &mut go_on)?;
+    let mut whole = Part::new(monitor, 0.0, 1.0).of_stage(Stage::Calibration);
+    problem.minimize(&mut state, &strict(200), &mut whole)?;
     let deviations = standard_deviations(&problem, &state).ok_or(Error::Degenerate {
         what: WHAT,
         why: "the pairs leave the motion between the cameras open",
@@ -190,7 +192,7 @@ mod tests {
         left[1] = None;
         // Something hides a part from the right camera.
         right[3].as_mut().unwrap().pixels[10..30].fill(None);
-        let found = calibrate_rig(&board, &cameras, &left, &right).unwrap();
+        let found = calibrate_rig(&board, &cameras, &left, &right, &mut ()).unwrap();
         assert!(found.rms_px < 1e-6);
         let off = found.right_from_left.inverse() * truth;
         assert!(off.rotation.angle() < 1e-7 && off.translation.vector.norm() < 1e-8);
@@ -198,12 +200,21 @@ mod tests {
         assert!(found.pairs_rms_px[1].is_none());
         right[0] = None;
         right[2..].fill(None);
-        let error = calibrate_rig(&board, &cameras, &left, &right).unwrap_err();
+        let error = calibrate_rig(&board, &cameras, &left, &right, &mut ()).unwrap_err();
         assert!(matches!(error, Error::TooFew { .. }));
-        assert!(calibrate_rig(&board, &cameras, &left, &right[..3]).is_err());
+        assert!(calibrate_rig(&board, &cameras, &left, &right[..3], &mut ()).is_err());
         let bad = BoardView {
             pixels: vec![Some(Point2::new(f64::INFINITY, 0.0)); 54],
         };
-        assert!(calibrate_rig(&board, &cameras, &[Some(bad.clone())], &[Some(bad)]).is_err());
+        assert!(
+            calibrate_rig(
+                &board,
+                &cameras,
+                &[Some(bad.clone())],
+                &[Some(bad)],
+                &mut ()
+            )
+            .is_err()
+        );
     }
 }

@@ -2,14 +2,13 @@
 
 use super::{
     BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
-    RefineOptions, describe_patches, detect_orb, detect_sift_with_progress, good_features_to_track,
+    RefineOptions, describe_patches, detect_orb, detect_sift, good_features_to_track,
     match_descriptors, match_hamming, refine_corners,
 };
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
-use crate::progress::Progress;
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use image::RgbImage;
-use std::ops::ControlFlow;
 
 /// Descriptors of whatever kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,10 +52,13 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 
 /// The features of an image, of the kind that `options` names, strongest first.
 ///
-/// Corners of Harris are located between pixels; those that cannot be are dropped.
+/// Corners of Harris are located between pixels; those that cannot be are dropped. The one stage is
+/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection); ORB and Harris, which are quick, report
+/// nothing.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range.
+/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range,
+/// [`Error::Canceled`].
 ///
 /// Source: as [`detect_sift`](super::detect_sift), [`detect_orb`], [`good_features_to_track`].
 ///
@@ -70,40 +72,18 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 ///     image::Luma([if inside(u) && inside(v) { 0.9 } else { 0.1 }])
 /// });
 /// let options = FeatureOptions { kind: FeatureKind::Harris, ..FeatureOptions::default() };
-/// assert_eq!(detect_features(&square, &options)?.keypoints.len(), 4);
+/// assert_eq!(detect_features(&square, &options, &mut ())?.keypoints.len(), 4);
 /// # Ok(()) }
 /// ```
-pub fn detect_features(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
-    detect_features_with_progress(image, options, &mut |_| ControlFlow::Continue(()))
-}
-
-/// [`detect_features`] that reports how far it is and can be stopped, where that takes long: for SIFT.
-///
-/// * `progress`: hears how far the one stage, [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection),
-///   is, and says whether to go on; ORB, which is quick, tells nothing
-///
-/// # Errors
-/// As [`detect_features`], and [`Error::Canceled`] if `progress` said so.
-///
-/// Source: as [`detect_features`].
-///
-/// ```
-/// use epipole::feature::{FeatureOptions, detect_features_with_progress};
-/// use std::ops::ControlFlow;
-/// let image = epipole::imaging::GrayImage32::new(64, 64);
-/// let stop = &mut |_| ControlFlow::Break(());
-/// let stopped = detect_features_with_progress(&image, &FeatureOptions::default(), stop);
-/// assert_eq!(stopped, Err(epipole::Error::Canceled));
-/// ```
-pub fn detect_features_with_progress(
+pub fn detect_features(
     image: &GrayImage32,
     options: &FeatureOptions,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<AnyFeatures> {
     match options.kind {
         FeatureKind::Sift | FeatureKind::RootSift => {
             let sift = options.sift(image.width(), image.height());
-            let found = detect_sift_with_progress(image, &sift, progress)?;
+            let found = detect_sift(image, &sift, monitor)?;
             Ok(AnyFeatures {
                 keypoints: found.keypoints,
                 descriptors: AnyDescriptors::Vectors(found.descriptors),
@@ -154,7 +134,7 @@ fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> 
 /// use epipole::feature::{AnyDescriptors, Descriptors, MatchOptions, match_any_descriptors};
 /// let list = |values| Descriptors::from_bytes(2, values).map(AnyDescriptors::Vectors);
 /// let (first, second) = (list(vec![9, 9])?, list(vec![90, 90, 8, 9])?);
-/// let matches = match_any_descriptors(&first, &second, &MatchOptions::default())?;
+/// let matches = match_any_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
 /// assert_eq!((matches.len(), matches[0].index2), (1, 1));
 /// # Ok(()) }
 /// ```
@@ -162,12 +142,13 @@ pub fn match_any_descriptors(
     first: &AnyDescriptors,
     second: &AnyDescriptors,
     options: &MatchOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Match>> {
     match (first, second) {
         (AnyDescriptors::Vectors(a), AnyDescriptors::Vectors(b)) => {
-            match_descriptors(a, b, options)
+            match_descriptors(a, b, options, monitor)
         }
-        (AnyDescriptors::Bits(a), AnyDescriptors::Bits(b)) => match_hamming(a, b, options),
+        (AnyDescriptors::Bits(a), AnyDescriptors::Bits(b)) => match_hamming(a, b, options, monitor),
         _ => Err(Error::Degenerate {
             what: "the distance of two descriptors",
             why: "one is a list of numbers and the other one of bits",
@@ -206,8 +187,12 @@ mod tests {
     #[test]
     fn every_kind_obeys_number_and_strength() {
         let image = boxes();
-        let count =
-            |options: &FeatureOptions| detect_features(&image, options).unwrap().keypoints.len();
+        let count = |options: &FeatureOptions| {
+            detect_features(&image, options, &mut ())
+                .unwrap()
+                .keypoints
+                .len()
+        };
         for kind in KINDS {
             let with = |max_features, contrast_threshold| {
                 count(&FeatureOptions {
@@ -239,7 +224,7 @@ mod tests {
     #[test]
     fn every_option_counts_for_its_kind_and_for_no_other() {
         let image = busy();
-        let found = |options: FeatureOptions| detect_features(&image, &options).unwrap();
+        let found = |options: FeatureOptions| detect_features(&image, &options, &mut ()).unwrap();
         let of = FeatureOptions::default();
         let sift = [FeatureKind::Sift, FeatureKind::RootSift].as_slice();
         let (orb, harris) = (&[FeatureKind::Orb][..], &[FeatureKind::Harris][..]);
@@ -411,7 +396,7 @@ mod tests {
                 ..harris
             },
         ] {
-            let refused = detect_features(&boxes(), &options);
+            let refused = detect_features(&boxes(), &options, &mut ());
             assert!(
                 matches!(refused, Err(Error::OutOfRange { .. })),
                 "{options:?}"
@@ -427,17 +412,19 @@ mod tests {
                 kind,
                 ..FeatureOptions::default()
             };
-            detect_features(&image, &options).unwrap()
+            detect_features(&image, &options, &mut ()).unwrap()
         });
         for features in &found {
             let to = &features.descriptors;
-            let matches = match_any_descriptors(to, to, &MatchOptions::default()).unwrap();
+            let matches = match_any_descriptors(to, to, &MatchOptions::default(), &mut ()).unwrap();
             assert!(!matches.is_empty());
             assert!(matches.iter().all(|m| m.index1 == m.index2));
         }
         let [sift, _, orb, _] = &found;
         let options = MatchOptions::default();
-        assert!(match_any_descriptors(&sift.descriptors, &orb.descriptors, &options).is_err());
+        assert!(
+            match_any_descriptors(&sift.descriptors, &orb.descriptors, &options, &mut ()).is_err()
+        );
         assert!(sift.descriptors.as_vectors().is_some() && orb.descriptors.as_vectors().is_none());
     }
 

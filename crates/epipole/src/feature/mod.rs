@@ -24,14 +24,13 @@ mod window_tensor;
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
 pub use extract::{
-    AnyDescriptors, AnyFeatures, detect_features, detect_features_with_progress,
-    match_any_descriptors, photo_to_gray,
+    AnyDescriptors, AnyFeatures, detect_features, match_any_descriptors, photo_to_gray,
 };
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
 pub use matching::{
-    BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors,
-    match_descriptors_with_progress, match_hamming, nearest_few, nearest_two, nearest_two_hamming,
+    BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors, match_hamming,
+    nearest_few, nearest_two, nearest_two_hamming,
 };
 pub use nms::non_maximum_suppression;
 pub use options::{FeatureKind, FeatureOptions};
@@ -40,7 +39,7 @@ pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
 pub use sift::{
     Features, ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
-    detect_sift_with_progress, scale_space, sift_directions,
+    scale_space, sift_directions,
 };
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,

@@ -3,12 +3,12 @@
 
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{
-    DampedStep, Iteration, Linearization, LmOptions, LmReport, System, minimize,
+    DampedStep, Linearization, LmOptions, LmReport, System, minimize,
 };
 use super::loss::RobustLoss;
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{DMatrix, DVector};
-use std::ops::ControlFlow;
 
 /// A least-squares problem `½ Σ ρ(rᵢ²)` over a vector of parameters.
 pub trait DenseProblem {
@@ -131,11 +131,11 @@ impl System for DenseSystem<'_> {
 
 /// Minimizes a [`DenseProblem`] from `parameters`, in place.
 ///
-/// * `observer`: as in [`minimize`]
+/// * `monitor`: as in [`minimize`]
 ///
 /// # Errors
 /// [`Error::TooFew`] without residuals or parameters, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start has no finite cost or gradient.
+/// [`RobustLoss::check`] refuses, and as [`minimize`].
 ///
 /// Source: Moré 1978, "The Levenberg–Marquardt algorithm: implementation and theory", §3 (the QR
 /// form) and §6 (damping scaled by column norms; there it is the largest seen
@@ -144,7 +144,7 @@ pub fn minimize_dense(
     problem: &dyn DenseProblem,
     parameters: &mut DVector<f64>,
     options: &LmOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<LmReport> {
     let (m, n) = (problem.num_residuals(), parameters.len());
     if m == 0 || n == 0 {
@@ -166,13 +166,15 @@ pub fn minimize_dense(
         scale: DVector::zeros(n),
         delta: DVector::zeros(n),
     };
-    minimize(&mut system, parameters, options, observer)
+    minimize(&mut system, parameters, options, monitor)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optim::{Termination, check_jacobian};
+    use crate::optim::{Iteration, check_jacobian};
+    use crate::progress::{Stage, Status};
+    use std::ops::ControlFlow;
 
     /// y = a exp(b x) through exact data.
     struct Growth {
@@ -208,12 +210,8 @@ mod tests {
             loss: RobustLoss::Cauchy { width: 0.1 },
         };
         let mut p = DVector::from_vec(vec![1.0, 1.0]);
-        let mut costs = Vec::new();
-        let report = minimize_dense(&problem, &mut p, &LmOptions::default(), &mut |i| {
-            costs.push(i.cost);
-            ControlFlow::Continue(())
-        })
-        .unwrap();
+        let report = minimize_dense(&problem, &mut p, &LmOptions::default(), &mut ()).unwrap();
+        let costs: Vec<f64> = report.history.iter().map(|step| step.cost).collect();
         assert!(
             (p[0] - 2.0).abs() < 1e-2 && (p[1] - 0.5).abs() < 1e-2,
             "{p}"
@@ -224,22 +222,32 @@ mod tests {
     }
 
     #[test]
-    fn the_observer_can_cancel() {
+    fn canceling_leaves_the_best_so_far() {
         let problem = Growth {
             loss: RobustLoss::Trivial,
         };
-        let mut p = DVector::from_vec(vec![1.0, 1.0]);
-        let report = minimize_dense(&problem, &mut p, &LmOptions::default(), &mut |i| {
-            if i.index > 0 && i.accepted {
+        let options = LmOptions::default();
+        let start = DVector::from_vec(vec![1.0, 1.0]);
+        let mut p = start.clone();
+        let whole = minimize_dense(&problem, &mut p, &options, &mut ()).unwrap();
+        let accepted = |step: &Iteration| step.index > 0 && step.accepted;
+        let first = whole.history.iter().position(accepted).unwrap();
+        let (mut p, mut calls) = (start, 0);
+        let canceled = minimize_dense(&problem, &mut p, &options, &mut |status: Status| {
+            assert_eq!(status.stage, Stage::Refinement);
+            calls += 1;
+            if calls > first {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        })
-        .unwrap();
-        assert_eq!(report.termination, Termination::Canceled);
-        assert_eq!(report.accepted, 1);
-        assert!(report.final_cost < report.initial_cost);
+        });
+        assert_eq!(canceled, Err(Error::Canceled));
+        let mut residuals = DVector::zeros(12);
+        problem.residuals(&p, &mut residuals);
+        let cost = 0.5 * residuals.norm_squared();
+        assert!(cost < whole.initial_cost);
+        assert!((cost / whole.history[first].cost - 1.0).abs() < 1e-12);
     }
 
     #[test]
@@ -264,7 +272,6 @@ mod tests {
             loss: RobustLoss::Huber { width: 0.0 },
         };
         let mut p = DVector::from_vec(vec![1.0, 1.0]);
-        let mut go_on = |_: &Iteration| ControlFlow::Continue(());
-        assert!(minimize_dense(&problem, &mut p, &LmOptions::default(), &mut go_on).is_err());
+        assert!(minimize_dense(&problem, &mut p, &LmOptions::default(), &mut ()).is_err());
     }
 }

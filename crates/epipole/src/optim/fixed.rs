@@ -1,12 +1,11 @@
 //! Problems whose number of parameters is known when compiling: no allocation.
 
 use super::levenberg_marquardt::{
-    DampedStep, Iteration, Linearization, LmOptions, LmReport, System, minimize,
+    DampedStep, Linearization, LmOptions, LmReport, System, minimize_visiting,
 };
 use super::loss::RobustLoss;
 use crate::Result;
 use nalgebra::{SMatrix, SVector};
-use std::ops::ControlFlow;
 
 /// A least-squares problem with `P` degrees of freedom.
 ///
@@ -267,7 +266,7 @@ pub(super) fn solve_cholesky_in_place<const P: usize>(
 /// # Errors
 /// [`Error::NotFinite`](crate::Error::NotFinite) if the start has no finite cost or gradient.
 ///
-/// Source: as [`minimize`].
+/// Source: as [`minimize`](super::minimize).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -305,8 +304,7 @@ pub fn minimize_fixed<const P: usize, F: FixedProblem<P>>(
         normal: NormalEquations::new(),
         delta: SVector::zeros(),
     };
-    let mut observer = |_: &Iteration| ControlFlow::Continue(());
-    minimize(&mut system, parameters, options, &mut observer)
+    minimize_visiting(&mut system, parameters, options, &mut |_| Ok(()))
 }
 
 #[cfg(test)]

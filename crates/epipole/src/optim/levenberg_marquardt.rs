@@ -1,7 +1,7 @@
 //! The one Levenberg–Marquardt loop.
 
+use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
-use std::ops::ControlFlow;
 
 /// What the loop needs to know of a problem: linearize, solve, step, measure.
 ///
@@ -91,7 +91,7 @@ impl Default for LmOptions {
     }
 }
 
-/// One tried step, as the observer sees it.
+/// One tried step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
     /// Counted from 1; 0 is the start, before any step.
@@ -116,8 +116,6 @@ pub enum Termination {
     /// The permitted number of iterations is used up. Whether the gradient vanished with the last
     /// of them is not looked at.
     MaxIterations,
-    /// The observer asked to stop; the parameters are the best so far.
-    Canceled,
     /// No damping gave a usable step: the problem is singular, or not finite around here.
     Stuck,
 }
@@ -132,8 +130,8 @@ impl Termination {
     }
 }
 
-/// What happened.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Outcome of a minimization.
+#[derive(Debug, Clone, PartialEq)]
 pub struct LmReport {
     /// The cost of the starting parameters.
     pub initial_cost: f64,
@@ -145,6 +143,9 @@ pub struct LmReport {
     pub accepted: usize,
     /// Why the loop ended.
     pub termination: Termination,
+    /// The start and every step tried, in order; empty from
+    /// [`minimize_fixed`](super::minimize_fixed), which does not allocate.
+    pub history: Vec<Iteration>,
 }
 
 /// Beyond this damping a step no longer moves anything.
@@ -156,11 +157,11 @@ const MIN_DAMPING: f64 = 1e-20;
 /// Each iteration solves `(JᵀJ + λ D) δ = −Jᵀr` and keeps `parameters ⊞ δ` if the true cost
 /// decreases. The damping λ falls when the quadratic model predicts well and rises otherwise.
 ///
-/// * `observer`: called once before the first step and after every step; answer
-///   [`ControlFlow::Break`] to cancel
+/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::Refinement`]
 ///
 /// # Errors
-/// [`Error::NotFinite`] if the cost or gradient at the start is not finite.
+/// [`Error::NotFinite`] if the cost or gradient at the start is not finite, [`Error::Canceled`] if the monitor
+/// cancels; `parameters` are then the best found so far.
 ///
 /// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
 /// in Marquardt's method", §3; steps that may raise the cost are the
@@ -169,7 +170,25 @@ pub fn minimize<S: System>(
     system: &mut S,
     parameters: &mut S::Parameters,
     options: &LmOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
+) -> Result<LmReport> {
+    let most = options.max_iterations.max(1) as f32;
+    let mut history = Vec::new();
+    let mut visit = |iteration: &Iteration| {
+        history.push(*iteration);
+        let share = (iteration.index as f32 / most).min(1.0);
+        progress::report(monitor, Stage::Refinement, share)
+    };
+    let report = minimize_visiting(system, parameters, options, &mut visit)?;
+    Ok(LmReport { history, ..report })
+}
+
+/// The loop of [`minimize`]; an error of `visit` ends it.
+pub(super) fn minimize_visiting<S: System>(
+    system: &mut S,
+    parameters: &mut S::Parameters,
+    options: &LmOptions,
+    visit: &mut dyn FnMut(&Iteration) -> Result<()>,
 ) -> Result<LmReport> {
     let mut here = system.linearize(parameters);
     if !here.cost.is_finite() || !here.gradient_max.is_finite() {
@@ -183,7 +202,9 @@ pub fn minimize<S: System>(
         iterations: 0,
         accepted: 0,
         termination: Termination::MaxIterations,
+        history: Vec::new(),
     };
+    let mut outcome = Ok(());
     let mut damping = options.initial_damping.clamp(MIN_DAMPING, MAX_DAMPING);
     let mut raise = 2.0;
     let mut candidate = parameters.clone();
@@ -196,10 +217,7 @@ pub fn minimize<S: System>(
         damping,
         accepted: true,
     };
-    if observer(&start).is_break() {
-        report.termination = Termination::Canceled;
-        return Ok(report);
-    }
+    visit(&start)?;
     if here.gradient_max <= options.gradient_tolerance {
         report.termination = Termination::SmallGradient;
         return Ok(report);
@@ -278,8 +296,8 @@ pub fn minimize<S: System>(
             damping: used_damping,
             accepted,
         };
-        if observer(&iteration).is_break() {
-            report.termination = Termination::Canceled;
+        outcome = visit(&iteration);
+        if outcome.is_err() {
             break;
         }
         if let Some(termination) = converged {
@@ -294,5 +312,5 @@ pub fn minimize<S: System>(
     if let Some(place) = best {
         *parameters = place;
     }
-    Ok(report)
+    outcome.map(|()| report)
 }

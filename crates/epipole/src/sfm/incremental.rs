@@ -1,252 +1,71 @@
 //! Incremental structure from motion: start from two photographs, add one after the other.
 
 use super::builder::Builder;
-use super::bundle::PositionPrior;
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check};
 use super::reconstruction::{Reconstruction, SfmImage};
-use super::shares::{Begin, Shares};
-use super::tracks::{PairMatches, build_tracks, track_of_keypoints};
-use super::two_view_start::{VerifiedPair, pair_ransac, verify_pair};
-use super::views::Views;
-use crate::camera::{Intrinsics, Lens};
-use crate::progress::Progress;
-use crate::robust::RansacOptions;
-use crate::two_view::PHOTO_MAX_ERROR_PX;
-use crate::{Error, Result};
-use std::ops::ControlFlow;
+use super::tracks::{PairMatches, build_tracks};
+use super::two_view_start::{VerifiedPair, verify_pairs};
+use crate::Result;
+use crate::camera::Intrinsics;
+use crate::progress::{Monitor, Part, Stage, report};
 
-/// What [`reconstruct`] needs: photographs, reduced to keypoints, and matches between them.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SfmInput {
-    /// The photographs.
-    pub images: Vec<SfmImage>,
-    /// The intrinsics of each photograph, or one for all.
-    pub intrinsics: Vec<Intrinsics>,
-    /// Matches between photographs, wrong ones among them.
-    pub pairs: Vec<PairMatches>,
-}
+/// Share of the work of [`reconstruct`] after which all pairs are tested, judged by some dozens of photographs.
+const VERIFIED: f32 = 0.25;
 
-/// How to reconstruct.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SfmOptions {
-    /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
-    /// registered. Its threshold is 2 pixels, and its seed is not looked at.
-    pub ransac: RansacOptions,
-    /// Largest reprojection error when an image is registered, pixels. 6.
-    pub max_registration_error_px: f64,
-    /// Largest reprojection error of an observation that is kept, pixels. 4.
-    pub max_reprojection_error_px: f64,
-    /// Fewest matches that connect two images, and fewest points that register one. 15.
-    pub min_num_inliers: usize,
-    /// Smallest angle under which a point must be seen, degrees. 1.5.
-    pub min_angle_deg: f64,
-    /// Median angle that the two first images should have, degrees; halved, again and again, if
-    /// no pair has it. 16.
-    pub min_start_angle_deg: f64,
-    /// Fewest images that must see a point which is kept in the end. 2.
-    pub min_track_length: usize,
-    /// Refine one factor for the focal lengths of each lens. False.
-    pub refine_focal: bool,
-    /// Refine where the principal points are, one shift for each lens. False: turning a camera looks much the same.
-    pub refine_principal_point: bool,
-    /// Refine the radial terms of each lens, as
-    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them. False.
-    pub refine_distortion: bool,
-    /// Refine the tangential terms p1 and p2 of each lens that has them. False.
-    pub refine_tangential: bool,
-    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
-    pub lenses: Vec<Lens>,
-    /// Equal seeds give equal results. 0.
-    pub seed: u64,
-}
+/// Rounds of refining everything at the end of a component.
+const FINAL_ROUNDS: usize = 2;
 
-impl Default for SfmOptions {
-    fn default() -> Self {
-        Self {
-            ransac: RansacOptions::default().within(PHOTO_MAX_ERROR_PX),
-            max_registration_error_px: 6.0,
-            max_reprojection_error_px: 4.0,
-            min_num_inliers: 15,
-            min_angle_deg: 1.5,
-            min_start_angle_deg: 16.0,
-            min_track_length: 2,
-            refine_focal: false,
-            refine_principal_point: false,
-            refine_distortion: false,
-            refine_tangential: false,
-            lenses: Vec::new(),
-            seed: 0,
-        }
-    }
-}
-
-/// One step of structure from motion.
-#[derive(Debug, Clone, PartialEq)]
+/// One step of structure from motion or of odometry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum SfmStep {
-    /// Features of a photograph were found.
-    Detected {
-        /// Photographs done.
-        done: usize,
-        /// Photographs in all.
-        total: usize,
-    },
-    /// Features of a pair of photographs were matched.
-    Matched {
-        /// Pairs done.
-        done: usize,
-        /// Pairs in all.
-        total: usize,
-    },
-    /// A pair of images was tested.
-    Verified {
-        /// Pairs done.
-        done: usize,
-        /// Pairs in all.
-        total: usize,
-    },
-    /// A reconstruction was started from two images.
+    /// Start of a component from two images.
     Started {
         /// The images.
         images: [usize; 2],
-        /// Its points.
+        /// Number of points.
         num_points: usize,
     },
-    /// An image was added.
+    /// Registration of an image.
     Registered {
         /// The image.
         image: usize,
-        /// Images registered so far, in this component.
+        /// Number of registered images, in this component.
         num_registered: usize,
-        /// Points so far, in this component.
+        /// Number of points, in this component.
         num_points: usize,
+        /// `½ Σ ρ(‖r‖²)` of the refinement that followed, square pixels; `None` if it failed.
+        cost: Option<f64>,
     },
-    /// A step of refining cameras and points together was taken, one of several.
-    Refined {
-        /// `½ Σ ρ(‖r‖²)` of what is refined, square pixels.
-        cost: f64,
-    },
-    /// Cameras and points were refined together.
+    /// Refinement of all cameras and points of a component.
     Adjusted {
         /// `½ Σ ρ(‖r‖²)`, square pixels.
         cost: f64,
     },
 }
 
-/// What structure from motion found.
+impl SfmStep {
+    /// Cost of the refinement of this step, square pixels.
+    pub fn cost(&self) -> Option<f64> {
+        match *self {
+            Self::Started { .. } => None,
+            Self::Registered { cost, .. } => cost,
+            Self::Adjusted { cost } => Some(cost),
+        }
+    }
+}
+
+/// Result of structure from motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SfmResult {
     /// Reconstructions that could not be connected, largest first; each has its own frame.
     pub components: Vec<Reconstruction>,
     /// Images that are in none.
     pub unregistered: Vec<usize>,
-    /// Whether the caller ended the work early; what is there is valid.
-    pub canceled: bool,
-}
-
-/// Hears of every step and says whether to go on.
-pub type SfmObserver<'a> = &'a mut dyn FnMut(&SfmStep) -> ControlFlow<()>;
-
-/// Sees cameras and points while they become more, and says whether to go on.
-pub type SfmWatcher<'a> = &'a mut dyn FnMut(Reconstruction) -> ControlFlow<()>;
-
-/// Asks the observer, and remembers that it wanted to stop.
-pub(super) struct Reporter<'a> {
-    pub(super) observer: SfmObserver<'a>,
-    pub(super) watcher: Option<SfmWatcher<'a>>,
-    pub(super) canceled: bool,
-}
-
-impl Reporter<'_> {
-    /// Whether to go on.
-    pub(super) fn tell(&mut self, step: &SfmStep) -> bool {
-        if !self.canceled && (self.observer)(step).is_break() {
-            self.canceled = true;
-        }
-        !self.canceled
-    }
-
-    /// Shows what there is so far, which is put together only if somebody watches.
-    pub(super) fn show(&mut self, so_far: impl FnOnce() -> Reconstruction) {
-        if let Some(watcher) = &mut self.watcher
-            && !self.canceled
-            && watcher(so_far()).is_break()
-        {
-            self.canceled = true;
-        }
-    }
-}
-
-/// What is asked for of photographs, as an error of too few says.
-pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
-
-/// * `what`: what is asked for, for the error of too few
-pub(super) fn check(
-    what: &'static str,
-    input: &SfmInput,
-    options: &SfmOptions,
-) -> Result<Vec<Intrinsics>> {
-    let count = input.images.len();
-    if count < 2 {
-        return Err(Error::TooFew {
-            what,
-            needed: 2,
-            got: count,
-        });
-    }
-    if input.intrinsics.len() != 1 && input.intrinsics.len() != count {
-        return Err(Error::SizeMismatch {
-            what: "the lists of photographs and of their intrinsics",
-            first: count,
-            second: input.intrinsics.len(),
-        });
-    }
-    for image in &input.images {
-        if !image
-            .keypoints
-            .iter()
-            .all(|p| p.x.is_finite() && p.y.is_finite())
-        {
-            return Err(Error::NotFinite {
-                what: "a keypoint's pixel",
-            });
-        }
-        if !image.colors.is_empty() && image.colors.len() != image.keypoints.len() {
-            return Err(Error::SizeMismatch {
-                what: "the lists of keypoints and of their colors",
-                first: image.keypoints.len(),
-                second: image.colors.len(),
-            });
-        }
-    }
-    for (what, value) in [
-        (
-            "the largest registration error",
-            options.max_registration_error_px,
-        ),
-        (
-            "the largest reprojection error",
-            options.max_reprojection_error_px,
-        ),
-        ("the smallest angle of a point", options.min_angle_deg),
-        ("the smallest angle of a start", options.min_start_angle_deg),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::OutOfRange {
-                what,
-                requirement: "greater than 0 and finite",
-                value,
-            });
-        }
-    }
-    pair_ransac(options).check()?;
-    options.lenses.iter().try_for_each(Lens::check)?;
-    (input.images.iter())
-        .filter_map(|image| image.position.as_ref())
-        .try_for_each(PositionPrior::check)?;
-    Ok(if input.intrinsics.len() == 1 {
-        vec![input.intrinsics[0]; count]
-    } else {
-        input.intrinsics.clone()
-    })
+    /// Steps taken, in order.
+    pub steps: Vec<SfmStep>,
+    /// Whether every image was tried; false for [`IncrementalReconstruction::finish`] before the last step.
+    pub is_complete: bool,
 }
 
 /// Cameras and points from matches between photographs.
@@ -260,98 +79,42 @@ pub(super) fn check(
 /// Where [`SfmImage::position`] is known for three images of a component that are not on one line, it is moved there
 /// in the end, and refined once more with these positions; some may be wrong.
 ///
-/// * `observer`: hears of every step; answer [`ControlFlow::Break`] to stop with what is there
+/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`] and
+///   [`Stage::BundleAdjustment`]
 ///
 /// The result can be empty: then no pair of photographs had enough matches in common.
+/// [`IncrementalReconstruction`] does the same step by step, and keeps what there is when it is canceled.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two photographs, [`Error::SizeMismatch`] unless there is one
-/// set of intrinsics or one a photograph, [`Error::OutOfRange`] for options out of range or
-/// matches that refer to what is not there, [`Error::NotFinite`] for NaN and infinities, in a lens as well.
+/// [`TooFew`](crate::Error::TooFew) for fewer than two photographs, [`SizeMismatch`](crate::Error::SizeMismatch)
+/// unless there is one set of intrinsics or one a photograph, [`OutOfRange`](crate::Error::OutOfRange) for options
+/// out of range or matches that refer to what is not there, [`NotFinite`](crate::Error::NotFinite) for NaN and
+/// infinities, in a lens as well, [`Canceled`](crate::Error::Canceled).
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited".
-pub fn reconstruct(
-    input: &SfmInput,
-    options: &SfmOptions,
-    observer: SfmObserver<'_>,
-) -> Result<SfmResult> {
-    let reporter = Reporter {
-        observer,
-        watcher: None,
-        canceled: false,
-    };
-    reconstruct_telling(input, options, reporter)
-}
-
-/// As [`reconstruct`], with the same result, telling `progress` how far it is.
-///
-/// Its stages are [`Stage::PairVerification`](crate::progress::Stage::PairVerification), then by turns
-/// [`Stage::Registration`](crate::progress::Stage::Registration) and
-/// [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment). Whoever breaks gets what there is so far,
-/// as [`SfmResult::canceled`] says.
-///
-/// # Errors
-/// As [`reconstruct`].
-///
-/// Source: as [`reconstruct`].
 ///
 /// ```
-/// use epipole::sfm::{SfmInput, SfmOptions, reconstruct_with_progress};
+/// use epipole::sfm::{SfmInput, SfmOptions, reconstruct};
 /// use std::ops::ControlFlow;
 /// let mut show = |status: epipole::progress::Status| {
 ///     println!("{}, {:.0} %", status.stage.words(), 100.0 * status.share);
 ///     ControlFlow::Continue(())
 /// };
 /// let nothing = SfmInput::default();
-/// assert!(reconstruct_with_progress(&nothing, &SfmOptions::default(), &mut show).is_err());
+/// assert!(reconstruct(&nothing, &SfmOptions::default(), &mut show).is_err());
 /// ```
-pub fn reconstruct_with_progress(
+pub fn reconstruct(
     input: &SfmInput,
     options: &SfmOptions,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<SfmResult> {
-    let mut shares = Shares::new(progress, Begin::Matches, input.images.len());
-    reconstruct(input, options, &mut |step| shares.tell(step))
+    let mut run = IncrementalReconstruction::new(input, options, monitor)?;
+    while run.step(monitor)?.is_some() {}
+    Ok(run.finish())
 }
 
-/// As [`reconstruct`], with the same result, showing `watcher` what there is after the first two images and after
-/// each one that was added. Each component starts anew.
-///
-/// # Errors
-/// As [`reconstruct`].
-///
-/// Source: as [`reconstruct`].
-pub fn reconstruct_with(
-    input: &SfmInput,
-    options: &SfmOptions,
-    observer: SfmObserver<'_>,
-    watcher: SfmWatcher<'_>,
-) -> Result<SfmResult> {
-    let reporter = Reporter {
-        observer,
-        watcher: Some(watcher),
-        canceled: false,
-    };
-    reconstruct_telling(input, options, reporter)
-}
-
-fn reconstruct_telling(
-    input: &SfmInput,
-    options: &SfmOptions,
-    mut reporter: Reporter<'_>,
-) -> Result<SfmResult> {
-    let intrinsics = check(OF_PHOTOGRAPHS, input, options)?;
-    let images = &input.images;
-    let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-    // Bad indices are found before the work begins.
-    build_tracks(&counts, &input.pairs)?;
-    let views = Views::new(images, &intrinsics, &lenses(images, options));
-    let verified = verify(input, options, &intrinsics, &views, &mut reporter);
-    grow(images, &intrinsics, &views, &verified, options, reporter)
-}
-
-/// As [`reconstruct`], from pairs that [`verify_matches`](super::verify_matches) has tested already, wherever and in
-/// whatever order.
+/// Cameras and points from pairs that [`verify_matches`](super::verify_matches) has tested already, wherever and in
+/// whatever order: the rest of [`reconstruct`].
 ///
 /// * `images`, `intrinsics`: the photographs, and the intrinsics of each, or one for all
 ///
@@ -364,117 +127,262 @@ pub fn reconstruct_verified(
     intrinsics: &[Intrinsics],
     verified: &[VerifiedPair],
     options: &SfmOptions,
-    observer: SfmObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<SfmResult> {
-    let input = SfmInput {
-        images: images.to_vec(),
-        intrinsics: intrinsics.to_vec(),
-        pairs: Vec::new(),
-    };
-    let intrinsics = check(OF_PHOTOGRAPHS, &input, options)?;
-    let views = Views::new(images, &intrinsics, &lenses(images, options));
-    let reporter = Reporter {
-        observer,
-        watcher: None,
-        canceled: false,
-    };
-    grow(images, &intrinsics, &views, verified, options, reporter)
+    let intrinsics = check(OF_PHOTOGRAPHS, images, intrinsics, options)?;
+    let builder = Builder::new(images, intrinsics, options);
+    let mut run = IncrementalReconstruction::grown_from(builder, verified.to_vec(), 0.0)?;
+    while run.step(monitor)?.is_some() {}
+    Ok(run.finish())
 }
 
-/// Of each image, as it is at the start.
-pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
-    let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
-    images.iter().map(of).collect()
+/// [`reconstruct`], step by step.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::sfm::{IncrementalReconstruction, SfmImage, SfmInput, SfmOptions};
+/// let input = SfmInput {
+///     images: vec![SfmImage::default(); 2],
+///     intrinsics: vec![Intrinsics::centered(500.0, 640, 480)?],
+///     pairs: vec![],
+/// };
+/// let mut run = IncrementalReconstruction::new(&input, &SfmOptions::default(), &mut ())?;
+/// while let Some(step) = run.step(&mut ())? {
+///     println!("{step:?}: {:?} points", run.current().map(|found| found.points.len()));
+/// }
+/// assert_eq!(run.finish().unregistered, [0, 1]);
+/// # Ok(()) }
+/// ```
+pub struct IncrementalReconstruction {
+    builder: Builder,
+    verified: Vec<VerifiedPair>,
+    phase: Phase,
+    components: Vec<Reconstruction>,
+    steps: Vec<SfmStep>,
+    /// Share of the work before the first step.
+    begin: f32,
+    share: f32,
 }
 
-fn grow(
-    images: &[SfmImage],
-    intrinsics: &[Intrinsics],
-    views: &Views,
-    verified: &[VerifiedPair],
-    options: &SfmOptions,
-    mut reporter: Reporter<'_>,
-) -> Result<SfmResult> {
-    let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-    let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
-    let tracks = build_tracks(&counts, &surviving)?;
-    let track_of = track_of_keypoints(&counts, &tracks);
-    let mut result = SfmResult::default();
-    let mut taken = vec![false; images.len()];
-    while !reporter.canceled {
-        let mut builder = Builder {
-            images,
-            options,
-            views: views.clone(),
-            intrinsics: intrinsics.to_vec(),
-            lenses: lenses(images, options),
-            tracks: &tracks,
-            track_of: &track_of,
-            taken: taken.clone(),
-            rig: None,
-            cameras: vec![None; images.len()],
-            points: vec![None; tracks.len()],
-            is_placed: false,
+/// The next thing to do.
+enum Phase {
+    Start,
+    Grow {
+        first_two: [usize; 2],
+        /// Points that an image saw when it could not be registered: it is tried again with more.
+        failed_with: Vec<usize>,
+        /// Number of images when everything was refined last.
+        adjusted_at: usize,
+    },
+    Refine {
+        first_two: [usize; 2],
+        round: usize,
+    },
+    Done,
+}
+
+impl IncrementalReconstruction {
+    /// Tests the pairs of `input`.
+    ///
+    /// * `monitor`: the one stage is [`Stage::PairVerification`]; shares are of the work with all steps
+    ///
+    /// # Errors
+    /// As [`reconstruct`].
+    pub fn new(input: &SfmInput, options: &SfmOptions, monitor: &mut dyn Monitor) -> Result<Self> {
+        let images = &input.images;
+        let intrinsics = check(OF_PHOTOGRAPHS, images, &input.intrinsics, options)?;
+        let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
+        // Bad indices are found before the work begins.
+        build_tracks(&counts, &input.pairs)?;
+        let builder = Builder::new(images, intrinsics, options);
+        let mut part = Part::new(monitor, 0.0, VERIFIED);
+        let (views, intrinsics) = (&builder.views, &builder.intrinsics);
+        let verified = verify_pairs(&input.pairs, views, intrinsics, options, &mut part)?;
+        Self::grown_from(builder, verified, VERIFIED)
+    }
+
+    fn grown_from(mut builder: Builder, verified: Vec<VerifiedPair>, begin: f32) -> Result<Self> {
+        let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
+        builder.join_tracks(&surviving)?;
+        Ok(Self {
+            builder,
+            verified,
+            phase: Phase::Start,
+            components: Vec::new(),
+            steps: Vec::new(),
+            begin,
+            share: begin,
+        })
+    }
+
+    /// Takes the next step; `None` after the last.
+    ///
+    /// * `monitor`: the stages are [`Stage::Registration`] and [`Stage::BundleAdjustment`]
+    ///
+    /// # Errors
+    /// [`Canceled`](crate::Error::Canceled); what there is so far is valid, and the next call goes on from there.
+    pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
+        loop {
+            let taken = match self.phase {
+                Phase::Start => self.start(monitor)?,
+                Phase::Grow { .. } => self.add_image(monitor)?,
+                Phase::Refine { .. } => self.refine(monitor)?,
+                Phase::Done => return Ok(None),
+            };
+            let Some(step) = taken else { continue };
+            self.steps.push(step);
+            let stage = match step {
+                SfmStep::Adjusted { .. } => Stage::BundleAdjustment,
+                _ => Stage::Registration,
+            };
+            // A further component begins anew with two images; the share does not.
+            let num_registered = self.builder.num_registered();
+            let whole = self.builder.images.len().max(num_registered);
+            let grown = num_registered as f32 / whole as f32;
+            self.share = (self.begin + (1.0 - self.begin) * grown).clamp(self.share, 1.0);
+            report(monitor, stage, self.share)?;
+            return Ok(Some(step));
+        }
+    }
+
+    /// The component that grows now; `None` between two components.
+    pub fn current(&self) -> Option<Reconstruction> {
+        (self.builder.num_registered() > 0).then(|| self.builder.so_far())
+    }
+
+    /// All components, the one that grows now included.
+    pub fn finish(mut self) -> SfmResult {
+        self.components.extend(self.current());
+        (self.components).sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
+        let is_registered = |image: &usize| {
+            let mut components = self.components.iter();
+            components.any(|component| component.cameras[*image].is_some())
         };
-        let Some(first_two) = builder.start(verified, &mut reporter) else {
-            break;
+        let unregistered = (0..self.builder.images.len())
+            .filter(|image| !is_registered(image))
+            .collect();
+        SfmResult {
+            unregistered,
+            components: self.components,
+            steps: self.steps,
+            is_complete: matches!(self.phase, Phase::Done),
+        }
+    }
+
+    fn start(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
+        let mut part = Part::new(monitor, self.share, self.share);
+        let Some(images) = self.builder.start(&self.verified, &mut part)? else {
+            self.phase = Phase::Done;
+            return Ok(None);
         };
-        reporter.show(|| builder.so_far());
-        builder.grow(&mut reporter);
-        let reconstruction = builder.finish();
-        if reconstruction.num_registered() == 0 {
+        self.phase = Phase::Grow {
+            first_two: images,
+            failed_with: vec![0; self.builder.images.len()],
+            adjusted_at: self.builder.num_registered(),
+        };
+        let num_points = self.builder.num_points();
+        Ok(Some(SfmStep::Started { images, num_points }))
+    }
+
+    /// Adds the next image that can be registered.
+    fn add_image(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
+        let Phase::Grow {
+            first_two,
+            failed_with,
+            adjusted_at,
+        } = &mut self.phase
+        else {
+            return Ok(None);
+        };
+        let builder = &mut self.builder;
+        let Some(image) = builder.next_image(failed_with) else {
+            self.phase = Phase::Refine {
+                first_two: *first_two,
+                round: 0,
+            };
+            return Ok(None);
+        };
+        report(monitor, Stage::Registration, self.share)?;
+        if builder.register(image).is_none() {
+            failed_with[image] = builder.visible(image).len();
+            return Ok(None);
+        }
+        builder.triangulate_of(Some(image));
+        let num_registered = builder.num_registered();
+        let mut part = Part::new(monitor, self.share, self.share);
+        // Everything is refined while it is small, later whenever it has grown by a tenth.
+        let everything = num_registered <= 12 || num_registered * 10 >= *adjusted_at * 11;
+        let cost = if everything {
+            *adjusted_at = num_registered;
+            builder.adjust(None, 15, num_registered >= 4, &mut part)
+        } else {
+            let near = builder.neighborhood(image, 6);
+            builder.adjust(Some(&near), 15, false, &mut part)
+        };
+        builder.filter();
+        if everything {
+            builder.complete();
+            builder.triangulate();
+        }
+        Ok(Some(SfmStep::Registered {
+            image,
+            num_registered: builder.num_registered(),
+            num_points: builder.num_points(),
+            cost: cost?,
+        }))
+    }
+
+    /// Refines a component that no image can be added to; the last round places it in the world.
+    fn refine(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
+        let Phase::Refine { first_two, round } = self.phase else {
+            return Ok(None);
+        };
+        let builder = &mut self.builder;
+        let mut part = Part::new(monitor, self.share, self.share);
+        let mut cost = None;
+        if round < FINAL_ROUNDS {
+            builder.complete();
+            builder.triangulate();
+            builder.drop_short_tracks();
+            let adjusted = builder.adjust(None, 50, true, &mut part);
+            builder.filter();
+            builder.drop_short_tracks();
+            cost = adjusted?;
+        } else if builder.place_in_world() {
+            let adjusted = builder.adjust(None, 50, true, &mut part);
+            if !matches!(adjusted, Ok(None)) {
+                builder.filter();
+                builder.drop_short_tracks();
+            }
+            cost = adjusted?;
+        }
+        if round < FINAL_ROUNDS {
+            self.phase = Phase::Refine {
+                first_two,
+                round: round + 1,
+            };
+        } else {
+            self.end_component(first_two);
+        }
+        Ok(cost.map(|cost| SfmStep::Adjusted { cost }))
+    }
+
+    fn end_component(&mut self, first_two: [usize; 2]) {
+        if let Some(component) = self.current() {
+            let taken = &mut self.builder.taken;
+            for (taken, camera) in taken.iter_mut().zip(&component.cameras) {
+                *taken |= camera.is_some();
+            }
+            self.components.push(component);
+        } else {
             // All fell away again, as where no point is seen by as many images as are asked for. The same two would
             // end in the same way.
             for image in first_two {
-                taken[image] = true;
+                self.builder.taken[image] = true;
             }
-            continue;
         }
-        for (image, camera) in reconstruction.cameras.iter().enumerate() {
-            taken[image] |= camera.is_some();
-        }
-        result.components.push(reconstruction);
+        self.builder.clear();
+        self.phase = Phase::Start;
     }
-    result
-        .components
-        .sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
-    let is_registered = |image: &usize| {
-        let mut components = result.components.iter();
-        components.any(|component| component.cameras[*image].is_some())
-    };
-    result.unregistered = (0..images.len())
-        .filter(|image| !is_registered(image))
-        .collect();
-    result.canceled = reporter.canceled;
-    Ok(result)
-}
-
-pub(super) fn verify(
-    input: &SfmInput,
-    options: &SfmOptions,
-    intrinsics: &[Intrinsics],
-    views: &Views,
-    reporter: &mut Reporter<'_>,
-) -> Vec<VerifiedPair> {
-    let total = input.pairs.len();
-    let mut verified = Vec::new();
-    // In groups, so that the observer hears of progress between them.
-    for (group, pairs) in input.pairs.chunks(8).enumerate() {
-        let mut found: Vec<Option<VerifiedPair>> = vec![None; pairs.len()];
-        crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
-            found[0] = verify_pair(
-                &pairs[n],
-                views,
-                intrinsics,
-                &pair_ransac(options),
-                options.min_num_inliers,
-            );
-        });
-        verified.extend(found.into_iter().flatten());
-        let done = (group * 8 + pairs.len()).min(total);
-        if !reporter.tell(&SfmStep::Verified { done, total }) {
-            break;
-        }
-    }
-    verified
 }

@@ -41,7 +41,7 @@ impl Keyframes {
     /// Whether a frame with a camera shows enough that is new: it is far from the nearest
     /// keyframe, judged by the median angle between their rays to common points, or much of what
     /// that one sees is out of sight.
-    pub(super) fn is_due(&self, builder: &Builder<'_>, frame: usize, min_angle_rad: f64) -> bool {
+    pub(super) fn is_due(&self, builder: &Builder, frame: usize, min_angle_rad: f64) -> bool {
         let nearest = self.frames.iter().min_by_key(|key| key.abs_diff(frame));
         let Some(&key) = nearest else {
             return true;

@@ -3,10 +3,10 @@
 use super::alignment::{AlignmentKind, align_points};
 use super::pose_graph::{Edge, Graph, GraphPose, PoseGraphReport};
 use crate::camera::RigidTransform;
-use crate::optim::{Iteration, LmOptions, RobustLoss};
+use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Point3, SMatrix, Similarity3};
-use std::ops::ControlFlow;
 
 /// A frame that shows again what an earlier one showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +165,7 @@ pub enum LoopMotion {
 /// * `motion`: what may change; [`LoopMotion::Rigid`] leaves every scale at 1 and does not read that
 ///   of the loops
 /// * `loss`: robust to wrong loops; its width is in standard deviations of a step
-/// * `observer`: as in [`Graph::optimize`]
+/// * `monitor`: as in [`Graph::optimize`]
 ///
 /// The first frame stays. Translations count relative to the mean length of a step.
 ///
@@ -180,7 +180,6 @@ pub enum LoopMotion {
 /// use epipole::optim::RobustLoss;
 /// use epipole::sfm::{LoopClosure, LoopMotion, close_loops};
 /// use nalgebra::{Similarity3, Vector3};
-/// use std::ops::ControlFlow;
 /// // Two steps straight ahead, of which the second seems twice as long as the first.
 /// let path = [0.0, 1.0, 3.0].map(|z| RigidTransform::translation(0.0, 0.0, z));
 /// // The last frame is really 2 ahead of the first, and what it sees comes out 4 times too large.
@@ -191,8 +190,7 @@ pub enum LoopMotion {
 ///     weight: 1e6,
 /// };
 /// let close = |motion| {
-///     let mut go_on = |_: &_| ControlFlow::Continue(());
-///     close_loops(&path, &[closure], motion, RobustLoss::Trivial, &mut go_on)
+///     close_loops(&path, &[closure], motion, RobustLoss::Trivial, &mut ())
 /// };
 /// // Rigid motions shorten both steps by the same length, similarities halve the scale twice.
 /// for (motion, z, scale) in [
@@ -212,7 +210,7 @@ pub fn close_loops(
     loops: &[LoopClosure],
     motion: LoopMotion,
     loss: RobustLoss,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<ClosedPath> {
     for (what, needed, got) in [
         (
@@ -239,7 +237,7 @@ pub fn close_loops(
     match motion {
         LoopMotion::Rigid => {
             let mut graph = graph_of_path(world_from_cam, loops, |pose| pose.isometry);
-            let report = optimize(&mut graph, loss, observer)?;
+            let report = optimize(&mut graph, loss, monitor)?;
             Ok(ClosedPath {
                 scale: vec![1.0; graph.vertices.len()],
                 world_from_cam: graph.vertices,
@@ -248,7 +246,7 @@ pub fn close_loops(
         }
         LoopMotion::Similarity => {
             let mut graph = graph_of_path(world_from_cam, loops, |pose| pose);
-            let report = optimize(&mut graph, loss, observer)?;
+            let report = optimize(&mut graph, loss, monitor)?;
             let (world_from_cam, scale) = (graph.vertices.iter())
                 .map(|vertex| (vertex.isometry, vertex.scaling()))
                 .unzip();
@@ -306,13 +304,13 @@ fn graph_of_path<T: GraphPose<D>, const D: usize>(
 fn optimize<T: GraphPose<D>, const D: usize>(
     graph: &mut Graph<T, D>,
     loss: RobustLoss,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<PoseGraphReport> {
     let options = LmOptions {
         max_iterations: 100,
         ..LmOptions::default()
     };
-    graph.optimize(&options, loss, observer)
+    graph.optimize(&options, loss, monitor)
 }
 
 #[cfg(test)]
@@ -320,10 +318,6 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
     use nalgebra::Vector3;
-
-    fn go_on(_: &Iteration) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
 
     /// A round trip whose scale is multiplied by `growth` in each step and whose heading drifts.
     fn drifted(count: usize, growth: f64) -> (Vec<RigidTransform>, Vec<RigidTransform>) {
@@ -363,7 +357,7 @@ mod tests {
             from_from_to: Similarity3::from_isometry(truth[last], 1.0 / drift),
             weight: 1e4,
         };
-        close_loops(path, &[closure], motion, RobustLoss::Trivial, &mut go_on).unwrap()
+        close_loops(path, &[closure], motion, RobustLoss::Trivial, &mut ()).unwrap()
     }
 
     #[test]
@@ -456,7 +450,7 @@ mod tests {
         };
         let attempt = |loops: &[LoopClosure]| {
             let motion = LoopMotion::Similarity;
-            close_loops(&truth, loops, motion, RobustLoss::Trivial, &mut go_on)
+            close_loops(&truth, loops, motion, RobustLoss::Trivial, &mut ())
         };
         assert!(attempt(&[good]).is_ok());
         assert!(matches!(attempt(&[]), Err(Error::TooFew { .. })));

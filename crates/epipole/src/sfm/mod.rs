@@ -24,10 +24,10 @@ mod incremental;
 mod keyframes;
 mod loop_closure;
 mod odometry;
+mod options;
 mod photos;
 mod pose_graph;
 mod reconstruction;
-mod shares;
 mod tokens;
 mod tracks;
 mod triangulate_track;
@@ -42,26 +42,24 @@ pub use alignment::{
     AlignmentKind, ErrorStatistics, RelativePoseError, absolute_trajectory_error, align_points,
     relative_pose_error,
 };
-pub use bal::{BalCamera, BalProblem, adjust_bal, adjust_bal_with_progress};
+pub use bal::{BalCamera, BalProblem, adjust_bal};
 pub use bundle::{
     Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
-    adjust_bundle_with_progress,
 };
 pub use export::ColmapModel;
 pub use incremental::{
-    SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, SfmWatcher, reconstruct,
-    reconstruct_verified, reconstruct_with, reconstruct_with_progress,
+    IncrementalReconstruction, SfmResult, SfmStep, reconstruct, reconstruct_verified,
 };
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };
 pub use odometry::{
-    OdometryOptions, OdometryResult, keep_going, monocular_odometry, stereo_odometry,
+    Odometry, OdometryOptions, OdometryResult, monocular_odometry, stereo_odometry,
 };
+pub use options::{SfmInput, SfmOptions};
 pub use photos::{
     Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
-    photo_features, photo_features_with_progress, reconstruct_photos,
-    reconstruct_photos_with_progress,
+    photo_features, reconstruct_photos,
 };
 pub use pose_graph::{
     Edge, Graph, GraphPose, PoseGraph, PoseGraphReport, RelativeRotation, average_rotations,

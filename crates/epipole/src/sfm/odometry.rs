@@ -2,17 +2,17 @@
 
 use super::builder::Builder;
 use super::bundle::Sensor;
-use super::incremental::{
-    Reporter, SfmInput, SfmObserver, SfmOptions, SfmStep, check, lenses, verify,
-};
+use super::incremental::SfmStep;
 use super::keyframes::Keyframes;
+use super::options::{SfmInput, SfmOptions, check};
 use super::reconstruction::{Reconstruction, SfmImage};
-use super::tracks::{PairMatches, build_tracks, track_of_keypoints};
-use super::views::Views;
+use super::tracks::{PairMatches, build_tracks};
+use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
-use std::ops::ControlFlow;
+use std::collections::VecDeque;
 
 /// What is asked for, as an error of too few says.
 const OF_FRAMES: &str = "the path of a camera from frames";
@@ -52,6 +52,9 @@ const FINAL_ADJUSTMENTS: usize = 10;
 /// A focal length that changes by less than this share has arrived.
 const SETTLED_FOCAL: f64 = 2e-3;
 
+/// Share of the work after which all pairs are tested.
+const VERIFIED: f32 = 0.5;
+
 /// Where the camera went.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OdometryResult {
@@ -65,19 +68,21 @@ pub struct OdometryResult {
     pub lost: Vec<usize>,
     /// The cameras and points; of a stereo rig the left cameras, then the right ones.
     pub reconstruction: Reconstruction,
-    /// Whether the caller ended the work early; what is there is valid.
-    pub canceled: bool,
+    /// Whether every frame was tried; false for [`Odometry::finish`] before the last step.
+    pub is_complete: bool,
 }
 
 /// The path of a single camera, up to scale.
 ///
 /// * `input`: frames in order of time, and matches between frames that are near in time; each
 ///   frame with several before it, so that tracks survive a bad pair
-/// * `observer`: hears of every frame; answer [`ControlFlow::Break`] to stop with what is there
+/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`] and
+///   [`Stage::BundleAdjustment`]
 ///
 /// The start comes from the essential matrix of the first two frames that see their points under
 /// a sufficient angle; each further frame is placed by P3P. Frames that show something new become
-/// keyframes: they give points, and the last of them are refined together.
+/// keyframes: they give points, and the last of them are refined together. [`Odometry`] does the same step by step,
+/// and keeps what there is when it is canceled.
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames make a
@@ -88,10 +93,9 @@ pub struct OdometryResult {
 pub fn monocular_odometry(
     input: &SfmInput,
     options: &OdometryOptions,
-    observer: SfmObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<OdometryResult> {
-    let intrinsics = check(OF_FRAMES, input, &options.sfm)?;
-    follow(input, intrinsics, None, options, observer)
+    Odometry::monocular(input, options, monitor)?.run(monitor)
 }
 
 /// The path of a stereo rig, in the unit of its baseline.
@@ -102,7 +106,7 @@ pub fn monocular_odometry(
 /// * `right_from_left`: the rig; its translation is minus the baseline along x if the pictures are
 ///   rectified
 /// * `right_intrinsics`: of the right camera
-/// * `observer`: as in [`monocular_odometry`]
+/// * `monitor`: as in [`monocular_odometry`]
 ///
 /// # Errors
 /// As [`monocular_odometry`]; [`Error::SizeMismatch`] unless there are as many right pictures and
@@ -117,187 +121,289 @@ pub fn stereo_odometry(
     right_from_left: &RigidTransform,
     right_intrinsics: &Intrinsics,
     options: &OdometryOptions,
-    observer: SfmObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<OdometryResult> {
-    let num_frames = left.images.len();
-    for (what, second) in [
-        ("the lists of left and right pictures", right.len()),
-        (
-            "the lists of left pictures and of matches between left and right",
-            left_right.len(),
-        ),
-    ] {
-        if second != num_frames {
-            return Err(Error::SizeMismatch {
-                what,
-                first: num_frames,
-                second,
-            });
-        }
-    }
-    if right_from_left.translation.vector.norm() <= 0.0 {
-        return Err(Error::Degenerate {
-            what: "the scale of a stereo rig's path",
-            why: "the two cameras are at the same place",
-        });
-    }
-    let mut intrinsics = check(OF_FRAMES, left, &options.sfm)?;
-    let mut input = left.clone();
-    input.images.extend(right.iter().cloned());
-    intrinsics.resize(2 * num_frames, *right_intrinsics);
-    input.intrinsics = intrinsics.clone();
-    // Right pictures take part through their left ones alone.
-    for (frame, matches) in left_right.iter().enumerate() {
-        input.pairs.push(PairMatches {
-            image1: frame,
-            image2: num_frames + frame,
-            matches: matches.clone(),
-        });
-    }
-    check(OF_FRAMES, &input, &options.sfm)?;
-    let rig = Sensor {
-        sensor_from_camera: *right_from_left,
-        intrinsics: *right_intrinsics,
-        lens: right.first().map_or(0, |image| image.lens),
-    };
-    follow(&input, intrinsics, Some(rig), options, observer)
+    Odometry::stereo(
+        left,
+        right,
+        left_right,
+        right_from_left,
+        right_intrinsics,
+        options,
+        monitor,
+    )?
+    .run(monitor)
 }
 
-fn follow(
-    input: &SfmInput,
-    intrinsics: Vec<Intrinsics>,
-    rig: Option<Sensor>,
-    options: &OdometryOptions,
-    observer: SfmObserver<'_>,
-) -> Result<OdometryResult> {
-    let images = &input.images;
-    let num_frames = if rig.is_some() {
-        images.len() / 2
-    } else {
-        images.len()
-    };
-    let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-    build_tracks(&counts, &input.pairs)?;
-    let mut reporter = Reporter {
-        observer,
-        watcher: None,
-        canceled: false,
-    };
-    let lenses = lenses(images, &options.sfm);
-    let views = Views::new(images, &intrinsics, &lenses);
-    let verified = verify(input, &options.sfm, &intrinsics, &views, &mut reporter);
-    let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
-    let tracks = build_tracks(&counts, &surviving)?;
-    let track_of = track_of_keypoints(&counts, &tracks);
-    let mut builder = Builder {
-        images,
-        options: &options.sfm,
-        views,
-        intrinsics,
-        lenses,
-        tracks: &tracks,
-        track_of: &track_of,
-        taken: vec![false; images.len()],
-        rig,
-        cameras: vec![None; images.len()],
-        points: vec![None; tracks.len()],
-        is_placed: false,
-    };
-    let started = if rig.is_some() {
-        start_with_rig(&mut builder, num_frames)
-    } else {
-        // The earliest start that is wide enough.
-        let mut early = verified;
-        let wanted_rad = options.sfm.min_start_angle_deg.to_radians();
-        early.sort_by_key(|v| {
-            let narrow = v.median_angle_rad < wanted_rad;
+/// [`monocular_odometry`] or [`stereo_odometry`], step by step.
+///
+/// ```
+/// # fn follow(frames: &epipole::sfm::SfmInput) -> Result<(), epipole::Error> {
+/// use epipole::sfm::{Odometry, OdometryOptions};
+/// let mut run = Odometry::monocular(frames, &OdometryOptions::default(), &mut ())?;
+/// while let Some(step) = run.step(&mut ())? {
+///     println!("{step:?}");
+/// }
+/// println!("{} frames are lost", run.finish().lost.len());
+/// # Ok(()) }
+/// ```
+pub struct Odometry {
+    builder: Builder,
+    options: OdometryOptions,
+    num_frames: usize,
+    keyframes: Keyframes,
+    /// Frames to place, the next one first.
+    order: VecDeque<usize>,
+    /// Refinements of everything that are left.
+    num_adjustments: usize,
+    share: f32,
+}
+
+impl Odometry {
+    /// Tests the pairs and finds the first frames of [`monocular_odometry`].
+    ///
+    /// * `monitor`: the stages are [`Stage::PairVerification`] and [`Stage::BundleAdjustment`]; shares are of the
+    ///   work with all steps
+    ///
+    /// # Errors
+    /// As [`monocular_odometry`].
+    pub fn monocular(
+        input: &SfmInput,
+        options: &OdometryOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self> {
+        let intrinsics = check(OF_FRAMES, &input.images, &input.intrinsics, &options.sfm)?;
+        Self::start(input, intrinsics, None, options, monitor)
+    }
+
+    /// Tests the pairs and finds the first frame of [`stereo_odometry`].
+    ///
+    /// * `monitor`: as in [`monocular`](Self::monocular)
+    ///
+    /// # Errors
+    /// As [`stereo_odometry`].
+    pub fn stereo(
+        left: &SfmInput,
+        right: &[SfmImage],
+        left_right: &[Vec<(u32, u32)>],
+        right_from_left: &RigidTransform,
+        right_intrinsics: &Intrinsics,
+        options: &OdometryOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self> {
+        let num_frames = left.images.len();
+        for (what, second) in [
+            ("the lists of left and right pictures", right.len()),
             (
-                narrow,
-                v.pair.image1.min(v.pair.image2),
-                v.pair.image1.max(v.pair.image2),
-            )
-        });
-        early.iter().any(|v| builder.start_from(v, &mut reporter))
-    };
-    if !started {
-        if reporter.canceled {
-            return Ok(OdometryResult {
-                world_from_cam: vec![None; num_frames],
-                lost: (0..num_frames).collect(),
-                canceled: true,
-                ..OdometryResult::default()
+                "the lists of left pictures and of matches between left and right",
+                left_right.len(),
+            ),
+        ] {
+            if second != num_frames {
+                return Err(Error::SizeMismatch {
+                    what,
+                    first: num_frames,
+                    second,
+                });
+            }
+        }
+        if right_from_left.translation.vector.norm() <= 0.0 {
+            return Err(Error::Degenerate {
+                what: "the scale of a stereo rig's path",
+                why: "the two cameras are at the same place",
             });
         }
-        return Err(Error::Degenerate {
-            what: "the path of a camera",
-            why: "no two pictures see enough points under a sufficient angle",
-        });
-    }
-    let mut keyframes = Keyframes::default();
-    for frame in (0..num_frames).filter(|&f| builder.cameras[f].is_some()) {
-        keyframes.insert(frame);
-    }
-    let keyframe_angle_rad = options.sfm.min_start_angle_deg.to_radians();
-    let first = (0..num_frames)
-        .find(|&f| builder.cameras[f].is_some())
-        .unwrap_or(0);
-    // Forward to the end, then back for what came before the start.
-    let order = (first..num_frames).chain((0..first).rev());
-    for frame in order {
-        if reporter.canceled {
-            break;
+        let mut intrinsics = check(OF_FRAMES, &left.images, &left.intrinsics, &options.sfm)?;
+        let mut input = left.clone();
+        input.images.extend(right.iter().cloned());
+        intrinsics.resize(2 * num_frames, *right_intrinsics);
+        // Right pictures take part through their left ones alone.
+        for (frame, matches) in left_right.iter().enumerate() {
+            input.pairs.push(PairMatches {
+                image1: frame,
+                image2: num_frames + frame,
+                matches: matches.clone(),
+            });
         }
-        if builder.cameras[frame].is_some() || builder.register(frame).is_none() {
-            continue;
+        check(OF_FRAMES, &input.images, &intrinsics, &options.sfm)?;
+        let rig = Sensor {
+            sensor_from_camera: *right_from_left,
+            intrinsics: *right_intrinsics,
+            lens: right.first().map_or(0, |image| image.lens),
+        };
+        Self::start(&input, intrinsics, Some(rig), options, monitor)
+    }
+
+    fn start(
+        input: &SfmInput,
+        intrinsics: Vec<Intrinsics>,
+        rig: Option<Sensor>,
+        options: &OdometryOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self> {
+        let images = &input.images;
+        let num_frames = match rig {
+            Some(_) => images.len() / 2,
+            None => images.len(),
+        };
+        let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
+        // Bad indices are found before the work begins.
+        build_tracks(&counts, &input.pairs)?;
+        let mut builder = Builder::new(images, intrinsics, &options.sfm);
+        let mut part = Part::new(monitor, 0.0, VERIFIED);
+        let (views, intrinsics) = (&builder.views, &builder.intrinsics);
+        let verified = verify_pairs(&input.pairs, views, intrinsics, &options.sfm, &mut part)?;
+        let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
+        builder.join_tracks(&surviving)?;
+        builder.rig = rig;
+        let mut part = Part::new(monitor, VERIFIED, VERIFIED);
+        let started = match rig {
+            Some(_) => start_with_rig(&mut builder, num_frames),
+            None => start_early(&mut builder, verified, &mut part)?,
+        };
+        if !started {
+            return Err(Error::Degenerate {
+                what: "the path of a camera",
+                why: "no two pictures see enough points under a sufficient angle",
+            });
         }
-        if keyframes.is_due(&builder, frame, keyframe_angle_rad) {
+        let placed: Vec<usize> = (0..num_frames)
+            .filter(|&frame| builder.cameras[frame].is_some())
+            .collect();
+        let mut keyframes = Keyframes::default();
+        for &frame in &placed {
             keyframes.insert(frame);
+        }
+        let first = placed.first().copied().unwrap_or(0);
+        Ok(Self {
+            builder,
+            options: options.clone(),
+            num_frames,
+            keyframes,
+            // Forward to the end, then back for what came before the start.
+            order: (first..num_frames).chain((0..first).rev()).collect(),
+            num_adjustments: match options.final_adjustment {
+                true => FINAL_ADJUSTMENTS,
+                false => 0,
+            },
+            share: VERIFIED,
+        })
+    }
+
+    /// Places the next frame, or refines everything at the end; `None` after the last step.
+    ///
+    /// * `monitor`: the stages are [`Stage::Registration`] and [`Stage::BundleAdjustment`]
+    ///
+    /// # Errors
+    /// [`Error::Canceled`]; what there is so far is valid.
+    pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
+        while let Some(&frame) = self.order.front() {
+            report(monitor, Stage::Registration, self.share)?;
+            let is_new = self.builder.cameras[frame].is_none();
+            let placed = is_new && self.builder.register(frame).is_some();
+            self.order.pop_front();
+            if !placed {
+                continue;
+            }
+            let cost = self.refine_around(frame, monitor)?;
+            let cameras = &self.builder.cameras[..self.num_frames];
+            let num_registered = cameras.iter().flatten().count();
+            let whole = self.num_frames.max(1) as f32;
+            let share = VERIFIED + (1.0 - VERIFIED) * num_registered as f32 / whole;
+            self.share = share.clamp(self.share, 1.0);
+            report(monitor, Stage::Registration, self.share)?;
+            return Ok(Some(SfmStep::Registered {
+                image: frame,
+                num_registered,
+                num_points: self.builder.num_points(),
+                cost,
+            }));
+        }
+        while self.num_adjustments > 0 {
+            if let Some(cost) = self.adjust_all(monitor)? {
+                return Ok(Some(SfmStep::Adjusted { cost }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The path as far as it is known.
+    pub fn finish(self) -> OdometryResult {
+        let is_complete = self.order.is_empty() && self.num_adjustments == 0;
+        let cameras = &self.builder.cameras;
+        let keyframes = (self.keyframes).into_frames(|frame| cameras[frame].is_some());
+        OdometryResult {
+            keyframes,
+            is_complete,
+            ..result_of(&self.builder, self.num_frames)
+        }
+    }
+
+    fn run(mut self, monitor: &mut dyn Monitor) -> Result<OdometryResult> {
+        while self.step(monitor)?.is_some() {}
+        Ok(self.finish())
+    }
+
+    /// Makes points of a new frame and refines the last keyframes with it.
+    fn refine_around(&mut self, frame: usize, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
+        let builder = &mut self.builder;
+        let min_angle_rad = self.options.sfm.min_start_angle_deg.to_radians();
+        if self.keyframes.is_due(builder, frame, min_angle_rad) {
+            self.keyframes.insert(frame);
             builder.triangulate_of(Some(frame));
         }
-        let window = keyframes.window(frame, options.window.max(2) - 1);
-        let cost = builder.adjust(Some(&window), 10, false, &mut reporter);
+        let window = (self.keyframes).window(frame, self.options.window.max(2) - 1);
+        let mut part = Part::new(monitor, self.share, self.share);
+        let cost = builder.adjust(Some(&window), 10, false, &mut part);
         builder.filter();
         builder.complete();
-        if let Some(cost) = cost {
-            reporter.tell(&SfmStep::Adjusted { cost });
-        }
-        reporter.tell(&SfmStep::Registered {
-            image: frame,
-            num_registered: (0..num_frames)
-                .filter(|&f| builder.cameras[f].is_some())
-                .count(),
-            num_points: builder.num_points(),
-        });
+        cost
     }
-    if options.final_adjustment {
-        adjust_finally(&mut builder, &mut reporter);
-    }
-    let keyframes = keyframes.into_frames(|frame| builder.cameras[frame].is_some());
-    let mut result = result_of(builder, num_frames, reporter.canceled);
-    result.keyframes = keyframes;
-    Ok(result)
-}
 
-/// Refines everything at once, again for as long as the focal length is on its way: with a better one other matches fit.
-fn adjust_finally(builder: &mut Builder<'_>, reporter: &mut Reporter<'_>) {
-    for _ in 0..FINAL_ADJUSTMENTS {
-        if reporter.canceled {
-            return;
-        }
+    /// Refines everything at once, again for as long as the focal length is on its way: with a better one other
+    /// matches fit.
+    fn adjust_all(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
+        let builder = &mut self.builder;
         let before = builder.intrinsics.clone();
         builder.complete();
         builder.triangulate();
-        builder.adjust(None, 50, true, reporter);
+        let mut part = Part::new(monitor, self.share, self.share);
+        let cost = builder.adjust(None, 50, true, &mut part);
         builder.filter();
+        let cost = cost?;
         let mut both = before.iter().zip(&builder.intrinsics);
-        if both.all(|(old, new)| (new.fu_px() / old.fu_px() - 1.0).abs() < SETTLED_FOCAL) {
-            return;
-        }
+        let is_settled =
+            both.all(|(old, new)| (new.fu_px() / old.fu_px() - 1.0).abs() < SETTLED_FOCAL);
+        self.num_adjustments = match is_settled {
+            true => 0,
+            false => self.num_adjustments - 1,
+        };
+        Ok(cost)
     }
 }
 
+/// Starts from the earliest pair that is wide enough.
+fn start_early(
+    builder: &mut Builder,
+    mut early: Vec<VerifiedPair>,
+    monitor: &mut dyn Monitor,
+) -> Result<bool> {
+    let wanted_rad = builder.options.min_start_angle_deg.to_radians();
+    early.sort_by_key(|v| {
+        let narrow = v.median_angle_rad < wanted_rad;
+        let (a, b) = (v.pair.image1, v.pair.image2);
+        (narrow, a.min(b), a.max(b))
+    });
+    for pair in &early {
+        if builder.start_from(pair, monitor)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// Starts at the first frame whose two pictures share enough points.
-fn start_with_rig(builder: &mut Builder<'_>, num_frames: usize) -> bool {
+fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
     for frame in 0..num_frames {
         let camera = PosedCamera {
             intrinsics: builder.intrinsics[frame],
@@ -314,8 +420,8 @@ fn start_with_rig(builder: &mut Builder<'_>, num_frames: usize) -> bool {
     false
 }
 
-fn result_of(builder: Builder<'_>, num_frames: usize, canceled: bool) -> OdometryResult {
-    let mut reconstruction = builder.finish();
+fn result_of(builder: &Builder, num_frames: usize) -> OdometryResult {
+    let mut reconstruction = builder.so_far();
     let origin = reconstruction.cameras[..num_frames]
         .iter()
         .flatten()
@@ -347,20 +453,6 @@ fn result_of(builder: Builder<'_>, num_frames: usize, canceled: bool) -> Odometr
             .collect(),
         world_from_cam,
         reconstruction,
-        canceled,
         ..OdometryResult::default()
     }
-}
-
-/// An observer that never stops the work.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::sfm::{SfmInput, SfmOptions, keep_going, reconstruct};
-/// let too_few = reconstruct(&SfmInput::default(), &SfmOptions::default(), &mut keep_going);
-/// assert!(too_few.is_err());
-/// # Ok(()) }
-/// ```
-pub fn keep_going(_: &SfmStep) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }

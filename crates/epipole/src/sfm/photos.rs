@@ -1,21 +1,18 @@
 //! The whole way from photographs to a reconstruction.
 
 use super::bundle::PositionPrior;
-use super::incremental::{
-    OF_PHOTOGRAPHS, SfmInput, SfmObserver, SfmOptions, SfmResult, SfmStep, reconstruct,
-};
+use super::incremental::{SfmResult, reconstruct};
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions};
 use super::reconstruction::SfmImage;
-use super::shares::{Begin, Shares};
 use super::tracks::PairMatches;
 use crate::camera::Intrinsics;
 use crate::feature::{
-    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features_with_progress,
+    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
     match_any_descriptors, photo_to_gray,
 };
-use crate::progress::Progress;
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use image::RgbImage;
-use std::ops::ControlFlow;
 
 /// A photograph with a name.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -30,7 +27,7 @@ pub struct Photo {
     pub position: Option<PositionPrior>,
 }
 
-/// How features are found and matched.
+/// Options of [`photo_features`] and [`match_features`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PhotoOptions {
     /// RootSIFT, up to 8192 features, faint ones too.
@@ -57,39 +54,20 @@ pub struct PhotoFeatures {
 
 /// Keypoints and descriptors of a photograph.
 ///
+/// * `monitor`: the one stage is [`Stage::FeatureDetection`]
+///
 /// # Errors
 /// As [`detect_features`](crate::feature::detect_features).
 ///
 /// Source: Lowe 2004.
-pub fn photo_features(photo: &Photo, options: &PhotoOptions) -> Result<PhotoFeatures> {
-    photo_features_with_progress(photo, options, &mut |_| ControlFlow::Continue(()))
-}
-
-/// [`photo_features`] that reports how far it is and can be stopped.
-///
-/// * `progress`: as of [`detect_features_with_progress`]
-///
-/// # Errors
-/// As [`photo_features`], and [`Error::Canceled`] if `progress` said so.
-///
-/// Source: as [`photo_features`].
-///
-/// ```
-/// use epipole::sfm::{Photo, PhotoOptions, photo_features_with_progress};
-/// use std::ops::ControlFlow;
-/// let photo = Photo { image: image::RgbImage::new(64, 48), ..Photo::default() };
-/// let stop = &mut |_| ControlFlow::Break(());
-/// let stopped = photo_features_with_progress(&photo, &PhotoOptions::default(), stop);
-/// assert_eq!(stopped.err(), Some(epipole::Error::Canceled));
-/// ```
-pub fn photo_features_with_progress(
+pub fn photo_features(
     photo: &Photo,
     options: &PhotoOptions,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<PhotoFeatures> {
     let (width, height) = photo.image.dimensions();
     let gray = photo_to_gray(&photo.image);
-    let features = detect_features_with_progress(&gray, &options.features, progress)?;
+    let features = detect_features(&gray, &options.features, monitor)?;
     let color = |u: f64, v: f64| {
         let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
         photo.image.get_pixel(inside(u, width), inside(v, height)).0
@@ -112,9 +90,7 @@ pub fn photo_features_with_progress(
 
 /// Matches between all pairs of photographs, or between those that are near in order.
 ///
-/// * `observer`: hears of every pair
-///
-/// Returns `None` if the observer did not want to wait.
+/// * `monitor`: the one stage is [`Stage::FeatureMatching`]
 ///
 /// # Errors
 /// As [`match_any_descriptors`].
@@ -123,33 +99,30 @@ pub fn photo_features_with_progress(
 pub fn match_features(
     features: &[PhotoFeatures],
     options: &PhotoOptions,
-    observer: SfmObserver<'_>,
-) -> Result<Option<Vec<PairMatches>>> {
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<PairMatches>> {
     let reach = if options.neighbors == 0 {
         features.len()
     } else {
         options.neighbors
     };
     let after = |image: usize| image + 1..features.len().min(image.saturating_add(reach + 1));
-    let total = (0..features.len()).map(|image| after(image).len()).sum();
+    let total: usize = (0..features.len()).map(|image| after(image).len()).sum();
+    let share = |done: usize| done as f32 / total as f32;
     let mut pairs = Vec::new();
     for image1 in 0..features.len() {
         for image2 in after(image1) {
+            let mut part = Part::new(monitor, share(pairs.len()), share(pairs.len() + 1));
+            let (first, second) = (&features[image1], &features[image2]);
             pairs.push(PairMatches {
                 image1,
                 image2,
-                matches: match_pair(&features[image1], &features[image2], options)?,
+                matches: match_pair(first, second, options, &mut part)?,
             });
-            let step = SfmStep::Matched {
-                done: pairs.len(),
-                total,
-            };
-            if observer(&step).is_break() {
-                return Ok(None);
-            }
         }
     }
-    Ok(Some(pairs))
+    report(monitor, Stage::FeatureMatching, 1.0)?;
+    Ok(pairs)
 }
 
 /// Matches between the two pictures of a rectified stereo pair, left first: those that share a
@@ -163,8 +136,9 @@ pub fn match_rectified(
     left: &PhotoFeatures,
     right: &PhotoFeatures,
     options: &PhotoOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<(u32, u32)>> {
-    let mut matches = match_pair(left, right, options)?;
+    let mut matches = match_pair(left, right, options, monitor)?;
     matches.retain(|&(i, j)| {
         let (a, b) = (
             left.image.keypoints[i as usize],
@@ -188,9 +162,11 @@ pub fn match_pair(
     first: &PhotoFeatures,
     second: &PhotoFeatures,
     options: &PhotoOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<(u32, u32)>> {
     let descriptors = (&first.descriptors, &second.descriptors);
-    let mut matches = match_any_descriptors(descriptors.0, descriptors.1, &options.matching)?;
+    let mut matches =
+        match_any_descriptors(descriptors.0, descriptors.1, &options.matching, monitor)?;
     if options.best_first {
         matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
     }
@@ -200,41 +176,47 @@ pub fn match_pair(
 
 /// Keypoints of all photographs and matches between all pairs of them.
 ///
-/// * `observer`: hears of every photograph and every pair
-///
-/// Returns `None` in place of matches that the observer did not want to wait for.
+/// * `monitor`: the stages are [`Stage::FeatureDetection`] and [`Stage::FeatureMatching`]
 ///
 /// # Errors
-/// As [`photo_features`] and [`match_features`].
+/// [`Error::TooFew`] for fewer than two photographs, and as [`photo_features`] and [`match_features`].
 ///
 /// Source: as these.
 pub fn match_photos(
     photos: &[Photo],
     options: &PhotoOptions,
-    observer: SfmObserver<'_>,
-) -> Result<(Vec<SfmImage>, Option<Vec<PairMatches>>)> {
-    let images = |features: Vec<PhotoFeatures>| features.into_iter().map(|f| f.image).collect();
+    monitor: &mut dyn Monitor,
+) -> Result<(Vec<SfmImage>, Vec<PairMatches>)> {
+    if photos.len() < 2 {
+        return Err(Error::TooFew {
+            what: OF_PHOTOGRAPHS,
+            needed: 2,
+            got: photos.len(),
+        });
+    }
+    let share = |done: usize| DETECTED * done as f32 / photos.len() as f32;
     let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
-        features.push(photo_features(photo, options)?);
-        let step = SfmStep::Detected {
-            done: index + 1,
-            total: photos.len(),
-        };
-        if observer(&step).is_break() {
-            return Ok((images(features), None));
-        }
+        let mut part = Part::new(monitor, share(index), share(index + 1));
+        features.push(photo_features(photo, options, &mut part)?);
     }
-    let pairs = match_features(&features, options, observer)?;
-    Ok((images(features), pairs))
+    let mut part = Part::new(monitor, DETECTED, 1.0);
+    let pairs = match_features(&features, options, &mut part)?;
+    Ok((features.into_iter().map(|f| f.image).collect(), pairs))
 }
+
+/// Share of the work of [`match_photos`] after which all features are found, judged by some dozens of photographs.
+const DETECTED: f32 = 0.5;
+/// Share of the work of [`reconstruct_photos`] after which all are matched.
+const MATCHED: f32 = 0.6;
 
 /// Cameras and points from photographs: features, matches, and [`reconstruct`].
 ///
 /// * `intrinsics`: of each photograph, or one for all
 ///
-/// Returns the keypoints and matches, too. A result that was canceled before all were known has
-/// no components.
+/// * `monitor`: the stages are those of [`match_photos`], then those of [`reconstruct`]
+///
+/// Returns the keypoints and matches as well.
 ///
 /// # Errors
 /// As [`reconstruct`] and [`match_photos`].
@@ -245,15 +227,8 @@ pub fn reconstruct_photos(
     intrinsics: &[Intrinsics],
     photo_options: &PhotoOptions,
     options: &SfmOptions,
-    observer: SfmObserver<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<(SfmInput, SfmResult)> {
-    if photos.len() < 2 {
-        return Err(Error::TooFew {
-            what: OF_PHOTOGRAPHS,
-            needed: 2,
-            got: photos.len(),
-        });
-    }
     if intrinsics.len() != 1 && intrinsics.len() != photos.len() {
         return Err(Error::SizeMismatch {
             what: "the lists of photographs and of their intrinsics",
@@ -261,45 +236,13 @@ pub fn reconstruct_photos(
             second: intrinsics.len(),
         });
     }
-    let (images, pairs) = match_photos(photos, photo_options, observer)?;
-    let canceled = pairs.is_none();
+    let mut part = Part::new(monitor, 0.0, MATCHED);
+    let (images, pairs) = match_photos(photos, photo_options, &mut part)?;
     let input = SfmInput {
         images,
         intrinsics: intrinsics.to_vec(),
-        pairs: pairs.unwrap_or_default(),
+        pairs,
     };
-    if canceled {
-        let result = SfmResult {
-            unregistered: (0..photos.len()).collect(),
-            canceled,
-            ..SfmResult::default()
-        };
-        return Ok((input, result));
-    }
-    let result = reconstruct(&input, options, observer)?;
+    let result = reconstruct(&input, options, &mut Part::new(monitor, MATCHED, 1.0))?;
     Ok((input, result))
-}
-
-/// As [`reconstruct_photos`], with the same result, telling `progress` how far it is.
-///
-/// Its stages are [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection),
-/// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching), and those of
-/// [`reconstruct_with_progress`](super::reconstruct_with_progress). Whoever breaks gets what there is so far, as
-/// [`SfmResult::canceled`] says.
-///
-/// # Errors
-/// As [`reconstruct_photos`].
-///
-/// Source: as [`reconstruct`].
-pub fn reconstruct_photos_with_progress(
-    photos: &[Photo],
-    intrinsics: &[Intrinsics],
-    photo_options: &PhotoOptions,
-    options: &SfmOptions,
-    progress: Progress<'_>,
-) -> Result<(SfmInput, SfmResult)> {
-    let mut shares = Shares::new(progress, Begin::Photos, photos.len());
-    reconstruct_photos(photos, intrinsics, photo_options, options, &mut |step| {
-        shares.tell(step)
-    })
 }

@@ -145,22 +145,6 @@ fn share_a_member(a: &[u32], b: &[u32]) -> bool {
     false
 }
 
-/// The track of each keypoint of each image, by index; `u32::MAX` for none.
-pub(super) fn track_of_keypoints(
-    num_keypoints: &[usize],
-    tracks: &[Vec<TrackElement>],
-) -> Vec<Vec<u32>> {
-    let mut track_of: Vec<Vec<u32>> = (num_keypoints.iter())
-        .map(|&count| vec![u32::MAX; count])
-        .collect();
-    for (index, track) in tracks.iter().enumerate() {
-        for element in track {
-            track_of[element.image as usize][element.keypoint as usize] = index as u32;
-        }
-    }
-    track_of
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

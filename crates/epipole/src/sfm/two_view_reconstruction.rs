@@ -3,11 +3,11 @@
 use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
-use crate::optim::{Iteration, LmReport, RobustLoss};
+use crate::optim::{LmReport, RobustLoss};
+use crate::progress::{Monitor, Part};
 use crate::triangulation::{triangulate_optimal, triangulation_angle_rad};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3};
-use std::ops::ControlFlow;
 
 /// How often the rest is refined again after points were left out.
 const MAX_REPETITIONS: usize = 5;
@@ -76,7 +76,7 @@ pub struct TwoViewReconstruction {
 /// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
 /// * `intrinsics1`, `intrinsics2`: of the two cameras, without lens distortion
 /// * `cam2_from_cam1`: the motion to start from; the length of its translation does not matter
-/// * `observer`: as in [`adjust_bundle`]
+/// * `monitor`: the one stage is [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment)
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and
@@ -92,9 +92,8 @@ pub struct TwoViewReconstruction {
 /// use epipole::camera::{Intrinsics, RigidTransform};
 /// use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 /// use nalgebra::{Point2, Vector3};
-/// use std::ops::ControlFlow;
 /// let lens = Intrinsics::new(500.0, 500.0, 320.0, 240.0)?;
-/// // Camera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
+/// // PosedCamera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
 /// let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
 /// for i in 0..20 {
 ///     let pixel = Point2::new(300.0 + 8.0 * f64::from(i % 5), 180.0 + 30.0 * f64::from(i / 5));
@@ -105,9 +104,8 @@ pub struct TwoViewReconstruction {
 /// // The motion that we start from is turned by a hundredth of a radian too far.
 /// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.01, 0.0, 0.0));
 /// let options = TwoViewReconstructionOptions::default();
-/// let found = two_view_reconstruction(&pixels1, &pixels2, &lens, &lens, &start, &options, &mut |_| {
-///     ControlFlow::Continue(())
-/// })?;
+/// let found =
+///     two_view_reconstruction(&pixels1, &pixels2, &lens, &lens, &start, &options, &mut ())?;
 /// assert!(found.rms_before_px > 1.0 && found.rms_px < 1e-3);
 /// assert_eq!((found.points.len(), found.num_in_front), (20, [20, 0, 0, 0]));
 /// assert!((found.points[0].z - 4.0).abs() < 0.01 && (found.points[1].z - 5.0).abs() < 0.01);
@@ -121,7 +119,7 @@ pub fn two_view_reconstruction(
     intrinsics2: &Intrinsics,
     cam2_from_cam1: &RigidTransform,
     options: &TwoViewReconstructionOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReconstruction> {
     check(pixels1, pixels2, cam2_from_cam1, options)?;
     let camera = |intrinsics: &Intrinsics, cam_from_world| PosedCamera {
@@ -156,7 +154,9 @@ pub fn two_view_reconstruction(
     }
     enough(matches.len(), options)?;
     let mut bundle = start.clone();
-    let mut report = adjust_bundle(&mut bundle, &options.bundle, observer)?;
+    let mut share = 0.5;
+    let mut part = Part::new(monitor, 0.0, share);
+    let mut report = adjust_bundle(&mut bundle, &options.bundle, &mut part)?;
     for round in 0.. {
         let kept: Vec<usize> = (0..matches.len())
             .filter(|&point| is_good(&bundle, point, options))
@@ -169,7 +169,11 @@ pub fn two_view_reconstruction(
         (start, bundle) = (only(&start, &kept), only(&bundle, &kept));
         // What has just been left out had pulled at all the others.
         if round < MAX_REPETITIONS {
-            report = adjust_bundle(&mut bundle, &options.bundle, observer)?;
+            // Each repetition is half of what is left.
+            let next = 0.5 * (1.0 + share);
+            let mut part = Part::new(monitor, share, next);
+            report = adjust_bundle(&mut bundle, &options.bundle, &mut part)?;
+            share = next;
         }
     }
     let all: Vec<usize> = (0..matches.len()).collect();
@@ -365,8 +369,7 @@ mod tests {
         start: &RigidTransform,
     ) -> Result<TwoViewReconstruction> {
         let options = TwoViewReconstructionOptions::default();
-        let go_on = &mut |_: &Iteration| ControlFlow::Continue(());
-        two_view_reconstruction(pixels1, pixels2, &lens(), &lens(), start, &options, go_on)
+        two_view_reconstruction(pixels1, pixels2, &lens(), &lens(), start, &options, &mut ())
     }
 
     /// The motion, knocked off by an angle and a shift, and three times as long.
@@ -468,7 +471,6 @@ mod tests {
                 ..TwoViewReconstructionOptions::default()
             };
             let [pixels1, pixels2] = &pixels;
-            let go_on = &mut |_: &Iteration| ControlFlow::Continue(());
             let refused = two_view_reconstruction(
                 pixels1,
                 pixels2,
@@ -476,7 +478,7 @@ mod tests {
                 &lens(),
                 &motion(),
                 &options,
-                go_on,
+                &mut (),
             );
             assert!(matches!(refused, Err(Error::OutOfRange { .. })));
         }

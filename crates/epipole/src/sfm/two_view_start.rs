@@ -1,6 +1,6 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
-use super::incremental::{SfmOptions, lenses};
+use super::options::{SfmOptions, lenses, pair_ransac};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use super::verify_rays::verify_rays;
@@ -8,6 +8,7 @@ use super::views::Views;
 use crate::camera::{Intrinsics, Lens, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
+use crate::progress::{Monitor, Stage, report};
 use crate::robust::RansacOptions;
 use crate::two_view::{TwoViewOptions, find_explaining_turn, find_turn_and_focal};
 use crate::{Error, Result};
@@ -83,13 +84,35 @@ pub fn verify_matches(
     }))
 }
 
-/// How pairs are tested.
-pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
-    RansacOptions {
-        seed: options.seed,
-        ..options.ransac
+/// Tests all pairs; shares are of the pairs, in the one stage [`Stage::PairVerification`].
+///
+/// * `views`, `intrinsics`: of all images
+pub(super) fn verify_pairs(
+    pairs: &[PairMatches],
+    views: &Views,
+    intrinsics: &[Intrinsics],
+    options: &SfmOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<VerifiedPair>> {
+    let ransac = pair_ransac(options);
+    let mut verified = Vec::new();
+    let mut done = 0;
+    for group in pairs.chunks(VERIFIED_AT_ONCE) {
+        let mut found: Vec<Option<VerifiedPair>> = vec![None; group.len()];
+        crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
+            let needed = options.min_num_inliers;
+            found[0] = verify_pair(&group[n], views, intrinsics, &ransac, needed);
+        });
+        verified.extend(found.into_iter().flatten());
+        done += group.len();
+        let share = done as f32 / pairs.len() as f32;
+        report(monitor, Stage::PairVerification, share)?;
     }
+    Ok(verified)
 }
+
+/// Pairs between two reports of progress.
+const VERIFIED_AT_ONCE: usize = 8;
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///

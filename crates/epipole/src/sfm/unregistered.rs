@@ -1,9 +1,11 @@
 //! Why photographs are missing from a reconstruction.
 
-use super::incremental::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, SfmResult, check, lenses};
-use super::two_view_start::{pair_ransac, verify_pair};
+use super::incremental::SfmResult;
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check, lenses, pair_ransac};
+use super::two_view_start::verify_pair;
 use super::views::Views;
 use crate::Result;
+use crate::progress::{Monitor, Stage, report};
 
 /// Why a photograph is in no reconstruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -58,7 +60,7 @@ pub enum WhyUnregistered {
     },
     /// The work was ended before its turn came.
     #[error("the work was ended before it was tried")]
-    Canceled,
+    NotTried,
 }
 
 /// Median angle between the rays of a pair below which it cannot begin a reconstruction, radians.
@@ -69,7 +71,8 @@ const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 /// * `input`, `options`: what [`reconstruct`](super::reconstruct) was given
 /// * `result`: what it answered
 ///
-/// The pairs of these photographs are tested once more, so this takes a moment for each.
+/// The pairs of these photographs are tested once more, so this takes a moment for each, in the one stage
+/// [`Stage::PairVerification`].
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct).
@@ -85,8 +88,8 @@ const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 ///     pairs: vec![],
 /// };
 /// let options = SfmOptions::default();
-/// let result = reconstruct(&input, &options, &mut |_| std::ops::ControlFlow::Continue(()))?;
-/// let why = why_unregistered(&input, &options, &result)?;
+/// let result = reconstruct(&input, &options, &mut ())?;
+/// let why = why_unregistered(&input, &options, &result, &mut ())?;
 /// assert_eq!(why[1].to_string(), "it has only 0 features, and 15 are needed");
 /// # Ok(()) }
 /// ```
@@ -94,8 +97,9 @@ pub fn why_unregistered(
     input: &SfmInput,
     options: &SfmOptions,
     result: &SfmResult,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<WhyUnregistered>> {
-    let intrinsics = check(OF_PHOTOGRAPHS, input, options)?;
+    let intrinsics = check(OF_PHOTOGRAPHS, &input.images, &input.intrinsics, options)?;
     let views = Views::new(&input.images, &intrinsics, &lenses(&input.images, options));
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
@@ -126,8 +130,8 @@ pub fn why_unregistered(
             .iter()
             .filter(|pair| pair.image1 == image || pair.image2 == image)
             .collect();
-        if with.is_empty() && result.canceled {
-            return WhyUnregistered::Canceled;
+        if with.is_empty() && !result.is_complete {
+            return WhyUnregistered::NotTried;
         }
         let most = with
             .iter()
@@ -162,8 +166,8 @@ pub fn why_unregistered(
         let has_baseline = verified
             .iter()
             .any(|verified| verified.median_angle_rad > LEAST_START_ANGLE_RAD);
-        if result.canceled {
-            WhyUnregistered::Canceled
+        if !result.is_complete {
+            WhyUnregistered::NotTried
         } else if !has_placed_neighbor && !has_baseline {
             WhyUnregistered::NoBaseline
         } else if result.components.is_empty() {
@@ -174,7 +178,13 @@ pub fn why_unregistered(
             WhyUnregistered::NoPose { visible }
         }
     };
-    Ok(result.unregistered.iter().map(why).collect())
+    let mut reasons = Vec::new();
+    for (done, image) in result.unregistered.iter().enumerate() {
+        let share = done as f32 / result.unregistered.len() as f32;
+        report(monitor, Stage::PairVerification, share)?;
+        reasons.push(why(image));
+    }
+    Ok(reasons)
 }
 
 #[cfg(test)]
@@ -186,7 +196,6 @@ mod tests {
     use crate::camera::{Intrinsics, RigidTransform};
     use crate::math::random::Random;
     use nalgebra::{Point2, Point3, Vector3};
-    use std::ops::ControlFlow;
 
     /// Three cameras in a row that see everything, and others that do not.
     #[test]
@@ -249,10 +258,9 @@ mod tests {
             ],
         };
         let options = SfmOptions::default();
-        let mut go_on = |_: &_| ControlFlow::Continue(());
-        let result = reconstruct(&input, &options, &mut go_on).unwrap();
+        let result = reconstruct(&input, &options, &mut ()).unwrap();
         assert_eq!(result.unregistered, [3, 4, 5, 6]);
-        let why = why_unregistered(&input, &options, &result).unwrap();
+        let why = why_unregistered(&input, &options, &result, &mut ()).unwrap();
         let needed = 15;
         assert_eq!(
             why,

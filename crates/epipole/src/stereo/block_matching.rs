@@ -7,10 +7,9 @@ use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
 use super::work::Strips;
 use crate::math::simd::dispatched;
-use crate::progress::Progress;
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::ControlFlow;
 
 /// Dense disparity of a rectified pair by comparing square windows.
 ///
@@ -34,7 +33,7 @@ use std::ops::ControlFlow;
 /// let left = GrayImage::from_fn(40, 24, gray);
 /// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
 /// let matcher = StereoBm { num_disparities: 8, window_px: 9, ..Default::default() };
-/// let disparity = matcher.compute(&left, &right)?;
+/// let disparity = matcher.compute(&left, &right, &mut ())?;
 /// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
 /// # Ok(()) }
 /// ```
@@ -81,39 +80,17 @@ impl StereoBm {
     /// The disparities of `left`.
     ///
     /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
+    /// * `monitor`: the one stage is [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
     /// pictures, [`Error::OutOfRange`] for an option outside its range or a window larger than
-    /// the picture.
-    pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
-        self.compute_with_progress(left, right, &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest
-    /// value of both pictures become 0 and 255.
-    ///
-    /// # Errors
-    /// As [`StereoBm::compute`], and [`Error::NotFinite`] for NaN or infinities.
-    pub fn compute_f32(
-        &self,
-        left: &ImageBuffer<Luma<f32>, Vec<f32>>,
-        right: &ImageBuffer<Luma<f32>, Vec<f32>>,
-    ) -> Result<DisparityImage> {
-        let (left, right) = to_eight_bits(left, right)?;
-        self.compute(&left, &right)
-    }
-
-    /// As [`StereoBm::compute`], telling `progress` how far the one stage,
-    /// [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching), is, and stopping when it says so.
-    ///
-    /// # Errors
-    /// As [`StereoBm::compute`], and [`Error::Canceled`].
-    pub fn compute_with_progress(
+    /// the picture, [`Error::Canceled`].
+    pub fn compute(
         &self,
         left: &GrayImage,
         right: &GrayImage,
-        progress: Progress,
+        monitor: &mut dyn Monitor,
     ) -> Result<DisparityImage> {
         let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
         self.check(&search)?;
@@ -126,7 +103,7 @@ impl StereoBm {
             // The first rows of a strip cost as much again as the window is high.
             least_rows: 4 * self.window_px as usize,
         };
-        strips.run(&mut values, progress, |first_row, values, reporter| {
+        strips.run(&mut values, monitor, |first_row, values, reporter| {
             let mut windows = Windows::new(search, self, &left, &right, first_row);
             let mut selector = Selector::new(search, self.filter);
             let mut sums = vec![0; search.width * search.num_cells];
@@ -140,6 +117,21 @@ impl StereoBm {
             Ok(())
         })?;
         self.filter.clean(search.image(values))
+    }
+
+    /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest
+    /// value of both pictures become 0 and 255.
+    ///
+    /// # Errors
+    /// As [`StereoBm::compute`], and [`Error::NotFinite`] for NaN or infinities.
+    pub fn compute_f32(
+        &self,
+        left: &ImageBuffer<Luma<f32>, Vec<f32>>,
+        right: &ImageBuffer<Luma<f32>, Vec<f32>>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<DisparityImage> {
+        let (left, right) = to_eight_bits(left, right)?;
+        self.compute(&left, &right, monitor)
     }
 
     fn check(&self, search: &Search) -> Result<()> {

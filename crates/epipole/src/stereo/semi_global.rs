@@ -7,10 +7,10 @@ use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
 use super::work::{Reporter, alone, in_two};
-use crate::progress::Progress;
+use crate::progress::Monitor;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
 /// How many directions the costs are gathered from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,7 +47,7 @@ pub enum StereoPaths {
 /// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
 /// let filter = DisparityFilter { speckle_size: 0, ..Default::default() };
 /// let matcher = StereoSgm { num_disparities: 8, filter, ..Default::default() };
-/// let disparity = matcher.compute(&left, &right)?;
+/// let disparity = matcher.compute(&left, &right, &mut ())?;
 /// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
 /// # Ok(()) }
 /// ```
@@ -101,13 +101,31 @@ impl StereoSgm {
     /// The disparities of `left`.
     ///
     /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
+    /// * `monitor`: the one stage is [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
     /// pictures, [`Error::OutOfRange`] for an option outside its range or a volume (pixels ×
-    /// disparities) too large for memory.
-    pub fn compute(&self, left: &GrayImage, right: &GrayImage) -> Result<DisparityImage> {
-        self.compute_with_progress(left, right, &mut |_| ControlFlow::Continue(()))
+    /// disparities) too large for memory, [`Error::Canceled`].
+    pub fn compute(
+        &self,
+        left: &GrayImage,
+        right: &GrayImage,
+        monitor: &mut dyn Monitor,
+    ) -> Result<DisparityImage> {
+        let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
+        self.check()?;
+        let task = Task {
+            search,
+            options: self,
+            penalties: self.penalties(),
+        };
+        let values = match self.paths {
+            StereoPaths::Five => alone(monitor, |reporter| task.five_paths(reporter))?,
+            StereoPaths::Four => task.both_ways::<2>(monitor)?,
+            StereoPaths::Eight => task.both_ways::<4>(monitor)?,
+        };
+        self.filter.clean(search.image(values))
     }
 
     /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest
@@ -119,35 +137,10 @@ impl StereoSgm {
         &self,
         left: &ImageBuffer<Luma<f32>, Vec<f32>>,
         right: &ImageBuffer<Luma<f32>, Vec<f32>>,
+        monitor: &mut dyn Monitor,
     ) -> Result<DisparityImage> {
         let (left, right) = to_eight_bits(left, right)?;
-        self.compute(&left, &right)
-    }
-
-    /// As [`StereoSgm::compute`], telling `progress` how far the one stage,
-    /// [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching), is, and stopping when it says so.
-    ///
-    /// # Errors
-    /// As [`StereoSgm::compute`], and [`Error::Canceled`].
-    pub fn compute_with_progress(
-        &self,
-        left: &GrayImage,
-        right: &GrayImage,
-        progress: Progress,
-    ) -> Result<DisparityImage> {
-        let search = Search::new(left, right, self.min_disparity_px, self.num_disparities)?;
-        self.check()?;
-        let task = Task {
-            search,
-            options: self,
-            penalties: self.penalties(),
-        };
-        let values = match self.paths {
-            StereoPaths::Five => alone(progress, |reporter| task.five_paths(reporter))?,
-            StereoPaths::Four => task.both_ways::<2>(progress)?,
-            StereoPaths::Eight => task.both_ways::<4>(progress)?,
-        };
-        self.filter.clean(search.image(values))
+        self.compute(&left, &right, monitor)
     }
 
     fn check(&self) -> Result<()> {
@@ -231,7 +224,7 @@ impl Task<'_> {
     /// Both sweeps first go to the middle and store what they find. Then each goes on through the
     /// other's half, where the sums are now complete. So one volume serves two threads, and the
     /// result is the same with one.
-    fn both_ways<const N: usize>(&self, progress: Progress) -> Result<Vec<f32>> {
+    fn both_ways<const N: usize>(&self, monitor: &mut dyn Monitor) -> Result<Vec<f32>> {
         let search = self.search;
         let num_cells = search.check_volume()?;
         let mut volume = Volume {
@@ -246,7 +239,7 @@ impl Task<'_> {
 
         let (top, bottom) = volume.split(middle * self.row_cells());
         in_two(
-            progress,
+            monitor,
             0.0..0.5,
             |reporter| down.store(upper.clone(), top, reporter),
             |reporter| up.store(lower.clone(), bottom, reporter),
@@ -254,7 +247,7 @@ impl Task<'_> {
         let (top, bottom) = volume.split(middle * self.row_cells());
         let (top_values, bottom_values) = values.split_at_mut(middle * search.width);
         in_two(
-            progress,
+            monitor,
             0.5..1.0,
             |reporter| down.complete(lower.clone(), bottom, bottom_values, reporter),
             |reporter| up.complete(upper.clone(), top, top_values, reporter),

@@ -1,13 +1,13 @@
 //! Dividing work between threads, telling how far it is, and stopping it.
 
-use crate::progress::{Progress, Stage, Status};
+use crate::progress::{Monitor, Stage, Status};
 use crate::{Error, Result};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a worker calls as it goes on: reports to the caller, or only learns of cancellation.
 pub(super) struct Reporter<'a> {
-    callback: Option<Progress<'a>>,
+    monitor: Option<&'a mut dyn Monitor>,
     canceled: &'a AtomicBool,
     shares: Range<f32>,
 }
@@ -19,11 +19,11 @@ impl Reporter<'_> {
     /// [`Error::Canceled`] if it is time to stop.
     #[inline(never)]
     pub(super) fn report(&mut self, done: usize, all: usize) -> Result<()> {
-        if let (Some(callback), true) = (&mut self.callback, done.is_multiple_of(8)) {
+        if let (Some(monitor), true) = (&mut self.monitor, done.is_multiple_of(8)) {
             let part = done as f32 / all.max(1) as f32;
             let share = self.shares.start + (self.shares.end - self.shares.start) * part;
             let stage = Stage::DenseMatching;
-            if callback(Status { stage, share }).is_break() {
+            if monitor.report(Status { stage, share }).is_break() {
                 self.canceled.store(true, Ordering::Relaxed);
             }
         }
@@ -37,11 +37,11 @@ impl Reporter<'_> {
 
 /// Work for one thread.
 pub(super) fn alone<T>(
-    progress: Progress,
+    monitor: &mut dyn Monitor,
     work: impl FnOnce(&mut Reporter) -> Result<T>,
 ) -> Result<T> {
     work(&mut Reporter {
-        callback: Some(progress),
+        monitor: Some(monitor),
         canceled: &AtomicBool::new(false),
         shares: 0.0..1.0,
     })
@@ -49,7 +49,7 @@ pub(super) fn alone<T>(
 
 /// Two pieces of work that do not depend on each other, side by side where there are threads.
 pub(super) fn in_two(
-    progress: Progress,
+    monitor: &mut dyn Monitor,
     shares: Range<f32>,
     first: impl FnOnce(&mut Reporter) -> Result<()>,
     second: impl FnOnce(&mut Reporter) -> Result<()> + Send,
@@ -61,13 +61,13 @@ pub(super) fn in_two(
         let first_result = rayon::in_place_scope(|scope| {
             scope.spawn(|_| {
                 second_result = second(&mut Reporter {
-                    callback: None,
+                    monitor: None,
                     canceled,
                     shares: 0.0..1.0,
                 });
             });
             first(&mut Reporter {
-                callback: Some(progress),
+                monitor: Some(monitor),
                 canceled,
                 shares: shares.clone(),
             })
@@ -76,12 +76,12 @@ pub(super) fn in_two(
     }
     let middle = 0.5 * (shares.start + shares.end);
     first(&mut Reporter {
-        callback: Some(&mut *progress),
+        monitor: Some(&mut *monitor),
         canceled,
         shares: shares.start..middle,
     })?;
     second(&mut Reporter {
-        callback: Some(progress),
+        monitor: Some(monitor),
         canceled,
         shares: middle..shares.end,
     })
@@ -104,7 +104,7 @@ impl Strips {
     pub(super) fn run(
         &self,
         values: &mut [f32],
-        progress: Progress,
+        monitor: &mut dyn Monitor,
         work: impl Fn(usize, &mut [f32], &mut Reporter) -> Result<()> + Sync,
     ) -> Result<()> {
         let canceled = &AtomicBool::new(false);
@@ -125,7 +125,7 @@ impl Strips {
                                 k * rows,
                                 strip,
                                 &mut Reporter {
-                                    callback: None,
+                                    monitor: None,
                                     canceled,
                                     shares: 0.0..1.0,
                                 },
@@ -137,7 +137,7 @@ impl Strips {
                             0,
                             strip,
                             &mut Reporter {
-                                callback: Some(progress),
+                                monitor: Some(monitor),
                                 canceled,
                                 shares: 0.0..1.0,
                             },
@@ -151,7 +151,7 @@ impl Strips {
             0,
             values,
             &mut Reporter {
-                callback: Some(progress),
+                monitor: Some(monitor),
                 canceled,
                 shares: 0.0..1.0,
             },

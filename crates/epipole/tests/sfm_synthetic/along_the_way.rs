@@ -4,46 +4,50 @@ use crate::world::{Making, arc, ball, errors, intrinsics, photograph, run};
 use epipole::Error;
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{
-    PairMatches, SfmImage, SfmInput, SfmOptions, SfmStep, keep_going, reconstruct,
-    reconstruct_with, reconstruct_with_progress,
+    IncrementalReconstruction, PairMatches, SfmImage, SfmInput, SfmOptions, SfmStep, reconstruct,
 };
 use nalgebra::Point3;
 use std::ops::ControlFlow;
 
 #[test]
-fn a_watcher_sees_one_image_more_each_time_and_changes_nothing() {
+fn steps_add_one_image_each_and_lead_to_the_same() {
     let center = Point3::new(0.0, 0.0, 6.0);
     let world = photograph(arc(7, center), &ball(150, center, 5), Making::default(), 5);
+    let options = SfmOptions::default();
     let mut seen = Vec::new();
-    let mut watcher = |so_far: epipole::sfm::Reconstruction| {
+    let mut steps = Vec::new();
+    let mut growing = start(&world.input, &options);
+    while let Some(step) = growing.step(&mut ()).expect("a step") {
+        steps.push(step);
+        if matches!(step, SfmStep::Adjusted { .. }) {
+            continue;
+        }
+        let so_far = growing.current().expect("a component");
         assert!(
-            so_far
-                .points
-                .iter()
+            (so_far.points.iter())
                 .all(|point| point.track.len() >= 2 && point.error_px.is_finite())
         );
         seen.push((so_far.num_registered(), so_far.points.len()));
-        ControlFlow::Continue(())
-    };
-    let options = SfmOptions::default();
-    let found = reconstruct_with(&world.input, &options, &mut keep_going, &mut watcher);
-    assert_eq!(found.expect("a result"), run(&world, &options));
+    }
+    let found = growing.finish();
+    assert!(found.is_complete);
+    assert_eq!(found.steps, steps);
+    assert_eq!(found, run(&world, &options));
     let registered: Vec<usize> = seen.iter().map(|(registered, _)| *registered).collect();
     assert_eq!(registered, [2, 3, 4, 5, 6, 7]);
     assert!(seen[0].1 > 20 && seen[5].1 >= seen[0].1, "{seen:?}");
     // Who has seen enough ends it.
-    let mut shown = 0;
-    let mut watcher = |_| {
-        shown += 1;
-        match shown {
-            3 => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        }
-    };
-    let ended = reconstruct_with(&world.input, &options, &mut keep_going, &mut watcher)
-        .expect("what there is so far");
-    assert!(ended.canceled);
-    assert_eq!((shown, ended.components[0].num_registered()), (3, 4));
+    let mut growing = start(&world.input, &options);
+    for _ in 0..3 {
+        growing.step(&mut ()).expect("a step");
+    }
+    let ended = growing.finish();
+    assert!(!ended.is_complete);
+    assert_eq!(ended.components[0].num_registered(), 4);
+}
+
+fn start(input: &SfmInput, options: &SfmOptions) -> IncrementalReconstruction {
+    IncrementalReconstruction::new(input, options, &mut ()).expect("pairs")
 }
 
 #[test]
@@ -54,48 +58,34 @@ fn canceling_leaves_a_valid_part() {
         Making::default(),
         12,
     );
-    let mut stop = |step: &SfmStep| match step {
-        SfmStep::Registered {
-            num_registered: 4, ..
-        } => ControlFlow::Break(()),
-        _ => ControlFlow::Continue(()),
-    };
-    let result =
-        reconstruct(&world.input, &SfmOptions::default(), &mut stop).expect("a partial result");
-    assert!(result.canceled);
+    let options = SfmOptions::default();
+    let mut growing = start(&world.input, &options);
+    for _ in 0..3 {
+        growing.step(&mut ()).expect("a step");
+    }
+    let result = growing.finish();
     assert_eq!(result.components[0].num_registered(), 4);
     assert_eq!(result.unregistered.len(), 3);
     let (distance, _) = errors(&world, &result.components[0].cameras);
     assert!(distance < 1e-3, "{distance}");
     // In the middle of an adjustment, too: the last step is the one that was stopped at.
-    let (mut has_three, mut asked_after) = (false, 0);
-    let mut stop = |step: &SfmStep| {
-        let is_third = matches!(
-            step,
-            SfmStep::Registered {
-                num_registered: 3,
-                ..
-            }
-        );
-        has_three |= is_third;
-        if !has_three || is_third {
-            return ControlFlow::Continue(());
-        }
-        asked_after += 1;
-        assert!(matches!(step, SfmStep::Refined { .. }), "{step:?}");
-        ControlFlow::Break(())
-    };
-    let result =
-        reconstruct(&world.input, &SfmOptions::default(), &mut stop).expect("a partial result");
-    assert!(result.canceled);
+    let mut growing = start(&world.input, &options);
+    for _ in 0..2 {
+        growing.step(&mut ()).expect("a step");
+    }
+    let canceled = growing.step(&mut |status: Status| match status.stage {
+        Stage::BundleAdjustment => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    assert_eq!(canceled, Err(Error::Canceled));
+    let result = growing.finish();
+    assert!(!result.is_complete);
     assert_eq!(result.components[0].num_registered(), 4);
-    assert_eq!(asked_after, 1);
     let (distance, _) = errors(&world, &result.components[0].cameras);
     assert!(distance < 0.01, "{distance}");
-    let mut at_once = |_: &SfmStep| ControlFlow::Break(());
-    let nothing =
-        reconstruct(&world.input, &SfmOptions::default(), &mut at_once).expect("a result");
-    assert!(nothing.canceled && nothing.components.is_empty());
+    let mut at_once = |_| ControlFlow::Break(());
+    let nothing = reconstruct(&world.input, &options, &mut at_once);
+    assert_eq!(nothing, Err(Error::Canceled));
 }
 
 #[test]
@@ -112,7 +102,7 @@ fn progress_names_stages_and_shares_that_rise() {
         told.push(status);
         ControlFlow::Continue(())
     };
-    let watched = reconstruct_with_progress(&world.input, &options, &mut watch);
+    let watched = reconstruct(&world.input, &options, &mut watch);
     assert_eq!(watched.expect("a result"), run(&world, &options));
     assert!(told.is_sorted_by_key(|status| status.share));
     assert!(told[told.len() - 1].share == 1.0);
@@ -127,8 +117,11 @@ fn progress_names_stages_and_shares_that_rise() {
         Stage::PairVerification => ControlFlow::Continue(()),
         _ => ControlFlow::Break(()),
     };
-    let stopped = reconstruct_with_progress(&world.input, &options, &mut stop).expect("a part");
-    assert!(stopped.canceled && stopped.components[0].num_registered() == 2);
+    let mut growing = IncrementalReconstruction::new(&world.input, &options, &mut stop)
+        .expect("pairs are tested");
+    assert_eq!(growing.step(&mut stop), Err(Error::Canceled));
+    let stopped = growing.finish();
+    assert_eq!(stopped.components[0].num_registered(), 2);
 }
 
 #[test]
@@ -164,8 +157,7 @@ fn photographs_without_overlap_give_nothing_and_no_error() {
         image2: 1,
         matches: Vec::new(),
     });
-    let result =
-        reconstruct(&empty, &SfmOptions::default(), &mut keep_going).expect("an empty result");
+    let result = reconstruct(&empty, &SfmOptions::default(), &mut ()).expect("an empty result");
     assert_eq!(result.unregistered, [0, 1, 2]);
 }
 
@@ -180,7 +172,7 @@ fn bad_input_is_refused() {
     let attempt = |change: &dyn Fn(&mut SfmInput, &mut SfmOptions)| {
         let (mut input, mut options) = (world.input.clone(), SfmOptions::default());
         change(&mut input, &mut options);
-        reconstruct(&input, &options, &mut keep_going)
+        reconstruct(&input, &options, &mut ())
     };
     assert!(matches!(
         attempt(&|i, _| i.images.truncate(1)),

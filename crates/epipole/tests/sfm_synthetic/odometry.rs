@@ -4,7 +4,7 @@ use crate::world::{Making, World, ball, errors, intrinsics, photograph};
 use epipole::Error;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::random::Random;
-use epipole::sfm::{OdometryOptions, keep_going, monocular_odometry, stereo_odometry};
+use epipole::sfm::{OdometryOptions, monocular_odometry, stereo_odometry};
 use nalgebra::{Point3, Vector3};
 
 /// A drive along a bend between two rows of points.
@@ -43,8 +43,8 @@ fn one_camera_is_followed_up_to_scale() {
         ..Making::default()
     };
     let (world, _) = drive(20, making);
-    let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut keep_going)
-        .expect("a path");
+    let result =
+        monocular_odometry(&world.input, &OdometryOptions::default(), &mut ()).expect("a path");
     assert!(result.lost.is_empty());
     assert_eq!(result.world_from_cam[0], Some(RigidTransform::identity()));
     let (distance, angle_deg) = errors(&world, &result.reconstruction.cameras);
@@ -64,8 +64,8 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
     let (moving, points) = drive(8, making);
     let cameras = moving.cameras.iter().flat_map(|camera| [*camera; 4]);
     let world = photograph(cameras.collect(), &points, making, 36);
-    let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut keep_going)
-        .expect("a path");
+    let result =
+        monocular_odometry(&world.input, &OdometryOptions::default(), &mut ()).expect("a path");
     assert!(result.lost.is_empty());
     let mut places: Vec<usize> = result.keyframes.iter().map(|frame| frame / 4).collect();
     places.dedup();
@@ -146,7 +146,7 @@ fn a_stereo_rig_is_followed_in_meters() {
             right_from_left,
             &intrinsics(),
             &OdometryOptions::default(),
-            &mut keep_going,
+            &mut (),
         )
     };
     let result = run(&right_from_left, &left_right).expect("a path");
@@ -184,7 +184,7 @@ fn a_camera_that_only_turns_has_no_path() {
         ..Making::default()
     };
     let world = photograph(cameras, &points, making, 35);
-    let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut keep_going);
+    let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut ());
     assert!(
         matches!(result, Err(Error::Degenerate { .. })),
         "{result:?}"

@@ -4,7 +4,7 @@ use crate::world::{Making, World, arc, ball, errors, photograph, run};
 use epipole::camera::{Distortion, Intrinsics};
 use epipole::math::random::Random;
 use epipole::sfm::{
-    PositionPrior, Reconstruction, SfmInput, SfmOptions, WhyUnregistered, keep_going, reconstruct,
+    PositionPrior, Reconstruction, SfmInput, SfmOptions, WhyUnregistered, reconstruct,
     why_unregistered,
 };
 use nalgebra::{Point3, Similarity3, Vector3};
@@ -223,7 +223,7 @@ fn known_positions_place_the_result() {
         if let Some(position) = &mut world.input.images[1].position {
             position.sigma.y = sigma;
         }
-        assert!(reconstruct(&world.input, &SfmOptions::default(), &mut keep_going).is_err());
+        assert!(reconstruct(&world.input, &SfmOptions::default(), &mut ()).is_err());
     }
 }
 
@@ -269,7 +269,7 @@ fn points_that_more_cameras_should_see_than_there_are_leave_nothing() {
     let result = run(&world, &options);
     assert!(result.components.is_empty());
     assert_eq!(result.unregistered, [0, 1, 2, 3]);
-    let why = why_unregistered(&world.input, &options, &result).unwrap();
+    let why = why_unregistered(&world.input, &options, &result, &mut ()).unwrap();
     assert_eq!(why, [WhyUnregistered::NoStart; 4]);
 }
 

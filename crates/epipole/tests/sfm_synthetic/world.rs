@@ -4,7 +4,7 @@ use epipole::camera::{Distortion, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult, align_points,
-    keep_going, reconstruct,
+    reconstruct,
 };
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -133,7 +133,7 @@ pub(crate) fn arc(count: usize, center: Point3<f64>) -> Vec<PosedCamera> {
 }
 
 pub(crate) fn run(world: &World, options: &SfmOptions) -> SfmResult {
-    reconstruct(&world.input, options, &mut keep_going).expect("a result")
+    reconstruct(&world.input, options, &mut ()).expect("a result")
 }
 
 /// Largest errors of centers and of rotations in degrees, after the best similarity.

@@ -6,9 +6,9 @@ use crate::failure::Failure;
 use crate::known_camera::SeenMatches;
 use crate::photo::Photo;
 use crate::turn;
-use epipole::camera::{Distortion, Lens, RigidTransform};
+use epipole::camera::RigidTransform;
 use epipole::epipolar::estimate_relative_pose_of_rays;
-use epipole::stereo::{StereoCamera, rectify_calibrated};
+use epipole::stereo::rectify_calibrated;
 use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
 use nalgebra::Point2;
 

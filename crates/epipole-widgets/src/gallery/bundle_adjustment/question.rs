@@ -6,13 +6,12 @@ use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
-use epipole::optim::{Iteration, LmOptions, LmReport, RobustLoss};
+use epipole::optim::{LmOptions, LmReport, RobustLoss};
 use epipole::sfm::{
     AlignmentKind, Bundle, BundleObservation, BundleOptions, adjust_bundle, align_points,
 };
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 
 /// More steps than this show nothing new.
 pub(super) const MAX_STEPS: usize = 24;
@@ -90,25 +89,15 @@ impl question::Question for Question {
     fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         let house = House::new()?;
         let (features, start) = self.disturbed(&house);
-        let mut iterations = Vec::new();
-        let report = self.adjust(&mut start.clone(), &mut |iteration| {
-            iterations.push(*iteration);
-            ControlFlow::Continue(())
-        })?;
+        let report = self.adjust(&mut start.clone(), MAX_STEPS)?;
         let mut states: Vec<State> = Vec::new();
-        for iteration in &iterations {
+        for iteration in &report.history {
             let state = match states.last() {
                 // A step that was refused leaves everything where it was.
                 Some(before) if !iteration.accepted => before.clone(),
                 _ => {
                     let mut bundle = start.clone();
-                    self.adjust(&mut bundle, &mut |now| {
-                        if now.index == iteration.index {
-                            ControlFlow::Break(())
-                        } else {
-                            ControlFlow::Continue(())
-                        }
-                    })?;
+                    self.adjust(&mut bundle, iteration.index)?;
                     aligned(&bundle, &house)?
                 }
             };
@@ -118,7 +107,7 @@ impl question::Question for Question {
                 accepted: iteration.accepted,
                 ..state
             });
-            tell(progress, states.len() as f64 / iterations.len() as f64)?;
+            tell(progress, states.len() as f64 / report.history.len() as f64)?;
         }
         Ok(Answer {
             features,
@@ -158,14 +147,11 @@ impl question::Question for Question {
 }
 
 impl Question {
-    fn adjust(
-        &self,
-        bundle: &mut Bundle,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<LmReport, Error> {
+    /// Takes at most `max_iterations` steps.
+    fn adjust(&self, bundle: &mut Bundle, max_iterations: usize) -> Result<LmReport, Error> {
         let options = BundleOptions {
             lm: LmOptions {
-                max_iterations: MAX_STEPS,
+                max_iterations,
                 cost_tolerance: COST_TOLERANCE,
                 initial_damping: libm::exp10(self.log_damping),
                 ..LmOptions::default()
@@ -176,7 +162,7 @@ impl Question {
             },
             ..BundleOptions::default()
         };
-        adjust_bundle(bundle, &options, observer)
+        adjust_bundle(bundle, &options, &mut ())
     }
 
     /// What the photographs show, with noise, beside cameras and points that are off; and the

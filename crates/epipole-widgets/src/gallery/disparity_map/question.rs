@@ -6,6 +6,7 @@ use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
+use epipole::progress::{Monitor, Status};
 use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
 use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 use image::GrayImage;
@@ -111,7 +112,7 @@ impl question::Question for Question {
         let right = scene.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
         tell(progress, 0.6)?;
         let gray = |photo: &Photograph| rgb_to_gray(&photo.image);
-        let found = self.search(&gray(&left), &gray(&right), &mut |status| {
+        let found = self.search(&gray(&left), &gray(&right), &mut |status: Status| {
             progress(0.6 + 0.4 * f64::from(status.share))
         })?;
         let truth = self.true_disparity(&left);
@@ -143,7 +144,7 @@ impl Question {
         &self,
         left: &GrayImage,
         right: &GrayImage,
-        progress: epipole::progress::Progress<'_>,
+        monitor: &mut dyn Monitor,
     ) -> Result<DisparityImage, Error> {
         match self.method {
             Method::Blocks(window_px) => {
@@ -155,7 +156,7 @@ impl Question {
                     filter: self.filter(usual.filter),
                     ..usual
                 }
-                .compute_with_progress(left, right, progress)
+                .compute(left, right, monitor)
             }
             Method::SemiGlobal => {
                 let usual = StereoSgm::default();
@@ -164,7 +165,7 @@ impl Question {
                     filter: self.filter(usual.filter),
                     ..usual
                 }
-                .compute_with_progress(left, right, progress)
+                .compute(left, right, monitor)
             }
         }
     }

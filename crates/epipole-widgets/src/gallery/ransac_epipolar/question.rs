@@ -6,7 +6,8 @@ use crate::kit::features::{self, Pair};
 use crate::kit::picture::Picture;
 use crate::kit::question;
 use epipole::Error;
-use epipole::feature::{Features, MatchOptions, match_descriptors_with_progress};
+use epipole::feature::{Features, MatchOptions, match_descriptors};
+use epipole::progress::Status;
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
@@ -131,11 +132,11 @@ fn find_matches(
         max_ratio: None,
         ..MatchOptions::default()
     };
-    let found = match_descriptors_with_progress(
+    let found = match_descriptors(
         &first.descriptors,
         &second.descriptors,
         &any_ratio,
-        &mut |status| progress(f64::from(status.share)),
+        &mut |status: Status| progress(f64::from(status.share)),
     )?;
     let mut matches: Vec<Match> = Vec::with_capacity(found.len());
     for found in &found {

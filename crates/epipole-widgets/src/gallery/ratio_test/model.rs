@@ -182,7 +182,7 @@ mod tests {
                 unique: false,
                 ..MatchOptions::default()
             };
-            let matches = match_descriptors(first, second, &options).unwrap();
+            let matches = match_descriptors(first, second, &options, &mut ()).unwrap();
             let tally = Tally::of(
                 answer,
                 Rules {

@@ -55,7 +55,7 @@ impl question::Question for Question {
             ..MatchOptions::default()
         };
         let mut is_mutual = vec![false; first.len()];
-        for found in match_descriptors(first, second, &options)? {
+        for found in match_descriptors(first, second, &options, &mut ())? {
             is_mutual[found.index1] = true;
         }
         tell(progress, 0.92)?;

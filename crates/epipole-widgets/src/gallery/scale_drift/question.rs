@@ -13,7 +13,6 @@ use epipole::sfm::{
 };
 use nalgebra::{Point3, Similarity3, Vector3};
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 
 /// Points at home that both visits know.
 const NUM_POINTS: usize = 100;
@@ -182,8 +181,8 @@ fn close(drive: &Drive, first_from_last: Similarity3<f64>, kind: Kind) -> Result
         Kind::Rigid => LoopMotion::Rigid,
         Kind::Similarity => LoopMotion::Similarity,
     };
-    let (path, go_on) = (&drive.believed, &mut |_: &_| ControlFlow::Continue(()));
-    let closed = close_loops(path, &[closure], motion, RobustLoss::Trivial, go_on)?;
+    let path = &drive.believed;
+    let closed = close_loops(path, &[closure], motion, RobustLoss::Trivial, &mut ())?;
     let scales = drive.scale.iter().zip(&closed.scale);
     Ok(Judged {
         scale: scales
@@ -198,6 +197,7 @@ fn close(drive: &Drive, first_from_last: Similarity3<f64>, kind: Kind) -> Result
 mod tests {
     use super::*;
     use question::Question as _;
+    use std::ops::ControlFlow;
 
     /// The path before and after its loop is closed.
     fn closed(rate: f64, noise: f64, is_metric: bool, kind: Kind) -> (Judged, Judged) {

@@ -10,12 +10,11 @@ use crate::kit::scenes::{self, PHOTO_SIZE};
 use epipole::Error;
 use epipole::camera::Intrinsics;
 use epipole::feature::{
-    FeatureOptions, Features, MatchOptions, detect_sift_with_progress, match_descriptors,
-    photo_to_gray,
+    FeatureOptions, Features, MatchOptions, detect_sift, match_descriptors, photo_to_gray,
 };
+use epipole::progress::Status;
 use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 use nalgebra::Point2;
-use std::ops::ControlFlow;
 
 /// More features than this cost time and show nothing new.
 const MAX_FEATURES: usize = 3000;
@@ -84,7 +83,7 @@ impl Question {
             max_ratio: Some(self.max_ratio),
             ..MatchOptions::default()
         };
-        let found = match_descriptors(&first.descriptors, &second.descriptors, &options)?;
+        let found = match_descriptors(&first.descriptors, &second.descriptors, &options, &mut ())?;
         let pairs = found.iter().map(|m| (m.index1 as u32, m.index2 as u32));
         Ok(pairs.collect())
     }
@@ -115,7 +114,7 @@ impl Question {
             lens2,
             &self.knocked(&motion),
             &TwoViewReconstructionOptions::default(),
-            &mut |_| ControlFlow::Continue(()),
+            &mut (),
         );
         let found = match found {
             // The rays of all but a few meet at a narrow angle.
@@ -165,10 +164,10 @@ fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error
         ..FeatureOptions::default()
     };
     let (width, height) = picture.size();
-    detect_sift_with_progress(
+    detect_sift(
         &photo_to_gray(picture.image()),
         &options.sift(width, height),
-        &mut |status| progress(f64::from(status.share)),
+        &mut |status: Status| progress(f64::from(status.share)),
     )
 }
 

@@ -5,6 +5,7 @@ use crate::contract::{Panel, Progress};
 use crate::kit::space::Space;
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::progress::Status;
 use epipole::stereo::{
     DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoSgm,
     point_cloud, rectify_calibrated,
@@ -85,7 +86,7 @@ pub(super) fn surface(
         ..StereoSgm::default()
     };
     let found = redrawn.disparity(|first, second| {
-        matcher.compute_with_progress(first, second, &mut |status| {
+        matcher.compute(first, second, &mut |status: Status| {
             progress(f64::from(status.share))
         })
     })?;

@@ -5,7 +5,9 @@ use crate::calibration::synthetic::{poses, true_view};
 use crate::calibration::{CalibrationWarning, Pattern};
 use crate::camera::Lens;
 use crate::math::random::Random;
+use crate::progress::Status;
 use nalgebra::{Point2, Vector3};
+use std::ops::ControlFlow;
 
 fn board() -> Board {
     Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap()
@@ -53,7 +55,7 @@ fn exact_views_give_the_exact_camera() {
             lens: kind,
             ..CalibrationOptions::default()
         };
-        let found = calibrate(&board(), &views, (640, 480), &options).unwrap();
+        let found = calibrate(&board(), &views, (640, 480), &options, &mut ()).unwrap();
         assert!(found.rms_px < 1e-4, "{kind:?} {}", found.rms_px);
         // Coefficients of a quotient trade with each other; what they do to pixels does not.
         for (u, v) in [(100.0, 100.0), (320.0, 240.0), (560.0, 380.0)] {
@@ -86,8 +88,14 @@ fn deviations_are_what_repetition_shows() {
         {
             *pixel += Vector3::from_fn(|_, _| 0.3 * random.normal()).xy();
         }
-        let found =
-            calibrate(&board(), &noisy, (640, 480), &CalibrationOptions::default()).unwrap();
+        let found = calibrate(
+            &board(),
+            &noisy,
+            (640, 480),
+            &CalibrationOptions::default(),
+            &mut (),
+        )
+        .unwrap();
         // Two coordinates, less what the parameters absorb.
         assert!((found.rms_px / (0.3 * 2.0_f64.sqrt()) - 1.0).abs() < 0.15);
         focals.push(found.camera.intrinsics.fu_px());
@@ -106,8 +114,12 @@ fn it_can_be_stopped_at_every_step() {
     let options = CalibrationOptions::default();
     let run = |most: usize| {
         let (mut calls, mut last) = (0, 0.0);
-        let found =
-            calibrate_with_progress(&board(), &views, (640, 480), &options, &mut |status| {
+        let found = calibrate(
+            &board(),
+            &views,
+            (640, 480),
+            &options,
+            &mut |status: Status| {
                 assert_eq!(status.stage, Stage::Calibration);
                 assert!((last..=1.0).contains(&status.share));
                 (calls, last) = (calls + 1, status.share);
@@ -116,11 +128,15 @@ fn it_can_be_stopped_at_every_step() {
                 } else {
                     ControlFlow::Break(())
                 }
-            });
+            },
+        );
         (found, calls)
     };
     let (found, calls) = run(usize::MAX);
-    assert_eq!(found, calibrate(&board(), &views, (640, 480), &options));
+    assert_eq!(
+        found,
+        calibrate(&board(), &views, (640, 480), &options, &mut ())
+    );
     assert!(calls > 4, "{calls}");
     for most in 0..calls {
         assert_eq!(run(most), (Err(Error::Canceled), most + 1));
@@ -133,7 +149,8 @@ fn bad_sets_get_a_sentence() {
     let options = CalibrationOptions::default();
     let poses = poses(&board(), 6, 15.0, 8);
     let good = views(&camera, &poses, 0.2);
-    let run = |views: &[Option<BoardView>]| calibrate(&board(), views, (640, 480), &options);
+    let run =
+        |views: &[Option<BoardView>]| calibrate(&board(), views, (640, 480), &options, &mut ());
     assert!(run(&good).unwrap().warnings.iter().all(|w| matches!(
         w,
         CalibrationWarning::LowCoverage { .. } | CalibrationWarning::UncertainFocal { .. }
@@ -171,7 +188,7 @@ fn bad_sets_get_a_sentence() {
     assert!(matches!(run(&line), Err(Error::Degenerate { .. })));
     line[1].as_mut().unwrap().pixels[3..].fill(None);
     assert!(matches!(run(&line), Err(Error::TooFew { .. })));
-    assert!(calibrate(&board(), &good, (0, 480), &options).is_err());
+    assert!(calibrate(&board(), &good, (0, 480), &options, &mut ()).is_err());
     // Corners of another board: any answer or none, but no panic and no NaN.
     let mut random = Random::new(3);
     let anywhere = |_: &Option<BoardView>| {

@@ -7,10 +7,10 @@ use super::floats::Floats;
 use super::integers::Integers;
 use super::{Descriptors, Found, Neighbors, parallel};
 use crate::feature::descriptors::Values;
-use crate::progress::{Progress, Stage, Status};
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use std::borrow::Cow;
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
 /// Descriptors of the first list that share a walk over the second.
 const ROWS: usize = 64;
@@ -20,7 +20,7 @@ const REPORT: usize = 1024;
 pub(super) fn search(
     first: &Descriptors,
     second: &Descriptors,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<Found> {
     if first.dimension() != second.dimension() {
         return Err(Error::SizeMismatch {
@@ -29,7 +29,7 @@ pub(super) fn search(
             second: second.dimension(),
         });
     }
-    tell(progress, 0.0)?;
+    report(monitor, Stage::FeatureMatching, 0.0)?;
     if first.is_empty() || second.is_empty() {
         return Ok(Found {
             rows: Vec::new(),
@@ -40,20 +40,12 @@ pub(super) fn search(
     if let (Some(a), Some(b)) = (whole_bytes(first), whole_bytes(second)) {
         let second = Integers::new(&b, n);
         let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
-        return gather(first.len(), b.len() / n, scan, progress);
+        return gather(first.len(), b.len() / n, scan, monitor);
     }
     let a = first.to_floats();
     let second = Floats::new(second.to_floats(), n);
     let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
-    gather(first.len(), second.count(), scan, progress)
-}
-
-fn tell(progress: Progress<'_>, share: f32) -> Result<()> {
-    let stage = Stage::FeatureMatching;
-    match progress(Status { stage, share }) {
-        ControlFlow::Continue(()) => Ok(()),
-        ControlFlow::Break(()) => Err(Error::Canceled),
-    }
+    gather(first.len(), second.count(), scan, monitor)
 }
 
 /// What a walk over the second list found for a piece of the first.
@@ -79,7 +71,7 @@ fn gather<D: Distance>(
     num_rows: usize,
     num_columns: usize,
     scan: impl Fn(&Range<usize>) -> Scanned<D> + Sync + Send,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<Found> {
     let root = |squared: D| squared.into().sqrt();
     let mut rows = Vec::with_capacity(num_rows);
@@ -102,7 +94,8 @@ fn gather<D: Distance>(
                 }
             }
         }
-        tell(progress, group.end as f32 / num_rows as f32)?;
+        let share = group.end as f32 / num_rows as f32;
+        report(monitor, Stage::FeatureMatching, share)?;
     }
     Ok(Found {
         rows,

@@ -3,7 +3,14 @@
 use super::{Found, MatchOptions, Neighbors, check, parallel, select};
 use crate::feature::matching::Match;
 use crate::math::simd::dispatched;
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
+use std::ops::Range;
+
+/// Descriptors of the first list that share a walk over the second.
+const ROWS: usize = 128;
+/// Descriptors of the first list between two reports of progress.
+const REPORT: usize = 8 * ROWS;
 
 /// Descriptors of 256 bits each, as four 64-bit words; bit 0 of word 0 comes first.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -66,34 +73,41 @@ impl BinaryDescriptors {
 
 /// For each descriptor of `first` the two in `second` with the fewest bits that differ, exactly.
 ///
-/// Empty lists give an empty result.
+/// Empty lists give an empty result. The one stage is [`Stage::FeatureMatching`].
+///
+/// # Errors
+/// [`Error::Canceled`].
 ///
 /// ```
+/// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{BinaryDescriptors, nearest_two_hamming};
 /// let first = BinaryDescriptors { bits: vec![[0b1011, 0, 0, 0]] };
 /// let second = BinaryDescriptors { bits: vec![[0, 0, 0, 0], [0b1111, 0, 0, 0]] };
-/// let near = nearest_two_hamming(&first, &second)[0];
+/// let near = nearest_two_hamming(&first, &second, &mut ())?[0];
 /// assert_eq!((near.index, near.distance, near.second_distance), (1, 1.0, Some(3.0)));
+/// # Ok(()) }
 /// ```
 pub fn nearest_two_hamming(
     first: &BinaryDescriptors,
     second: &BinaryDescriptors,
-) -> Vec<Neighbors> {
-    search(first, second).rows
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Neighbors>> {
+    Ok(search(first, second, monitor)?.rows)
 }
 
 /// Matches between two lists of binary descriptors, in the order of the first list. Distances are
-/// numbers of bits.
+/// numbers of bits. The one stage is [`Stage::FeatureMatching`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for an option outside its range.
+/// [`Error::OutOfRange`] for an option outside its range,
+/// [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{BinaryDescriptors, MatchOptions, match_hamming};
 /// let first = BinaryDescriptors { bits: vec![[0b1011, 0, 0, 0]] };
 /// let second = BinaryDescriptors { bits: vec![[0, 0, 0, 0], [0b1111, 0, 0, 0]] };
-/// let matches = match_hamming(&first, &second, &MatchOptions::default())?;
+/// let matches = match_hamming(&first, &second, &MatchOptions::default(), &mut ())?;
 /// assert_eq!((matches[0].index2, matches[0].ratio), (1, 1.0 / 3.0));
 /// # Ok(()) }
 /// ```
@@ -101,61 +115,77 @@ pub fn match_hamming(
     first: &BinaryDescriptors,
     second: &BinaryDescriptors,
     options: &MatchOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Match>> {
     check(options)?;
-    let found = search(first, second);
+    let found = search(first, second, monitor)?;
     Ok(select(&found.rows, &found.columns, options))
 }
 
-fn search(first: &BinaryDescriptors, second: &BinaryDescriptors) -> Found {
+fn search(
+    first: &BinaryDescriptors,
+    second: &BinaryDescriptors,
+    monitor: &mut dyn Monitor,
+) -> Result<Found> {
+    report(monitor, Stage::FeatureMatching, 0.0)?;
     if first.is_empty() || second.is_empty() {
-        return Found {
+        return Ok(Found {
             rows: Vec::new(),
             columns: vec![0; second.len()],
-        };
+        });
     }
-    let pieces = parallel::pieces(first.len(), 128);
-    let scanned = parallel::map(&pieces, |piece| {
-        let mut rows = Vec::with_capacity(piece.len());
-        let mut columns = vec![(u32::MAX, 0); second.len()];
-        let mut distances = vec![0; second.len()];
-        for row in piece.clone() {
-            differing_bits(&first.bits[row], &second.bits, &mut distances);
-            let (mut near, mut next, mut index) = (u32::MAX, u32::MAX, 0);
-            for (k, (&d, held)) in distances.iter().zip(&mut columns).enumerate() {
-                if d < next {
-                    if d < near {
-                        (next, near, index) = (near, d, k);
-                    } else {
-                        next = d;
-                    }
-                }
-                if d < held.0 {
-                    *held = (d, row);
-                }
-            }
-            rows.push(Neighbors {
-                index,
-                distance: near as f32,
-                second_distance: (second.len() > 1).then_some(next as f32),
-            });
-        }
-        (rows, columns)
-    });
     let mut nearest = vec![(u32::MAX, 0); second.len()];
     let mut rows = Vec::with_capacity(first.len());
-    for (more, columns) in scanned {
-        rows.extend(more);
-        for (held, column) in nearest.iter_mut().zip(columns) {
-            if column.0 < held.0 {
-                *held = column;
+    let pieces = parallel::pieces(first.len(), ROWS);
+    for group in pieces.chunks(REPORT / ROWS) {
+        for (more, columns) in parallel::map(group, |piece| scan(first, second, piece.clone())) {
+            rows.extend(more);
+            for (held, column) in nearest.iter_mut().zip(columns) {
+                if column.0 < held.0 {
+                    *held = column;
+                }
             }
         }
+        let share = rows.len() as f32 / first.len() as f32;
+        report(monitor, Stage::FeatureMatching, share)?;
     }
-    Found {
+    Ok(Found {
         rows,
         columns: nearest.into_iter().map(|(_, row)| row).collect(),
+    })
+}
+
+/// Neighbors of a piece of the first list, and for each of the second its nearest in that piece.
+fn scan(
+    first: &BinaryDescriptors,
+    second: &BinaryDescriptors,
+    piece: Range<usize>,
+) -> (Vec<Neighbors>, Vec<(u32, usize)>) {
+    let mut rows = Vec::with_capacity(piece.len());
+    let mut columns = vec![(u32::MAX, 0); second.len()];
+    let mut distances = vec![0; second.len()];
+    for row in piece {
+        differing_bits(&first.bits[row], &second.bits, &mut distances);
+        let (mut near, mut next, mut index) = (u32::MAX, u32::MAX, 0);
+        for (k, (&d, held)) in distances.iter().zip(&mut columns).enumerate() {
+            if d < next {
+                if d < near {
+                    (next, near, index) = (near, d, k);
+                } else {
+                    next = d;
+                }
+            }
+            if d < held.0 {
+                *held = (d, row);
+            }
+        }
+        rows.push(Neighbors {
+            index,
+            distance: near as f32,
+            second_distance: (second.len() > 1).then_some(next as f32),
+        });
     }
+    (rows, columns)
 }
 
 dispatched! {
@@ -185,8 +215,8 @@ mod tests {
     fn neighbors_are_those_of_brute_force() {
         for (n1, n2) in [(1, 1), (3, 2), (300, 150)] {
             let (a, b) = (random_bits(n1, 1), random_bits(n2, 2));
-            let near = nearest_two_hamming(&a, &b);
-            let found = search(&a, &b);
+            let near = nearest_two_hamming(&a, &b, &mut ()).unwrap();
+            let found = search(&a, &b, &mut ()).unwrap();
             for (k, x) in a.bits.iter().enumerate() {
                 let distance =
                     |y: &[u64; 4]| -> u32 { (0..4).map(|i| (x[i] ^ y[i]).count_ones()).sum() };
@@ -220,7 +250,7 @@ mod tests {
         let none = BinaryDescriptors::default();
         for (a, b) in [(&none, &none), (&a, &none), (&none, &a)] {
             assert!(
-                match_hamming(a, b, &MatchOptions::default())
+                match_hamming(a, b, &MatchOptions::default(), &mut ())
                     .unwrap()
                     .is_empty()
             );
@@ -229,6 +259,6 @@ mod tests {
             max_ratio: Some(2.0),
             ..MatchOptions::default()
         };
-        assert!(match_hamming(&a, &a, &bad).is_err());
+        assert!(match_hamming(&a, &a, &bad, &mut ()).is_err());
     }
 }

@@ -8,9 +8,8 @@ mod integers;
 
 use super::{Descriptors, parallel};
 use crate::math::order::{at_rank, order_by};
-use crate::progress::Progress;
+use crate::progress::Monitor;
 use crate::{Error, Result};
-use std::ops::ControlFlow;
 
 pub use hamming::{BinaryDescriptors, match_hamming, nearest_two_hamming};
 
@@ -79,22 +78,27 @@ impl Neighbors {
 /// For each descriptor of `first` its two nearest in `second`, by Euclidean distance, exactly.
 ///
 /// Empty lists give an empty result. Whole numbers from 0 to 255, such as SIFT's, are compared in
-/// integers, whether kept as bytes or as floats; other numbers in `f32`.
+/// integers, whether kept as bytes or as floats; other numbers in `f32`. The one stage is
+/// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for descriptors of different length.
+/// [`Error::SizeMismatch`] for descriptors of different length, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{Descriptors, nearest_two};
 /// let first = Descriptors::from_bytes(2, vec![0, 0])?;
 /// let second = Descriptors::from_bytes(2, vec![30, 40, 6, 8])?;
-/// let near = nearest_two(&first, &second)?[0];
+/// let near = nearest_two(&first, &second, &mut ())?[0];
 /// assert_eq!((near.index, near.distance, near.second_distance), (1, 10.0, Some(50.0)));
 /// # Ok(()) }
 /// ```
-pub fn nearest_two(first: &Descriptors, second: &Descriptors) -> Result<Vec<Neighbors>> {
-    Ok(dense::search(first, second, &mut |_| ControlFlow::Continue(()))?.rows)
+pub fn nearest_two(
+    first: &Descriptors,
+    second: &Descriptors,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Neighbors>> {
+    Ok(dense::search(first, second, monitor)?.rows)
 }
 
 /// The entries of a list nearest to one descriptor, by Euclidean distance: their indices and
@@ -154,18 +158,19 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
 
 /// Matches between two lists of descriptors, in the order of the first list.
 ///
-/// Empty lists give no matches. See [`Match`] for what becomes of a lone candidate.
+/// Empty lists give no matches. See [`Match`] for what becomes of a lone candidate. The one stage is
+/// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for descriptors of different length, [`Error::OutOfRange`] for an
-/// option outside its range.
+/// option outside its range, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{Descriptors, MatchOptions, match_descriptors};
 /// let first = Descriptors::from_floats(1, vec![0.0, 5.0])?;
 /// let second = Descriptors::from_floats(1, vec![5.5, 0.25, 40.0])?;
-/// let matches = match_descriptors(&first, &second, &MatchOptions::default())?;
+/// let matches = match_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
 /// assert_eq!((matches[0].index1, matches[0].index2, matches[0].distance), (0, 1, 0.25));
 /// assert_eq!((matches[1].index1, matches[1].index2, matches[1].distance), (1, 0, 0.5));
 /// # Ok(()) }
@@ -174,37 +179,10 @@ pub fn match_descriptors(
     first: &Descriptors,
     second: &Descriptors,
     options: &MatchOptions,
-) -> Result<Vec<Match>> {
-    match_descriptors_with_progress(first, second, options, &mut |_| ControlFlow::Continue(()))
-}
-
-/// [`match_descriptors`] that reports how far it is and can be stopped.
-///
-/// * `progress`: hears how far the one stage, [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching),
-///   is, and says whether to go on
-///
-/// # Errors
-/// As [`match_descriptors`], and [`Error::Canceled`] if `progress` said so.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::feature::{Descriptors, MatchOptions, match_descriptors_with_progress};
-/// use std::ops::ControlFlow;
-/// let list = Descriptors::from_bytes(1, vec![1, 2])?;
-/// let options = MatchOptions::default();
-/// let stop = &mut |_| ControlFlow::Break(());
-/// let stopped = match_descriptors_with_progress(&list, &list, &options, stop);
-/// assert_eq!(stopped, Err(epipole::Error::Canceled));
-/// # Ok(()) }
-/// ```
-pub fn match_descriptors_with_progress(
-    first: &Descriptors,
-    second: &Descriptors,
-    options: &MatchOptions,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Match>> {
     check(options)?;
-    let found = dense::search(first, second, progress)?;
+    let found = dense::search(first, second, monitor)?;
     Ok(select(&found.rows, &found.columns, options))
 }
 
@@ -306,7 +284,7 @@ mod tests {
     }
 
     fn assert_neighbors(a: &Descriptors, b: &Descriptors) {
-        let near = nearest_two(a, b).unwrap();
+        let near = nearest_two(a, b, &mut ()).unwrap();
         for (got, want) in near.iter().zip(brute_force(a, b)) {
             assert_eq!(got.index, want.0);
             assert!((f64::from(got.distance) - want.1).abs() <= 1e-5 * want.1.max(1.0));
@@ -346,20 +324,20 @@ mod tests {
     fn equal_descriptors_go_to_the_lowest_index() {
         let a = Descriptors::from_bytes(2, vec![1, 1, 1, 1]).unwrap();
         let b = Descriptors::from_bytes(2, vec![9, 9, 1, 1, 1, 1]).unwrap();
-        let near = nearest_two(&a, &b).unwrap();
+        let near = nearest_two(&a, &b, &mut ()).unwrap();
         assert_eq!((near[0].index, near[1].index), (1, 1));
         let all = MatchOptions {
             max_ratio: None,
             ..MatchOptions::default()
         };
-        let matches = match_descriptors(&a, &b, &all).unwrap();
+        let matches = match_descriptors(&a, &b, &all, &mut ()).unwrap();
         assert_eq!(matches.len(), 1);
         assert_eq!(
             (matches[0].index1, matches[0].index2, matches[0].ratio),
             (0, 1, 1.0)
         );
         assert!(
-            match_descriptors(&a, &b, &MatchOptions::default())
+            match_descriptors(&a, &b, &MatchOptions::default(), &mut ())
                 .unwrap()
                 .is_empty()
         );
@@ -376,7 +354,7 @@ mod tests {
             unique: false,
         };
         let pairs = |options: MatchOptions| {
-            let matches = match_descriptors(&a, &b, &options).unwrap();
+            let matches = match_descriptors(&a, &b, &options, &mut ()).unwrap();
             matches
                 .iter()
                 .map(|m| (m.index1, m.index2))
@@ -419,13 +397,17 @@ mod tests {
         let one = Descriptors::from_bytes(3, vec![1, 2, 3]).unwrap();
         let options = MatchOptions::default();
         for (a, b) in [(&none, &none), (&one, &none), (&none, &one)] {
-            assert!(match_descriptors(a, b, &options).unwrap().is_empty());
+            assert!(
+                match_descriptors(a, b, &options, &mut ())
+                    .unwrap()
+                    .is_empty()
+            );
         }
-        let lone = match_descriptors(&one, &one, &options).unwrap();
+        let lone = match_descriptors(&one, &one, &options, &mut ()).unwrap();
         assert_eq!((lone.len(), lone[0].ratio), (1, 0.0));
         let other = Descriptors::from_bytes(2, vec![1, 2]).unwrap();
         assert_eq!(
-            match_descriptors(&one, &other, &options),
+            match_descriptors(&one, &other, &options, &mut ()),
             Err(Error::SizeMismatch {
                 what: "the descriptors of the two images",
                 first: 3,
@@ -437,14 +419,14 @@ mod tests {
                 max_ratio: Some(max_ratio),
                 ..options
             };
-            assert!(match_descriptors(&one, &one, &options).is_err());
+            assert!(match_descriptors(&one, &one, &options, &mut ()).is_err());
         }
         for max_distance in [-1.0, f32::NAN] {
             let options = MatchOptions {
                 max_distance: Some(max_distance),
                 ..options
             };
-            assert!(match_descriptors(&one, &one, &options).is_err());
+            assert!(match_descriptors(&one, &one, &options, &mut ()).is_err());
         }
     }
 }

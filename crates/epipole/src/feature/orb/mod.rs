@@ -246,8 +246,13 @@ mod tests {
         let other = warp_affine(&image, &map, &options).unwrap();
         let a = detect_orb(&image, &OrbOptions::default()).unwrap();
         let b = detect_orb(&other, &OrbOptions::default()).unwrap();
-        let matches =
-            match_hamming(&a.descriptors, &b.descriptors, &MatchOptions::default()).unwrap();
+        let matches = match_hamming(
+            &a.descriptors,
+            &b.descriptors,
+            &MatchOptions::default(),
+            &mut (),
+        )
+        .unwrap();
         let right = matches.iter().filter(|m| {
             let (p, q) = (a.keypoints[m.index1], b.keypoints[m.index2]);
             let u = cos * p.u - sin * p.v + 120.0;

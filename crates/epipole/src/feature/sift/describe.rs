@@ -177,7 +177,7 @@ mod tests {
                 max_orientations: 1,
                 ..SiftOptions::default()
             };
-            let found = detect_sift(&image, &options).unwrap();
+            let found = detect_sift(&image, &options, &mut ()).unwrap();
             assert!(found.keypoints.len() > 20, "{}", found.keypoints.len());
             let again = describe_sift(&image, &found.keypoints, &options).unwrap();
             assert_eq!(again, found.descriptors);

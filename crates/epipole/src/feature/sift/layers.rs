@@ -135,7 +135,7 @@ mod tests {
         let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
         let options = SiftOptions::default();
         let space = scale_space(&image, &options).unwrap();
-        let found = detect_sift(&image, &options).unwrap();
+        let found = detect_sift(&image, &options, &mut ()).unwrap();
         let mut count = 0;
         for keypoint in &found.keypoints {
             let answers = space.answers(keypoint.u, keypoint.v);

@@ -12,14 +12,13 @@ use super::nms::stronger;
 use super::{Descriptors, parallel};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::{at_rank, order_by};
-use crate::progress::{Progress, Stage, Status};
+use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
 pub use describe::{describe_sift, sift_directions};
 use descriptor::Samples;
 use extrema::Extremum;
 pub use layers::{ScaleOctave, ScaleSpace, scale_space};
 use scale_space::{Octave, OctaveGrid};
-use std::ops::ControlFlow;
 
 /// How the 128 sums of a SIFT descriptor are scaled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -100,10 +99,12 @@ pub struct Features {
 /// cut at 255. The angle of a keypoint is `atan2(Iᵥ, Iᵤ)` with v down; `scale_px` is the standard
 /// deviation of the blur; `octave` is −1 at twice the image's size.
 ///
-/// An image that is flat, or smaller than about a dozen pixels, has no features.
+/// An image that is flat, or smaller than about a dozen pixels, has no features. The one stage is
+/// [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range.
+/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range,
+/// [`Error::Canceled`].
 ///
 /// Source: Lowe 2004, "Distinctive image features from scale-invariant keypoints".
 ///
@@ -116,45 +117,20 @@ pub struct Features {
 ///     let (x, y) = (u as f32 - 32.0, v as f32 - 30.0);
 ///     image::Luma([1.0 / (1.0 + (x * x + y * y) / 60.0)])
 /// });
-/// let features = detect_sift(&blob, &SiftOptions { upright: true, ..SiftOptions::default() })?;
+/// let features = detect_sift(&blob, &SiftOptions { upright: true, ..SiftOptions::default() }, &mut ())?;
 /// let strongest = features.keypoints[0];
 /// assert!((strongest.u - 32.0).abs() < 0.01 && (strongest.v - 30.0).abs() < 0.01);
 /// # Ok(()) }
 /// ```
-pub fn detect_sift(image: &GrayImage32, options: &SiftOptions) -> Result<Features> {
-    detect_sift_with_progress(image, options, &mut |_| ControlFlow::Continue(()))
-}
-
-/// [`detect_sift`] that reports how far it is and can be stopped.
-///
-/// * `progress`: hears how far the one stage, [`Stage::FeatureDetection`], is, and says whether to go on
-///
-/// # Errors
-/// As [`detect_sift`], and [`Error::Canceled`] if `progress` said so.
-///
-/// ```
-/// use epipole::feature::{SiftOptions, detect_sift_with_progress};
-/// use std::ops::ControlFlow;
-/// let image = epipole::imaging::GrayImage32::new(64, 64);
-/// let stop = &mut |_| ControlFlow::Break(());
-/// let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), stop);
-/// assert_eq!(stopped, Err(epipole::Error::Canceled));
-/// ```
-pub fn detect_sift_with_progress(
+pub fn detect_sift(
     image: &GrayImage32,
     options: &SiftOptions,
-    progress: Progress<'_>,
+    monitor: &mut dyn Monitor,
 ) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
-    let mut tell = |share: f64| {
-        let stage = Stage::FeatureDetection;
-        let share = share.min(1.0) as f32;
-        match progress(Status { stage, share }) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Error::Canceled),
-        }
-    };
+    let mut tell =
+        |share: f64| progress::report(monitor, Stage::FeatureDetection, share.min(1.0) as f32);
     tell(0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();
     let mut strongest = Strongest::new(options.max_features);

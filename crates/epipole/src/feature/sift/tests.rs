@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::imaging::fixture;
+use crate::progress::Status;
 use std::f32::consts::{FRAC_PI_2, PI};
+use std::ops::ControlFlow;
 
 fn blobs(width: u32, height: u32) -> GrayImage32 {
     let mut random = crate::math::random::Random::new(5);
@@ -49,7 +51,8 @@ fn mirrored_and_turned_images_give_mirrored_and_turned_keypoints() {
                 upsample,
                 ..SiftOptions::default()
             };
-            let detect = |image: &GrayImage32| detect_sift(image, &options).unwrap().keypoints;
+            let detect =
+                |image: &GrayImage32| detect_sift(image, &options, &mut ()).unwrap().keypoints;
             let here = detect(&image);
             assert!(here.len() > 20, "{}", here.len());
             let mirrored = detect(&image::imageops::flip_horizontal(&image));
@@ -72,7 +75,7 @@ fn a_blob_is_found_at_its_center_and_size() {
             let (dx, dy) = (f64::from(u) - x, f64::from(v) - y);
             image::Luma([libm::exp(-0.5 * (dx * dx + dy * dy) / (size * size)) as f32])
         });
-        let features = detect_sift(&blob, &SiftOptions::default()).unwrap();
+        let features = detect_sift(&blob, &SiftOptions::default(), &mut ()).unwrap();
         let best = features.keypoints[0];
         // The fitted quadratic misses by less than a twentieth of a sample of its octave.
         let off = (best.u - x).abs().max((best.v - y).abs());
@@ -99,7 +102,7 @@ fn the_angle_points_up_the_gradient() {
             let blob = 0.4 / (1.0 + (x * x + y * y) / 20.0);
             image::Luma([0.4 + blob + 0.006 * (gu * x + gv * y)])
         });
-        let features = detect_sift(&image, &SiftOptions::default()).unwrap();
+        let features = detect_sift(&image, &SiftOptions::default(), &mut ()).unwrap();
         let best = features.keypoints[0];
         assert!((best.angle_rad - want).abs() < 0.1, "{best:?}");
     }
@@ -109,7 +112,7 @@ fn the_angle_points_up_the_gradient() {
 fn options_change_what_they_name() {
     let image = blobs(160, 120);
     let base = SiftOptions::default();
-    let all = detect_sift(&image, &base).unwrap();
+    let all = detect_sift(&image, &base, &mut ()).unwrap();
     assert!(all.keypoints.is_sorted_by(|a, b| a.response >= b.response));
     assert_eq!(all.keypoints.len(), all.descriptors.len());
 
@@ -119,6 +122,7 @@ fn options_change_what_they_name() {
             max_features: 17,
             ..base
         },
+        &mut (),
     )
     .unwrap();
     assert_eq!(few.keypoints, all.keypoints[..17]);
@@ -130,6 +134,7 @@ fn options_change_what_they_name() {
             upright: true,
             ..base
         },
+        &mut (),
     )
     .unwrap();
     assert!(upright.keypoints.iter().all(|k| k.angle_rad == 0.0));
@@ -139,7 +144,7 @@ fn options_change_what_they_name() {
         normalization: SiftNormalization::Root,
         ..base
     };
-    let root = detect_sift(&image, &root).unwrap();
+    let root = detect_sift(&image, &root, &mut ()).unwrap();
     assert_eq!(root.keypoints, all.keypoints);
     for features in [&all, &root] {
         for k in 0..features.descriptors.len() {
@@ -168,7 +173,7 @@ fn nothing_to_find_is_no_error() {
                 upsample,
                 ..SiftOptions::default()
             };
-            let features = detect_sift(&flat, &options).unwrap();
+            let features = detect_sift(&flat, &options, &mut ()).unwrap();
             assert!(features.keypoints.is_empty() && features.descriptors.is_empty());
         }
     }
@@ -180,7 +185,7 @@ fn bad_pixels_and_options_are_refused() {
     let bad = |change: fn(&mut SiftOptions)| {
         let mut options = SiftOptions::default();
         change(&mut options);
-        assert!(detect_sift(&image, &options).is_err());
+        assert!(detect_sift(&image, &options, &mut ()).is_err());
     };
     bad(|o| o.layers_per_octave = 0);
     bad(|o| o.layers_per_octave = 11);
@@ -191,7 +196,7 @@ fn bad_pixels_and_options_are_refused() {
     bad(|o| o.max_orientations = 0);
     bad(|o| o.orientation_peak_ratio = f32::NAN);
     image.put_pixel(3, 3, image::Luma([f32::NAN]));
-    let result = detect_sift(&image, &SiftOptions::default());
+    let result = detect_sift(&image, &SiftOptions::default(), &mut ());
     assert!(matches!(result, Err(Error::NotFinite { .. })));
 }
 
@@ -199,7 +204,7 @@ fn bad_pixels_and_options_are_refused() {
 fn progress_rises_and_can_stop_the_work() {
     let image = blobs(160, 120);
     let mut shares = Vec::new();
-    let all = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |status| {
+    let all = detect_sift(&image, &SiftOptions::default(), &mut |status: Status| {
         assert_eq!(status.stage, Stage::FeatureDetection);
         shares.push(status.share);
         ControlFlow::Continue(())
@@ -209,10 +214,10 @@ fn progress_rises_and_can_stop_the_work() {
     assert!(shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
     assert_eq!(
         all.unwrap(),
-        detect_sift(&image, &SiftOptions::default()).unwrap()
+        detect_sift(&image, &SiftOptions::default(), &mut ()).unwrap()
     );
     let mut calls = 0;
-    let stopped = detect_sift_with_progress(&image, &SiftOptions::default(), &mut |_| {
+    let stopped = detect_sift(&image, &SiftOptions::default(), &mut |_| {
         calls += 1;
         if calls < 3 {
             ControlFlow::Continue(())
@@ -231,7 +236,7 @@ fn more_layers_than_the_window_holds() {
             layers_per_octave,
             ..SiftOptions::default()
         };
-        let features = detect_sift(&image, &options).unwrap();
+        let features = detect_sift(&image, &options, &mut ()).unwrap();
         assert!(features.keypoints.len() > 10, "{layers_per_octave}");
     }
 }
@@ -240,7 +245,7 @@ fn more_layers_than_the_window_holds() {
 fn keypoints_equal_those_of_opencv_where_both_find_them() {
     let image = crate::imaging::gray_to_f32(&fixture::gray8("sift_image.npy"));
     let expected = fixture::floats("sift_keypoints.npy");
-    let ours = detect_sift(&image, &SiftOptions::default())
+    let ours = detect_sift(&image, &SiftOptions::default(), &mut ())
         .unwrap()
         .keypoints;
     let found = expected.values.chunks_exact(3).filter(|k| {
@@ -308,7 +313,7 @@ fn keypoints_and_descriptors_survive_rotation() {
     let options = SiftOptions::default();
     let (c, radius) = (179.5, 150.0);
     let detect = |image: &GrayImage32| {
-        let mut features = detect_sift(image, &options).unwrap();
+        let mut features = detect_sift(image, &options, &mut ()).unwrap();
         let inside: Vec<usize> = (0..features.keypoints.len())
             .filter(|&k| {
                 let (u, v) = (features.keypoints[k].u - c, features.keypoints[k].v - c);
@@ -346,7 +351,8 @@ fn keypoints_and_descriptors_survive_rotation() {
                 ..*k
             })
             .collect();
-        let near = crate::feature::nearest_two(&here.descriptors, &there.descriptors).unwrap();
+        let near =
+            crate::feature::nearest_two(&here.descriptors, &there.descriptors, &mut ()).unwrap();
         let (mut found, mut angles, mut descriptors) = (0, 0, 0);
         for (k, (ratio, other)) in best_overlaps(&moved, &there.keypoints)
             .into_iter()
@@ -383,11 +389,11 @@ fn keypoints_and_descriptors_survive_rotation() {
 fn keypoints_and_descriptors_survive_scaling() {
     let Some(image) = photograph() else { return };
     let options = SiftOptions::default();
-    let here = detect_sift(&image, &options).unwrap();
+    let here = detect_sift(&image, &options, &mut ()).unwrap();
     for scale in [1.5, 2.0, 2.5] {
         let side = (360.0 / scale) as u32;
         let small = crate::imaging::resize(&image, side, side).unwrap();
-        let there = detect_sift(&small, &options).unwrap();
+        let there = detect_sift(&small, &options, &mut ()).unwrap();
         let grown: Vec<Keypoint> = there
             .keypoints
             .iter()
@@ -398,7 +404,8 @@ fn keypoints_and_descriptors_survive_scaling() {
                 ..*k
             })
             .collect();
-        let near = crate::feature::nearest_two(&there.descriptors, &here.descriptors).unwrap();
+        let near =
+            crate::feature::nearest_two(&there.descriptors, &here.descriptors, &mut ()).unwrap();
         let (mut found, mut sizes, mut descriptors) = (0, 0, 0);
         for (k, (ratio, other)) in best_overlaps(&grown, &here.keypoints)
             .into_iter()

@@ -5,13 +5,11 @@ mod radial;
 mod text;
 
 use super::bundle::{BundleObservation, observation_pairs};
-use super::shares::iterations;
-use crate::Result;
-use crate::optim::{Iteration, LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
-use crate::progress::{Progress, Stage};
+use crate::optim::{LmOptions, LmReport, RobustLoss, SchurSystem, minimize};
+use crate::progress::{Monitor, Part, Stage};
+use crate::{Error, Result};
 use nalgebra::{Point3, Vector3};
 use problem::{Problem, State};
-use std::ops::ControlFlow;
 
 /// The camera of the format: it looks along −z, and its image has the origin in the middle and v
 /// up.
@@ -73,8 +71,7 @@ impl BalProblem {
 /// Refines all cameras and points of a problem, in place.
 ///
 /// * `loss`: its width is in pixels
-/// * `observer`: called once before the first step and after every step; answer
-///   [`ControlFlow::Break`] to cancel; the problem is then the best found so far
+/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::BundleAdjustment`]
 ///
 /// Every observation counts, those of points behind their camera too, so that costs can be
 /// compared.
@@ -83,14 +80,14 @@ impl BalProblem {
 /// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange) if
 /// an observation refers to a camera or point that is not there, or for a loss that
 /// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start is
-/// not finite.
+/// not finite, [`Canceled`](crate::Error::Canceled); the problem is then the best found so far.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis".
 pub fn adjust_bal(
     problem: &mut BalProblem,
     options: &LmOptions,
     loss: RobustLoss,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<LmReport> {
     loss.check()?;
     let pairs = observation_pairs(
@@ -107,33 +104,18 @@ pub fn adjust_bal(
         loss,
     };
     let mut system = SchurSystem::new(&bundle);
-    let report = minimize(&mut system, &mut state, options, observer)?;
+    let mut step = Part::new(monitor, 0.0, 1.0).of_stage(Stage::BundleAdjustment);
+    let report = minimize(&mut system, &mut state, options, &mut step);
+    if !matches!(report, Ok(_) | Err(Error::Canceled)) {
+        return report;
+    }
     for (camera, new) in problem.cameras.iter_mut().zip(&state.cameras) {
         camera.rotation = new.pose.rotation.scaled_axis();
         camera.translation = new.pose.translation;
         [camera.focal_px, camera.k1, camera.k2] = new.intrinsics;
     }
     problem.points = state.points;
-    Ok(report)
-}
-
-/// As [`adjust_bal`], with the same result, telling `progress` what share of the steps that there may be at most
-/// is done, in the one stage [`Stage::BundleAdjustment`].
-///
-/// Whoever breaks gets the best problem found so far, as [`LmReport::termination`] says.
-///
-/// # Errors
-/// As [`adjust_bal`].
-///
-/// Source: as [`adjust_bal`].
-pub fn adjust_bal_with_progress(
-    problem: &mut BalProblem,
-    options: &LmOptions,
-    loss: RobustLoss,
-    progress: Progress<'_>,
-) -> Result<LmReport> {
-    let mut tell = iterations(progress, Stage::BundleAdjustment, options);
-    adjust_bal(problem, options, loss, &mut tell)
+    report
 }
 
 #[cfg(test)]
@@ -195,10 +177,6 @@ mod tests {
         }
     }
 
-    fn go_on(_: &Iteration) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     #[test]
     fn jacobians_are_those_of_central_differences() {
         let mut problem = ring(3, 4, 0.0, 1);
@@ -250,7 +228,7 @@ mod tests {
             cost_tolerance: 0.0,
             ..LmOptions::default()
         };
-        let report = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut go_on).unwrap();
+        let report = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut ()).unwrap();
         assert!(report.final_cost < 1e-15, "{report:?}");
         let again = problem.cost(RobustLoss::Trivial);
         assert!(again < 1e-15, "{again}");
@@ -264,7 +242,7 @@ mod tests {
             &mut problem,
             &LmOptions::default(),
             RobustLoss::Trivial,
-            &mut go_on,
+            &mut (),
         )
         .unwrap();
         // E[½ Σ r²] = ½ σ² (residuals − parameters + 7 of the gauge).
@@ -285,13 +263,9 @@ mod tests {
         }
         disturb(&mut problem, 0.005, 8);
         let loss = RobustLoss::Cauchy { width: 1.0 };
-        let mut costs = Vec::new();
-        let report = adjust_bal(&mut problem, &LmOptions::default(), loss, &mut |i| {
-            costs.push(i.cost);
-            ControlFlow::Continue(())
-        })
-        .unwrap();
-        assert!(costs.windows(2).all(|pair| pair[1] <= pair[0]));
+        let report = adjust_bal(&mut problem, &LmOptions::default(), loss, &mut ()).unwrap();
+        let mut pairs = report.history.windows(2);
+        assert!(pairs.all(|pair| pair[1].cost <= pair[0].cost));
         assert!((problem.cost(loss) - report.final_cost).abs() < 1e-9 * report.final_cost);
         // Without the outliers the refined cameras explain what the true ones do.
         problem.observations = truth.observations.clone();
@@ -310,7 +284,7 @@ mod tests {
             &mut problem,
             &LmOptions::default(),
             RobustLoss::Trivial,
-            &mut go_on,
+            &mut (),
         )
         .unwrap();
         assert!(report.termination.is_converged(), "{report:?}");
@@ -333,7 +307,7 @@ mod tests {
             &mut problem,
             &LmOptions::default(),
             RobustLoss::Trivial,
-            &mut go_on,
+            &mut (),
         );
         assert!(matches!(result, Err(Error::NotFinite { .. })));
     }

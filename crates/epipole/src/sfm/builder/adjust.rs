@@ -2,16 +2,16 @@
 
 use super::Builder;
 use crate::camera::Intrinsics;
-use crate::optim::{Iteration, LmOptions, RobustLoss};
+use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
-use crate::sfm::incremental::{Reporter, SfmStep};
 use crate::sfm::reconstruction::Lenses;
 use crate::sfm::views::Views;
-use std::ops::ControlFlow;
+use crate::{Error, Result};
 
-impl Builder<'_> {
+impl Builder {
     /// The image itself and those that share most points with it.
-    pub(super) fn neighborhood(&self, image: usize, count: usize) -> Vec<usize> {
+    pub(in crate::sfm) fn neighborhood(&self, image: usize, count: usize) -> Vec<usize> {
         let mut shared = vec![0; self.images.len()];
         for point in self.points.iter().flatten() {
             if point
@@ -30,15 +30,18 @@ impl Builder<'_> {
         order
     }
 
-    /// Bundle adjustment of everything, or of some images with the points that they see; returns
-    /// the cost. Whoever breaks in the middle has the best so far.
+    /// Bundle adjustment of everything, or of some images with the points that they see. Returns
+    /// the cost; `None` if there is nothing that can be refined.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`]; cameras and points are then the best found so far.
     pub(in crate::sfm) fn adjust(
         &mut self,
         free: Option<&[usize]>,
         max_iterations: usize,
         with_intrinsics: bool,
-        reporter: &mut Reporter<'_>,
-    ) -> Option<f64> {
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<f64>> {
         let is_free = |image: usize| free.is_none_or(|list| list.contains(&self.frame_of(image).0));
         let mut bundle = Bundle::default();
         let mut lenses = Lenses::default();
@@ -100,12 +103,11 @@ impl Builder<'_> {
             let lens = self.lens_in(&mut bundle, &mut lenses, self.images.len() / 2);
             bundle.sensors.push(Sensor { lens, ..rig });
         }
-        let mut go_on =
-            |step: &Iteration| match reporter.tell(&SfmStep::Refined { cost: step.cost }) {
-                true => ControlFlow::Continue(()),
-                false => ControlFlow::Break(()),
-            };
-        let report = adjust_bundle(&mut bundle, &options, &mut go_on).ok()?;
+        let adjusted = match adjust_bundle(&mut bundle, &options, monitor) {
+            Ok(report) => Ok(Some(report.final_cost)),
+            Err(Error::Canceled) => Err(Error::Canceled),
+            Err(_) => return Ok(None),
+        };
         if options.refines_lens() {
             self.share_intrinsics(&bundle, &image_of, &lenses);
         }
@@ -117,7 +119,7 @@ impl Builder<'_> {
                 point.position = *position;
             }
         }
-        Some(report.final_cost)
+        adjusted
     }
 
     /// The number that the lens of an image has in a bundle, into which it comes if it is new there.
@@ -160,6 +162,6 @@ impl Builder<'_> {
                 camera.intrinsics = *intrinsics;
             }
         }
-        self.views = Views::new(self.images, &self.intrinsics, &self.lenses);
+        self.views = Views::new(&self.images, &self.intrinsics, &self.lenses);
     }
 }

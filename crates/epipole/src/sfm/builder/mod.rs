@@ -5,14 +5,16 @@ mod place;
 mod points;
 
 use super::bundle::Sensor;
-use super::incremental::{Reporter, SfmOptions, SfmStep};
+use super::options::{SfmOptions, lenses, pair_ransac};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
-use super::tracks::TrackElement;
+use super::tracks::{PairMatches, TrackElement, build_tracks};
 use super::triangulate_track::Sight;
-use super::two_view_start::{VerifiedPair, pair_ransac};
+use super::two_view_start::VerifiedPair;
 use super::views::{View, Views};
+use crate::Result;
 use crate::absolute_pose::{estimate_absolute_pose, estimate_absolute_pose_of_rays};
 use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
+use crate::progress::Monitor;
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
 
@@ -23,16 +25,18 @@ pub(super) struct TrackPoint {
     pub(super) seen: Vec<TrackElement>,
 }
 
-pub(super) struct Builder<'a> {
-    pub(super) images: &'a [SfmImage],
-    pub(super) options: &'a SfmOptions,
+pub(super) struct Builder {
+    pub(super) images: Vec<SfmImage>,
+    pub(super) options: SfmOptions,
+    /// Of each image, before any refinement.
+    first_intrinsics: Vec<Intrinsics>,
     pub(super) views: Views,
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Of each image.
     pub(super) lenses: Vec<Lens>,
-    pub(super) tracks: &'a [Vec<TrackElement>],
+    pub(super) tracks: Vec<Vec<TrackElement>>,
     /// Track of each keypoint, `u32::MAX` if none.
-    pub(super) track_of: &'a [Vec<u32>],
+    pub(super) track_of: Vec<Vec<u32>>,
     /// Images that earlier components have.
     pub(super) taken: Vec<bool>,
     /// Of a stereo rig: the second half of the images is what the right camera saw.
@@ -43,7 +47,59 @@ pub(super) struct Builder<'a> {
     pub(super) is_placed: bool,
 }
 
-impl Builder<'_> {
+impl Builder {
+    /// Nothing is registered yet, and [`join_tracks`](Self::join_tracks) gives it tracks.
+    ///
+    /// * `intrinsics`: of each image
+    pub(super) fn new(
+        images: &[SfmImage],
+        intrinsics: Vec<Intrinsics>,
+        options: &SfmOptions,
+    ) -> Self {
+        let lenses = lenses(images, options);
+        Self {
+            images: images.to_vec(),
+            options: options.clone(),
+            views: Views::new(images, &intrinsics, &lenses),
+            first_intrinsics: intrinsics.clone(),
+            intrinsics,
+            lenses,
+            tracks: Vec::new(),
+            track_of: Vec::new(),
+            taken: vec![false; images.len()],
+            rig: None,
+            cameras: vec![None; images.len()],
+            points: Vec::new(),
+            is_placed: false,
+        }
+    }
+
+    /// Joins matches into the tracks to make points from.
+    pub(super) fn join_tracks(&mut self, pairs: &[PairMatches]) -> Result<()> {
+        let counts: Vec<usize> = (self.images.iter())
+            .map(|image| image.keypoints.len())
+            .collect();
+        self.tracks = build_tracks(&counts, pairs)?;
+        self.track_of = counts.iter().map(|n| vec![u32::MAX; *n]).collect();
+        for (index, track) in self.tracks.iter().enumerate() {
+            for element in track {
+                self.track_of[element.image as usize][element.keypoint as usize] = index as u32;
+            }
+        }
+        self.points = vec![None; self.tracks.len()];
+        Ok(())
+    }
+
+    /// Forgets cameras, points and refined lenses, for another component.
+    pub(super) fn clear(&mut self) {
+        self.intrinsics.clone_from(&self.first_intrinsics);
+        self.lenses = lenses(&self.images, &self.options);
+        self.views = Views::new(&self.images, &self.intrinsics, &self.lenses);
+        self.cameras.fill(None);
+        self.points.fill(None);
+        self.is_placed = false;
+    }
+
     /// The image that holds the camera of `image`, and 1 if it is the right one of a rig.
     fn frame_of(&self, image: usize) -> (usize, usize) {
         let num_frames = self.images.len() / 2;
@@ -84,8 +140,8 @@ impl Builder<'_> {
     pub(super) fn start(
         &mut self,
         verified: &[VerifiedPair],
-        reporter: &mut Reporter<'_>,
-    ) -> Option<[usize; 2]> {
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<[usize; 2]>> {
         let mut wanted_rad = self.options.min_start_angle_deg.to_radians();
         let mut tried = vec![false; verified.len()];
         // Below a quarter of a degree a pair says nothing about depth.
@@ -105,29 +161,21 @@ impl Builder<'_> {
             });
             for n in order {
                 tried[n] = true;
-                if self.start_from(&verified[n], reporter) {
+                if self.start_from(&verified[n], monitor)? {
                     let pair = &verified[n].pair;
-                    let images = [pair.image1, pair.image2];
-                    reporter.tell(&SfmStep::Started {
-                        images,
-                        num_points: self.num_points(),
-                    });
-                    return Some(images);
-                }
-                if reporter.canceled {
-                    return None;
+                    return Ok(Some([pair.image1, pair.image2]));
                 }
             }
             wanted_rad *= 0.5;
         }
-        None
+        Ok(None)
     }
 
     pub(super) fn start_from(
         &mut self,
         verified: &VerifiedPair,
-        reporter: &mut Reporter<'_>,
-    ) -> bool {
+        monitor: &mut dyn Monitor,
+    ) -> Result<bool> {
         let (a, b) = (verified.pair.image1, verified.pair.image2);
         let camera = |intrinsics, cam_from_world| {
             Some(PosedCamera {
@@ -138,82 +186,18 @@ impl Builder<'_> {
         self.cameras[a] = camera(self.intrinsics[a], RigidTransform::identity());
         self.cameras[b] = camera(self.intrinsics[b], verified.cam2_from_cam1);
         self.triangulate();
+        let mut adjusted = Ok(None);
         if self.num_points() >= self.options.min_num_inliers {
-            self.adjust(None, 20, false, reporter);
+            adjusted = self.adjust(None, 20, false, monitor);
             self.filter();
             self.triangulate();
         }
         if self.num_points() >= self.options.min_num_inliers && self.num_registered() == 2 {
-            return true;
+            return adjusted.map(|_| true);
         }
         self.cameras.fill(None);
         self.points.fill(None);
-        false
-    }
-
-    /// Adds images while there are any that can be added.
-    pub(super) fn grow(&mut self, reporter: &mut Reporter<'_>) {
-        // Points that an image saw when it could not be registered: it is tried again with more.
-        let mut failed_with = vec![0; self.images.len()];
-        let mut adjusted_at = self.num_registered();
-        while !reporter.canceled {
-            let Some(image) = self.next_image(&failed_with) else {
-                break;
-            };
-            let Some(num_visible) = self.register(image) else {
-                failed_with[image] = self.visible(image).len();
-                continue;
-            };
-            debug_assert!(num_visible > 0);
-            self.triangulate_of(Some(image));
-            let num_registered = self.num_registered();
-            // Everything is refined while it is small, later whenever it has grown by a tenth.
-            let everything = num_registered <= 12 || num_registered * 10 >= adjusted_at * 11;
-            let cost = if everything {
-                adjusted_at = num_registered;
-                self.adjust(None, 15, num_registered >= 4, reporter)
-            } else {
-                let near = self.neighborhood(image, 6);
-                self.adjust(Some(&near), 15, false, reporter)
-            };
-            self.filter();
-            if everything {
-                self.complete();
-                self.triangulate();
-            }
-            if let Some(cost) = cost {
-                reporter.tell(&SfmStep::Adjusted { cost });
-            }
-            reporter.tell(&SfmStep::Registered {
-                image,
-                num_registered: self.num_registered(),
-                num_points: self.num_points(),
-            });
-            reporter.show(|| self.so_far());
-        }
-        if reporter.canceled {
-            return;
-        }
-        for _ in 0..2 {
-            self.complete();
-            self.triangulate();
-            self.drop_short_tracks();
-            let cost = self.adjust(None, 50, true, reporter);
-            self.filter();
-            self.drop_short_tracks();
-            if let Some(cost) = cost
-                && !reporter.tell(&SfmStep::Adjusted { cost })
-            {
-                return;
-            }
-        }
-        if self.place_in_world()
-            && let Some(cost) = self.adjust(None, 50, true, reporter)
-        {
-            self.filter();
-            self.drop_short_tracks();
-            reporter.tell(&SfmStep::Adjusted { cost });
-        }
+        adjusted.map(|_| false)
     }
 
     /// The points that an image sees through its tracks.
@@ -234,7 +218,7 @@ impl Builder<'_> {
     /// The image whose view of the points is best: many, and spread over the picture.
     ///
     /// Source: Schönberger & Frahm 2016, §4.2.
-    fn next_image(&self, failed_with: &[usize]) -> Option<usize> {
+    pub(super) fn next_image(&self, failed_with: &[usize]) -> Option<usize> {
         let mut best = None;
         for image in 0..self.images.len() {
             if self.cameras[image].is_some() || self.taken[image] {
@@ -274,7 +258,7 @@ impl Builder<'_> {
         // Points come in no order.
         let ransac = RansacOptions {
             sampler: SamplerKind::Uniform,
-            ..pair_ransac(self.options).within(self.options.max_registration_error_px)
+            ..pair_ransac(&self.options).within(self.options.max_registration_error_px)
         };
         let intrinsics = self.intrinsics[image];
         let (mut pixels, mut rays, mut positions) = (Vec::new(), Vec::new(), Vec::new());
@@ -315,10 +299,6 @@ impl Builder<'_> {
         Some(found.num_inliers)
     }
 
-    pub(super) fn finish(self) -> Reconstruction {
-        self.so_far()
-    }
-
     /// What there is.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
@@ -334,7 +314,7 @@ impl Builder<'_> {
                 .collect(),
             cameras: self.cameras.clone(),
         };
-        reconstruction.finish_points(self.images);
+        reconstruction.finish_points(&self.images);
         reconstruction
     }
 }

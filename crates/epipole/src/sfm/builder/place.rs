@@ -8,10 +8,10 @@ use crate::sfm::reconstruction::moved_pose;
 /// A known position counts as wrong where it is so many standard deviations off.
 const WRONG_SIGMAS: f64 = 4.0;
 
-impl Builder<'_> {
+impl Builder {
     /// Moves cameras and points to where the known positions say, if these are enough to say it: three that are not
     /// on one line. Some may be wrong.
-    pub(super) fn place_in_world(&mut self) -> bool {
+    pub(in crate::sfm) fn place_in_world(&mut self) -> bool {
         if self.rig.is_some() {
             return false;
         }

@@ -3,7 +3,7 @@
 use super::{Builder, TrackPoint, insert};
 use crate::sfm::triangulate_track::{triangulate_track, widest_angle_rad};
 
-impl Builder<'_> {
+impl Builder {
     /// Triangulates all tracks without a point.
     pub(in crate::sfm) fn triangulate(&mut self) {
         self.triangulate_of(None);

@@ -1,6 +1,6 @@
 //! Bundles seen through lenses beyond Brown's model.
 
-use super::tests::{check_derivatives, disturb, everything, go_on, photograph};
+use super::tests::{check_derivatives, disturb, everything, photograph};
 use super::*;
 use crate::camera::{Division, Fisheye};
 use crate::math::random::Random;
@@ -98,7 +98,7 @@ fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
         camera.intrinsics = Intrinsics::new(309.0, 312.09, 502.0, 487.0).unwrap();
     }
     bundle.lenses = start.to_vec();
-    let report = adjust_bundle(&mut bundle, &everything(), &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-9, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let (got, want) = (got.intrinsics, want.intrinsics);
@@ -156,7 +156,7 @@ fn a_rational_lens_finds_how_it_bends() {
         refine_principal_point: false,
         ..everything()
     };
-    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-6, "{report:?}");
     for degrees in [10.0f64, 30.0, 50.0, 59.0] {
         let ray = Vector3::new(libm::tan(degrees.to_radians()), 0.1, 1.0);
@@ -179,7 +179,7 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
                 ..BundleOptions::default()
             };
             let mut bundle = bundle.clone();
-            adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+            adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
             let changed: Vec<bool> = (bundle.lenses[0].coefficients().into_iter())
                 .zip(lens(kind).coefficients())
                 .map(|(new, old)| new != old)
@@ -201,7 +201,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
             }
             .into(),
         ];
-        let refused = adjust_bundle(&mut bundle, &everything(), &mut go_on);
+        let refused = adjust_bundle(&mut bundle, &everything(), &mut ());
         assert!(
             matches!(refused, Err(Error::NotFinite { .. })),
             "{refused:?}"
@@ -214,7 +214,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     let camera = behind.cameras[o.camera].cam_from_world;
     behind.points[o.point] = camera.inverse() * Point3::new(0.0, 0.0, -2.0);
     behind.cameras[o.camera].cam_from_world = camera;
-    match adjust_bundle(&mut behind, &everything(), &mut go_on) {
+    match adjust_bundle(&mut behind, &everything(), &mut ()) {
         Ok(_) => assert!(
             behind
                 .points
@@ -226,7 +226,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     // A cushion does not see rays beyond its fold.
     let mut folded = good;
     folded.lenses = vec![Division { k: 0.5 }.into()];
-    let refused = adjust_bundle(&mut folded, &everything(), &mut go_on);
+    let refused = adjust_bundle(&mut folded, &everything(), &mut ());
     assert!(
         matches!(refused, Err(Error::NotFinite { .. })),
         "{refused:?}"

@@ -9,15 +9,13 @@ mod problem;
 #[cfg(test)]
 mod tests;
 
-use super::shares::iterations;
 use crate::camera::{Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
-use crate::optim::{Iteration, LmReport, SchurSystem, minimize};
-use crate::progress::{Progress, Stage};
+use crate::optim::{LmReport, SchurSystem, minimize};
+use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
 use lens_state::{OF_ANY, OF_BROWN};
 use nalgebra::{Point2, Point3, Translation3, Vector2};
 use problem::{Problem, State};
-use std::ops::ControlFlow;
 
 pub(super) use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
 pub use options::{BundleOptions, Gauge, PositionPrior};
@@ -167,8 +165,7 @@ pub(super) fn observation_pairs(
 /// difference in its standard deviations: a pixel weighs as much as one of them. Positions that are far from where the
 /// cameras are want [`align_points`](super::align_points) first.
 ///
-/// * `observer`: called once before the first step and after every step; answer
-///   [`ControlFlow::Break`] to cancel; the bundle is then the best found so far
+/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::BundleAdjustment`]
 ///
 /// Cameras and points without observations stay where they are.
 ///
@@ -176,7 +173,8 @@ pub(super) fn observation_pairs(
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
 /// camera or point that is not there, for a lens beyond the number of cameras and sensors, a standard deviation that is not positive, or
 /// for a loss that [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses,
-/// [`Error::NotFinite`] if a pixel, a coefficient of a lens, a known position or the cost at the start is not finite.
+/// [`Error::NotFinite`] if a pixel, a coefficient of a lens, a known position or the cost at the start is not finite,
+/// [`Error::Canceled`]; the bundle is then the best found so far.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
 /// is its §9.
@@ -184,7 +182,7 @@ pub(super) fn observation_pairs(
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
-/// use epipole::sfm::{Bundle, BundleOptions, Observation, PositionPrior, adjust_bundle};
+/// use epipole::sfm::{Bundle, BundleObservation, BundleOptions, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
 /// // Three cameras look along z; each has a lens of its own.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
@@ -212,7 +210,7 @@ pub(super) fn observation_pairs(
 ///     position_priors: bundle.cameras.iter().map(known).collect(),
 ///     ..BundleOptions::default()
 /// };
-/// adjust_bundle(&mut bundle, &options, &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// adjust_bundle(&mut bundle, &options, &mut ())?;
 /// let moved = bundle.cameras[1].center_in_world();
 /// assert!((moved - Point3::new(1.5, 0.0, 0.0)).norm() < 1e-3, "{moved}");
 /// # Ok(()) }
@@ -220,7 +218,7 @@ pub(super) fn observation_pairs(
 pub fn adjust_bundle(
     bundle: &mut Bundle,
     options: &BundleOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<LmReport> {
     options.check()?;
     let pairs = observation_pairs(
@@ -250,8 +248,8 @@ pub fn adjust_bundle(
     }
     // Room for more coefficients costs time, so it is taken only where some lens has more.
     match (bundle.lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
-        true => adjust::<OF_ANY>(bundle, pairs, options, observer),
-        false => adjust::<OF_BROWN>(bundle, pairs, options, observer),
+        true => adjust::<OF_ANY>(bundle, pairs, options, monitor),
+        false => adjust::<OF_BROWN>(bundle, pairs, options, monitor),
     }
 }
 
@@ -260,7 +258,7 @@ fn adjust<const S: usize>(
     bundle: &mut Bundle,
     pairs: Vec<(u32, u32)>,
     options: &BundleOptions,
-    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    monitor: &mut dyn Monitor,
 ) -> Result<LmReport> {
     let num_lenses = bundle.num_lenses();
     let mut state = State::new(bundle);
@@ -272,7 +270,11 @@ fn adjust<const S: usize>(
         refined: lens_state::refined(bundle, options),
     };
     let mut system = SchurSystem::new(&problem);
-    let report = minimize(&mut system, &mut state, &options.lm, observer)?;
+    let mut step = Part::new(monitor, 0.0, 1.0).of_stage(Stage::BundleAdjustment);
+    let report = minimize(&mut system, &mut state, &options.lm, &mut step);
+    if !matches!(report, Ok(_) | Err(Error::Canceled)) {
+        return report;
+    }
     // Either all of it is taken over, or nothing.
     let (mut cameras, mut sensors) = (bundle.cameras.clone(), bundle.sensors.clone());
     for (index, (camera, new)) in cameras.iter_mut().zip(&state.cameras).enumerate() {
@@ -293,23 +295,5 @@ fn adjust<const S: usize>(
             *lens = refined.lens;
         }
     }
-    Ok(report)
-}
-
-/// As [`adjust_bundle`], with the same result, telling `progress` what share of the steps that there may be at
-/// most is done, in the one stage [`Stage::BundleAdjustment`].
-///
-/// Whoever breaks gets the best bundle found so far, as [`LmReport::termination`] says.
-///
-/// # Errors
-/// As [`adjust_bundle`].
-///
-/// Source: as [`adjust_bundle`].
-pub fn adjust_bundle_with_progress(
-    bundle: &mut Bundle,
-    options: &BundleOptions,
-    progress: Progress<'_>,
-) -> Result<LmReport> {
-    let mut tell = iterations(progress, Stage::BundleAdjustment, &options.lm);
-    adjust_bundle(bundle, options, &mut tell)
+    report
 }

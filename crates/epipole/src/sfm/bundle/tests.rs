@@ -3,8 +3,10 @@
 use super::*;
 use crate::camera::{Distortion, look_at};
 use crate::math::random::Random;
-use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, Termination, check_jacobian};
+use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, check_jacobian};
+use crate::progress::{Stage, Status};
 use nalgebra::{DMatrix, DVector, Vector3};
+use std::ops::ControlFlow;
 
 fn brown(lens: &Lens) -> Distortion {
     match lens {
@@ -59,10 +61,6 @@ pub(super) fn disturb(bundle: &mut Bundle, amount: f64) {
     for point in &mut bundle.points {
         *point += Vector3::from_fn(|_, _| amount * random.normal());
     }
-}
-
-pub(super) fn go_on(_: &Iteration) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }
 
 fn exact() -> LmOptions {
@@ -232,7 +230,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         ..Distortion::NONE
     };
     bundle.lenses = vec![only_third.into(); 3];
-    let report = adjust_bundle(&mut bundle, &everything(), &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let (got, want) = (got.intrinsics, want.intrinsics);
@@ -262,7 +260,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     let mut shared = truth.clone();
     shared.lens_of_camera = Vec::new();
     shared.lenses = vec![only_third.into()];
-    let report = adjust_bundle(&mut shared, &everything(), &mut go_on).unwrap();
+    let report = adjust_bundle(&mut shared, &everything(), &mut ()).unwrap();
     assert!(report.final_cost > 1.0, "{report:?}");
 }
 
@@ -278,7 +276,7 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
             ..BundleOptions::default()
         };
         let mut bundle = before.clone();
-        adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+        adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
         let (new, old) = (brown(&bundle.lenses[0]), brown(&before.lenses[0]));
         assert_eq!((new.p1, new.p2) == (old.p1, old.p2), !refine_tangential);
         assert_eq!((new.k1, new.k2) == (old.k1, old.k2), !refine_distortion);
@@ -315,7 +313,7 @@ fn known_positions_move_the_world_there_and_wrong_ones_do_not() {
         position_loss: RobustLoss::Cauchy { width: 2.0 },
         ..BundleOptions::default()
     };
-    adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let off = (got.center_in_world() - want.center_in_world()).norm();
         assert!(off < 0.01, "{off}");
@@ -350,14 +348,14 @@ fn a_rig_knows_its_size() {
         lm: exact(),
         ..BundleOptions::default()
     };
-    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-15, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let error = (got.center_in_world() - want.center_in_world()).norm();
         assert!(error < 1e-7, "{error}");
     }
     bundle.sensor_of_observation[0] = 2;
-    assert!(adjust_bundle(&mut bundle, &options, &mut go_on).is_err());
+    assert!(adjust_bundle(&mut bundle, &options, &mut ()).is_err());
 }
 
 #[test]
@@ -371,7 +369,7 @@ fn two_cameras_fix_the_gauge_and_the_truth_is_found() {
         lm: exact(),
         ..BundleOptions::default()
     };
-    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-15, "{report:?}");
     assert_eq!(bundle.cameras[0], truth.cameras[0]);
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
@@ -402,7 +400,7 @@ fn a_shared_focal_length_and_distortion_are_refined() {
         refine_distortion: true,
         ..BundleOptions::default()
     };
-    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     assert!((bundle.cameras[3].intrinsics.fu_px() - 800.0).abs() < 1e-4);
     assert!((brown(&bundle.lenses[0]).k1 + 0.08).abs() < 1e-6);
@@ -419,7 +417,7 @@ fn held_cameras_and_points_stay() {
         held_points: vec![true, true],
         ..BundleOptions::default()
     };
-    let report = adjust_bundle(&mut bundle, &options, &mut go_on).unwrap();
+    let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < report.initial_cost);
     assert_eq!(bundle.cameras[1], before.cameras[1]);
     assert_eq!(bundle.cameras[2], before.cameras[2]);
@@ -431,20 +429,23 @@ fn held_cameras_and_points_stay() {
 fn canceling_leaves_the_best_so_far() {
     let mut bundle = arc(4, 20, Distortion::NONE);
     disturb(&mut bundle, 0.02);
-    let mut stop = |i: &Iteration| {
-        if i.index == 1 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+    let whole = adjust_bundle(&mut bundle.clone(), &BundleOptions::default(), &mut ()).unwrap();
+    let mut calls = 0;
+    let mut stop = |status: Status| {
+        assert_eq!(status.stage, Stage::BundleAdjustment);
+        calls += 1;
+        match calls {
+            2 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
         }
     };
-    let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut stop).unwrap();
-    assert_eq!(report.termination, Termination::Canceled);
+    let canceled = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut stop);
+    assert_eq!(canceled, Err(Error::Canceled));
     let sum: f64 = (0..bundle.observations.len())
         .map(|o| 0.5 * bundle.residual_px(o).norm_squared())
         .sum();
-    assert!((sum - report.final_cost).abs() <= 1e-9 * sum);
-    assert!(report.final_cost < report.initial_cost);
+    assert!((sum - whole.history[1].cost).abs() <= 1e-9 * sum);
+    assert!(sum < whole.initial_cost);
 }
 
 #[test]
@@ -454,25 +455,25 @@ fn bad_observations_are_refused() {
     let mut none = good.clone();
     none.observations.clear();
     assert!(matches!(
-        adjust_bundle(&mut none, &options, &mut go_on),
+        adjust_bundle(&mut none, &options, &mut ()),
         Err(Error::TooFew { .. })
     ));
     let mut beyond = good.clone();
     beyond.observations[3].point = 8;
     assert!(matches!(
-        adjust_bundle(&mut beyond, &options, &mut go_on),
+        adjust_bundle(&mut beyond, &options, &mut ()),
         Err(Error::OutOfRange { value: 8.0, .. })
     ));
     let mut nan = good.clone();
     nan.observations[3].pixel.x = f64::NAN;
     assert!(matches!(
-        adjust_bundle(&mut nan, &options, &mut go_on),
+        adjust_bundle(&mut nan, &options, &mut ()),
         Err(Error::NotFinite { .. })
     ));
     let mut many = good.clone();
     many.lens_of_camera = vec![0, 2];
     assert!(matches!(
-        adjust_bundle(&mut many, &options, &mut go_on),
+        adjust_bundle(&mut many, &options, &mut ()),
         Err(Error::OutOfRange { value: 2.0, .. })
     ));
     for (sigma, x) in [
@@ -487,6 +488,6 @@ fn bad_observations_are_refused() {
             position_priors: vec![Some(prior)],
             ..BundleOptions::default()
         };
-        assert!(adjust_bundle(&mut good.clone(), &options, &mut go_on).is_err());
+        assert!(adjust_bundle(&mut good.clone(), &options, &mut ()).is_err());
     }
 }

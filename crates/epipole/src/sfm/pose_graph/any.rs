@@ -2,11 +2,9 @@
 
 use super::{Graph, PoseGraphReport};
 use crate::Result;
-use crate::optim::{Iteration, LmOptions, RobustLoss};
-use crate::progress::{Progress, Stage};
-use crate::sfm::shares::iterations;
+use crate::optim::{LmOptions, RobustLoss};
+use crate::progress::Monitor;
 use nalgebra::{Isometry2, Isometry3, Similarity3};
-use std::ops::ControlFlow;
 
 /// A pose graph of any kind, as a file may hold it.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,30 +47,13 @@ impl PoseGraph {
         &mut self,
         options: &LmOptions,
         loss: RobustLoss,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        monitor: &mut dyn Monitor,
     ) -> Result<PoseGraphReport> {
         match self {
-            PoseGraph::Se2(graph) => graph.optimize(options, loss, observer),
-            PoseGraph::Se3(graph) => graph.optimize(options, loss, observer),
-            PoseGraph::Sim3(graph) => graph.optimize(options, loss, observer),
+            PoseGraph::Se2(graph) => graph.optimize(options, loss, monitor),
+            PoseGraph::Se3(graph) => graph.optimize(options, loss, monitor),
+            PoseGraph::Sim3(graph) => graph.optimize(options, loss, monitor),
         }
-    }
-
-    /// As [`PoseGraph::optimize`], with the same result, telling `progress` what share of the steps that there may
-    /// be at most is done, in the one stage [`Stage::PoseGraph`].
-    ///
-    /// Whoever breaks gets the best graph found so far, as [`PoseGraphReport::termination`] says.
-    ///
-    /// # Errors
-    /// As [`Graph::optimize`].
-    pub fn optimize_with_progress(
-        &mut self,
-        options: &LmOptions,
-        loss: RobustLoss,
-        progress: Progress<'_>,
-    ) -> Result<PoseGraphReport> {
-        let mut tell = iterations(progress, Stage::PoseGraph, options);
-        self.optimize(options, loss, &mut tell)
     }
 
     /// Numbers of vertices and edges.

@@ -281,9 +281,7 @@ pub fn average_rotations(
         fixed: Vec::new(),
     };
     graph.initialize()?;
-    graph.optimize(&crate::optim::LmOptions::default(), loss, &mut |_| {
-        core::ops::ControlFlow::Continue(())
-    })?;
+    graph.optimize(&crate::optim::LmOptions::default(), loss, &mut ())?;
     let views: Vec<_> = (graph.vertices.iter())
         .map(|vertex| vertex.rotation.inverse())
         .collect();

@@ -5,11 +5,11 @@ mod chordal;
 mod poses;
 
 use crate::optim::{
-    EdgeTerms, GraphProblem, GraphSystem, Iteration, LmOptions, RobustLoss, Termination, minimize,
+    EdgeTerms, GraphProblem, GraphSystem, LmOptions, RobustLoss, Termination, minimize,
 };
+use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
 use nalgebra::{SMatrix, SVector};
-use std::ops::ControlFlow;
 
 pub use any::PoseGraph;
 pub use chordal::{RelativeRotation, average_rotations};
@@ -134,20 +134,19 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// options say: damping would hold back the slow bends of long trajectories.
     ///
     /// * `loss`: robust to wrong loop closures; its width is in standard deviations
-    /// * `observer`: called once before the first step and after every step; answer
-    ///   [`ControlFlow::Break`] to cancel; the graph is then the best found so far
+    /// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::PoseGraph`]
     ///
     /// # Errors
     /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there
     /// or a vertex with itself, or for a loss that [`RobustLoss::check`] refuses,
-    /// [`Error::NotFinite`] for NaN and infinities.
+    /// [`Error::NotFinite`] for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
     pub fn optimize(
         &mut self,
         options: &LmOptions,
         loss: RobustLoss,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        monitor: &mut dyn Monitor,
     ) -> Result<PoseGraphReport> {
         self.check(loss)?;
         let pairs: Vec<(u32, u32)> = self
@@ -170,8 +169,12 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             patience: options.patience.max(3),
             ..*options
         };
-        let report = minimize(&mut system, &mut vertices, &options, observer)?;
-        self.vertices = vertices;
+        let mut step = Part::new(monitor, 0.0, 1.0).of_stage(Stage::PoseGraph);
+        let report = minimize(&mut system, &mut vertices, &options, &mut step);
+        if matches!(report, Ok(_) | Err(Error::Canceled)) {
+            self.vertices = vertices;
+        }
+        let report = report?;
         Ok(PoseGraphReport {
             initial_chi2,
             final_chi2: self.chi2(),
@@ -256,10 +259,6 @@ mod tests {
     use nalgebra::{Isometry2, Isometry3, Similarity3};
     use nalgebra::{Vector2, Vector3};
 
-    fn go_on(_: &Iteration) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
     /// A circle of poses, each measured from the one before, and the last from the first.
     fn circle<T: GraphPose<D>, const D: usize>(
         count: usize,
@@ -303,7 +302,7 @@ mod tests {
             ..LmOptions::default()
         };
         let report = graph
-            .optimize(&options, RobustLoss::Trivial, &mut go_on)
+            .optimize(&options, RobustLoss::Trivial, &mut ())
             .unwrap();
         assert!(
             report.initial_chi2 > 0.1 && report.final_chi2 < 1e-18,
@@ -343,7 +342,7 @@ mod tests {
         };
         let before = error_of(&graph);
         let report = graph
-            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
             .unwrap();
         let after = error_of(&graph);
         assert!(report.termination.is_converged(), "{report:?}");
@@ -356,7 +355,7 @@ mod tests {
         let mut graph = circle(4, step, |a, b| a * b, Isometry2::identity());
         // Four steps ahead lead back to the start, says the last edge.
         let report = graph
-            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
             .unwrap();
         // Each edge bears a quarter of the gap of 4: χ² = 4 · 1².
         assert!((report.initial_chi2 - 16.0).abs() < 1e-12);
@@ -378,7 +377,7 @@ mod tests {
         });
         let loss = RobustLoss::Cauchy { width: 0.1 };
         graph
-            .optimize(&LmOptions::default(), loss, &mut go_on)
+            .optimize(&LmOptions::default(), loss, &mut ())
             .unwrap();
         for (got, want) in graph.vertices.iter().zip(&truth) {
             assert!((got.translation.vector - want.translation.vector).norm() < 0.02);
@@ -405,7 +404,7 @@ mod tests {
         graph.vertices.extend(&other.vertices);
         graph.vertices.push(Isometry2::identity());
         let report = graph
-            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+            .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
             .unwrap();
         assert_eq!(report.num_components, 3);
         assert_eq!(graph.vertices[5], other.vertices[0]);
@@ -419,7 +418,7 @@ mod tests {
         let attempt = |graph: &Graph<_, 3>| {
             graph
                 .clone()
-                .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut go_on)
+                .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
         };
         assert!(attempt(&good).is_ok());
         let mut bad = good.clone();

@@ -3,7 +3,6 @@ use super::*;
 use crate::math::random::Random;
 use crate::optim::LmOptions;
 use nalgebra::Isometry2;
-use std::ops::ControlFlow;
 
 fn turn(random: &mut Random, size: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_scaled_axis(Vector3::from_fn(|_, _| size * random.normal()))
@@ -114,9 +113,8 @@ fn noise_is_shared_and_the_optimum_is_near() {
         let mut best = found.clone();
         best.vertices = truth.iter().map(GraphPose::from_similarity).collect();
         let solve = |graph: &mut Graph<Isometry3<f64>, 6>| {
-            let go_on = &mut |_: &_| ControlFlow::Continue(());
             graph
-                .optimize(&LmOptions::default(), RobustLoss::Trivial, go_on)
+                .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
                 .unwrap()
         };
         let least = solve(&mut best).final_chi2;

@@ -1,0 +1,165 @@
+//! Input and options of structure from motion, and their checks.
+
+use super::bundle::PositionPrior;
+use super::reconstruction::SfmImage;
+use super::tracks::PairMatches;
+use crate::camera::{Intrinsics, Lens};
+use crate::robust::RansacOptions;
+use crate::two_view::PHOTO_MAX_ERROR_PX;
+use crate::{Error, Result};
+
+/// Photographs, reduced to keypoints, and matches between them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SfmInput {
+    /// The photographs.
+    pub images: Vec<SfmImage>,
+    /// The intrinsics of each photograph, or one for all.
+    pub intrinsics: Vec<Intrinsics>,
+    /// Matches between photographs, wrong ones among them.
+    pub pairs: Vec<PairMatches>,
+}
+
+/// Options of [`reconstruct`](super::reconstruct).
+#[derive(Debug, Clone, PartialEq)]
+pub struct SfmOptions {
+    /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
+    /// registered. Its threshold is 2 pixels, and its seed is not looked at.
+    pub ransac: RansacOptions,
+    /// Largest reprojection error when an image is registered, pixels. 6.
+    pub max_registration_error_px: f64,
+    /// Largest reprojection error of an observation that is kept, pixels. 4.
+    pub max_reprojection_error_px: f64,
+    /// Fewest matches that connect two images, and fewest points that register one. 15.
+    pub min_num_inliers: usize,
+    /// Smallest angle under which a point must be seen, degrees. 1.5.
+    pub min_angle_deg: f64,
+    /// Median angle that the two first images should have, degrees; halved, again and again, if
+    /// no pair has it. 16.
+    pub min_start_angle_deg: f64,
+    /// Fewest images that must see a point which is kept in the end. 2.
+    pub min_track_length: usize,
+    /// Refine one factor for the focal lengths of each lens. False.
+    pub refine_focal: bool,
+    /// Refine where the principal points are, one shift for each lens. False: turning a camera looks much the same.
+    pub refine_principal_point: bool,
+    /// Refine the radial terms of each lens, as
+    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them. False.
+    pub refine_distortion: bool,
+    /// Refine the tangential terms p1 and p2 of each lens that has them. False.
+    pub refine_tangential: bool,
+    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
+    pub lenses: Vec<Lens>,
+    /// Equal seeds give equal results. 0.
+    pub seed: u64,
+}
+
+impl Default for SfmOptions {
+    fn default() -> Self {
+        Self {
+            ransac: RansacOptions::default().within(PHOTO_MAX_ERROR_PX),
+            max_registration_error_px: 6.0,
+            max_reprojection_error_px: 4.0,
+            min_num_inliers: 15,
+            min_angle_deg: 1.5,
+            min_start_angle_deg: 16.0,
+            min_track_length: 2,
+            refine_focal: false,
+            refine_principal_point: false,
+            refine_distortion: false,
+            refine_tangential: false,
+            lenses: Vec::new(),
+            seed: 0,
+        }
+    }
+}
+
+/// What is asked for of photographs, as an error of too few says.
+pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
+
+/// Checks images, intrinsics and options; returns the intrinsics of each image.
+///
+/// * `what`: what is asked for, for the error of too few
+pub(super) fn check(
+    what: &'static str,
+    images: &[SfmImage],
+    intrinsics: &[Intrinsics],
+    options: &SfmOptions,
+) -> Result<Vec<Intrinsics>> {
+    let count = images.len();
+    if count < 2 {
+        return Err(Error::TooFew {
+            what,
+            needed: 2,
+            got: count,
+        });
+    }
+    if intrinsics.len() != 1 && intrinsics.len() != count {
+        return Err(Error::SizeMismatch {
+            what: "the lists of photographs and of their intrinsics",
+            first: count,
+            second: intrinsics.len(),
+        });
+    }
+    for image in images {
+        if !image
+            .keypoints
+            .iter()
+            .all(|p| p.x.is_finite() && p.y.is_finite())
+        {
+            return Err(Error::NotFinite {
+                what: "a keypoint's pixel",
+            });
+        }
+        if !image.colors.is_empty() && image.colors.len() != image.keypoints.len() {
+            return Err(Error::SizeMismatch {
+                what: "the lists of keypoints and of their colors",
+                first: image.keypoints.len(),
+                second: image.colors.len(),
+            });
+        }
+    }
+    for (what, value) in [
+        (
+            "the largest registration error",
+            options.max_registration_error_px,
+        ),
+        (
+            "the largest reprojection error",
+            options.max_reprojection_error_px,
+        ),
+        ("the smallest angle of a point", options.min_angle_deg),
+        ("the smallest angle of a start", options.min_start_angle_deg),
+    ] {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(Error::OutOfRange {
+                what,
+                requirement: "greater than 0 and finite",
+                value,
+            });
+        }
+    }
+    pair_ransac(options).check()?;
+    options.lenses.iter().try_for_each(Lens::check)?;
+    (images.iter())
+        .filter_map(|image| image.position.as_ref())
+        .try_for_each(PositionPrior::check)?;
+    Ok(if intrinsics.len() == 1 {
+        vec![intrinsics[0]; count]
+    } else {
+        intrinsics.to_vec()
+    })
+}
+
+/// How pairs are tested.
+pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
+    RansacOptions {
+        seed: options.seed,
+        ..options.ransac
+    }
+}
+
+/// Of each image, as it is at the start.
+pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
+    let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
+    images.iter().map(of).collect()
+}
