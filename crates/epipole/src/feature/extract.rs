@@ -1,12 +1,13 @@
 //! Features of photographs by any of the detectors.
 
 use super::{
-    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
-    RefineOptions, describe_patches, detect_orb, detect_sift_with_progress, good_features_to_track,
-    match_descriptors, match_hamming, refine_corners,
+    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Features, Keypoint, Match,
+    MatchOptions, RefineOptions, SiftOptions, describe_patches, detect_orb,
+    detect_sift_with_progress, good_features_to_track, match_descriptors, match_hamming,
+    refine_corners,
 };
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
-use crate::progress::Progress;
+use crate::progress::{Progress, Status};
 use crate::{Error, Result};
 use image::RgbImage;
 use std::ops::ControlFlow;
@@ -102,8 +103,7 @@ pub fn detect_features_with_progress(
 ) -> Result<AnyFeatures> {
     match options.kind {
         FeatureKind::Sift | FeatureKind::RootSift => {
-            let sift = options.sift(image.width(), image.height());
-            let found = detect_sift_with_progress(image, &sift, progress)?;
+            let found = sift(image, options, progress)?;
             Ok(AnyFeatures {
                 keypoints: found.keypoints,
                 descriptors: AnyDescriptors::Vectors(found.descriptors),
@@ -118,6 +118,34 @@ pub fn detect_features_with_progress(
         }
         FeatureKind::Harris => harris(image, options),
     }
+}
+
+/// Share of the time that a search in the size of a photograph takes of one in twice the size as well.
+const OWN_SIZE_SHARE: f32 = 0.2;
+
+/// SIFT, in twice the size where the photograph is small, or where the larger features leave room for more.
+fn sift(image: &GrayImage32, options: &FeatureOptions, progress: Progress<'_>) -> Result<Features> {
+    let once = options.sift(image.width(), image.height());
+    if once.upsample || options.max_upsampled_pixels == 0 {
+        return detect_sift_with_progress(image, &once, progress);
+    }
+    let mut part = |from: f32, to: f32, status: Status| {
+        let share = from + (to - from) * status.share;
+        progress(Status { share, ..status })
+    };
+    let first = &mut |status| part(0.0, OWN_SIZE_SHARE, status);
+    if options.max_features > 0 {
+        let found = detect_sift_with_progress(image, &once, first)?;
+        if found.keypoints.len() >= options.max_features {
+            return Ok(found);
+        }
+    }
+    let twice = SiftOptions {
+        upsample: true,
+        ..once
+    };
+    let second = &mut |status| part(OWN_SIZE_SHARE, 1.0, status);
+    detect_sift_with_progress(image, &twice, second)
 }
 
 fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
@@ -358,6 +386,35 @@ mod tests {
                 assert_eq!(differs, counts_for.contains(&kind), "{name} {kind:?}");
             }
         }
+    }
+
+    /// The same image, called large or small.
+    #[test]
+    fn large_photographs_have_the_features_of_small_ones() {
+        let image = busy();
+        let found = |max_upsampled_pixels, max_features| {
+            let options = FeatureOptions {
+                max_upsampled_pixels,
+                max_features,
+                ..FeatureOptions::default()
+            };
+            let mut shares = Vec::new();
+            let found = detect_features_with_progress(&image, &options, &mut |status| {
+                shares.push(status.share);
+                ControlFlow::Continue(())
+            });
+            assert!(shares.is_sorted() && shares.last() == Some(&1.0) || max_features == 20);
+            found.unwrap()
+        };
+        let num_pixels = 120 * 100;
+        for max_features in [0, 8192] {
+            let small = found(num_pixels, max_features);
+            assert_eq!(found(num_pixels - 1, max_features), small);
+        }
+        // The larger ones come first where they are enough.
+        let few = found(num_pixels - 1, 20);
+        assert_eq!(few, found(0, 20));
+        assert_eq!(few.keypoints.len(), 20);
     }
 
     #[test]
