@@ -6,7 +6,7 @@ use super::five_point::pose_in_front;
 use super::refine_focal::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
 use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, plausible_focals_px};
 use crate::optim::{LmOptions, RobustLoss};
 #[cfg(doc)]
 use crate::robust::ransac;
@@ -15,7 +15,7 @@ use crate::robust::{
 };
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The motion between two cameras that share a focal length, up to the length of the translation.
@@ -59,9 +59,9 @@ impl PoseWithFocal {
 /// [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is six matches, and of its solutions only those are looked at that put the six points in front of both
-/// cameras, and whose focal length is between a fifth and twenty times the reach of the pixels about the
-/// principal points. The error is the Sampson error in pixels; refinement minimizes it over rotation, direction
-/// and focal length. Equal matches count once.
+/// cameras, and whose focal length is plausible: at least a fifth of the distance from the principal points within which
+/// three of four matches are, and at most twenty times that of the farthest. The error is the Sampson error in pixels;
+/// refinement minimizes it over rotation, direction and focal length. Equal matches count once.
 ///
 /// Source: as [`essential_6point`](super::essential_6point).
 #[derive(Debug, Clone)]
@@ -72,11 +72,8 @@ pub struct FocalEstimator {
     frame: CommonFrame,
     centers: [Point2<f64>; 2],
     centers_in_frame: FocalCenters,
-    reach_px: f64,
+    focals_px: Range<f64>,
 }
-
-/// Focal lengths that are looked at, as multiples of the reach of the pixels.
-const FOCALS: [f64; 2] = [0.2, 20.0];
 
 const NAME: &str = "a relative pose with a focal length from matches";
 
@@ -107,8 +104,9 @@ impl FocalEstimator {
             let (p1, p2) = matches.pair(i);
             (p1 - centers[0]).norm().max((p2 - centers[1]).norm())
         });
+        let mut far: Vec<_> = far.collect();
         Ok(Self {
-            reach_px: far.fold(0.0, f64::max),
+            focals_px: plausible_focals_px(&mut far),
             in_frame: pixels.mapped(&frame),
             centers_in_frame: FocalCenters::new(&frame, &centers),
             matches,
@@ -152,7 +150,7 @@ impl FocalEstimator {
     }
 
     fn is_usable(&self, focal_px: f64) -> bool {
-        (FOCALS[0] * self.reach_px..FOCALS[1] * self.reach_px).contains(&focal_px)
+        self.focals_px.contains(&focal_px)
     }
 }
 
