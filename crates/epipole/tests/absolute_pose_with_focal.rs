@@ -206,3 +206,28 @@ fn bad_input_is_refused() {
         Err(Error::NoConsensus { .. })
     ));
 }
+
+/// A few wrong pixels far outside of the image take no focal length from the plausible ones.
+#[test]
+fn far_pixels_do_not_move_the_focal_length() {
+    for seed in 0..10 {
+        let mut scene = scene(seed, 1.0, 0.0, 0.0);
+        scene.points.truncate(50);
+        scene.pixels.truncate(50);
+        for i in 0..5 {
+            scene.pixels[i * 7] = Point2::new(20_000.0 + 300.0 * i as f64, 40.0 * i as f64);
+        }
+        let options = RansacOptions::default();
+        let report = estimate_absolute_pose_and_focal(
+            &scene.points,
+            &scene.pixels,
+            &CENTER,
+            &options,
+            &mut (),
+        )
+        .unwrap();
+        let ratio = report.model.focal_px / scene.k.fu_px();
+        assert!((ratio - 1.0).abs() < 1e-3, "{seed}: {ratio}");
+        assert_eq!(report.num_inliers, 45, "{seed}");
+    }
+}

@@ -184,3 +184,19 @@ fn bad_input_is_refused() {
         assert!(report.model.focal_px.is_finite());
     }
 }
+
+/// One wrong match far outside of the images takes no focal length from the plausible ones.
+#[test]
+fn one_far_pixel_does_not_move_the_focal_length() {
+    for seed in 0..10 {
+        let mut scene = scene(seed, 0, 0.0);
+        scene.p1.truncate(50);
+        scene.p2.truncate(50);
+        scene.p1.push(Point2::new(10_000.0, 0.0));
+        scene.p2.push(Point2::new(0.0, 300.0));
+        let report = scene.estimate();
+        let ratio = report.model.focal_px / scene.k.fu_px();
+        assert!((ratio - 1.0).abs() < 1e-3, "{seed}: {ratio}");
+        assert_eq!(report.num_inliers, 50, "{seed}");
+    }
+}

@@ -4,19 +4,17 @@ use super::estimate::usable;
 use super::p4pf::{AbsolutePoseWithFocal, MAX_SOLUTIONS, PoseFocal, solve};
 use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, plausible_focals_px};
 use crate::optim::{LmOptions, RobustLoss, Subset};
 use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, Problem, RansacOptions, RansacReport, Unique, ransac};
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
+use core::ops::Range;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// A focal length whose standard deviation is a larger share of it says no more than a guess.
 const TELLING: f64 = 0.1;
-
-/// Focal lengths that are looked at, as multiples of the reach of the pixels.
-const FOCALS: [f64; 2] = [0.2, 20.0];
 
 const NAME: &str = "a camera pose with a focal length from points";
 
@@ -31,8 +29,9 @@ impl AbsolutePoseWithFocal {
 /// Camera poses with an unknown focal length from points and their pixels, for
 /// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is four points, and of its solutions only those are looked at whose focal length is between a fifth
-/// and twenty times the reach of the pixels about the principal point. The error is the reprojection error in
+/// A sample is four points, and of its solutions only those are looked at whose focal length is plausible: at
+/// least a fifth of the distance from the principal point within which three of four pixels are, and at most twenty
+/// times that of the farthest. The error is the reprojection error in
 /// pixels, infinite behind the camera; refinement minimizes its truncated square over the pose and the focal
 /// length. Equal data count once.
 ///
@@ -42,7 +41,7 @@ pub struct AbsolutePoseFocalEstimator {
     points: Vec<Point3<f64>>,
     /// About the principal point.
     pixels: Vec<Point2<f64>>,
-    reach_px: f64,
+    focals_px: Range<f64>,
     centered: Intrinsics,
     unique: Unique,
 }
@@ -77,10 +76,10 @@ impl AbsolutePoseFocalEstimator {
         }
         let kept = unique.first_occurrences();
         let pixels: Vec<_> = (kept.iter().map(|&i| pixels[i] - principal.coords)).collect();
-        let far = pixels.iter().map(|p| p.coords.norm());
+        let mut far: Vec<_> = pixels.iter().map(|p| p.coords.norm()).collect();
         Ok(Self {
             points: kept.iter().map(|&i| points_in_world[i]).collect(),
-            reach_px: far.fold(0.0, f64::max),
+            focals_px: plausible_focals_px(&mut far),
             pixels,
             // Its focal length is never asked for.
             centered: Intrinsics::new(1.0, 1.0, 0.0, 0.0)?,
@@ -104,7 +103,7 @@ impl AbsolutePoseFocalEstimator {
     }
 
     fn is_usable(&self, focal_px: f64) -> bool {
-        (FOCALS[0] * self.reach_px..FOCALS[1] * self.reach_px).contains(&focal_px)
+        self.focals_px.contains(&focal_px)
     }
 
     /// The standard deviation of the focal length of a model, from its inliers.

@@ -19,8 +19,9 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// A sample is seven matches; the error is [`sampson_px`](super::sampson_px); refinement minimizes
 /// the truncated Sampson error. A sample of which five or more matches lie on one plane does not
-/// determine F: then the plane's homography and two matches off the plane give another one. Equal
-/// matches count once.
+/// determine F: then the plane's homography and two matches off the plane give another one. Samples whose points cannot
+/// all be in front of both cameras are left out, unless the matches are so few that there are no others. Equal matches
+/// count once.
 ///
 /// Source: Hartley & Zisserman 2004, §11.6; Chum, Werner & Matas 2004, "Epipolar geometry
 /// estimation via RANSAC benefits from the oriented epipolar constraint"; Chum, Werner & Matas
@@ -32,7 +33,12 @@ pub struct FundamentalEstimator {
     in_frame: Coordinates,
     frame: CommonFrame,
     recovery: PlaneRecovery,
+    /// Whether samples must have all their points in front of both cameras, or all behind.
+    is_oriented: bool,
 }
+
+/// Up to so many matches, all samples are tried in advance: whether one can have its points in front of the cameras.
+const FEW: usize = 10;
 
 impl FundamentalEstimator {
     /// Prepares the estimation.
@@ -46,12 +52,26 @@ impl FundamentalEstimator {
         let pixels = Coordinates::voting(&matches);
         let frame = CommonFrame::new(&matches);
         let in_frame = pixels.mapped(&frame);
-        Ok(Self {
+        let mut estimator = Self {
             recovery: PlaneRecovery::new(matches.len()),
             matches,
             pixels,
             in_frame,
             frame,
+            is_oriented: true,
+        };
+        let len = estimator.matches.len();
+        estimator.is_oriented = len > FEW || estimator.has_oriented_sample(len);
+        Ok(estimator)
+    }
+
+    fn has_oriented_sample(&self, len: usize) -> bool {
+        let samples = (0..1_u32 << len).filter(|chosen| chosen.count_ones() == 7);
+        samples.into_iter().any(|chosen| {
+            let mut sample = (0..len).filter(|i| chosen >> i & 1 == 1);
+            let points = core::array::from_fn(|_| self.in_frame.at(sample.next().unwrap_or(0)));
+            let (solutions, count) = seven_point(&points);
+            solutions[..count].iter().any(|f| is_oriented(f, &points))
         })
     }
 
@@ -89,6 +109,12 @@ pub(crate) fn refuse_collinear(matches: &MatchSet, what: &'static str) -> Result
         }
     }
     Ok(())
+}
+
+fn seven_point(points: &[[f64; 4]; 7]) -> ([Matrix3<f64>; 3], usize) {
+    let rows =
+        points.map(|[u1, v1, u2, v2]| epipolar_row(&Point2::new(u1, v1), &Point2::new(u2, v2)));
+    seven_point_rows(&rows)
 }
 
 /// Whether all rays of the sample can point forward: `(e2 × x2)·(F x1)` has the same sign for all.
@@ -131,11 +157,9 @@ impl Estimator for FundamentalEstimator {
             return;
         }
         let points: [[f64; 4]; 7] = core::array::from_fn(|i| self.in_frame.at(sample[i]));
-        let rows =
-            points.map(|[u1, v1, u2, v2]| epipolar_row(&Point2::new(u1, v1), &Point2::new(u2, v2)));
-        let (solutions, count) = seven_point_rows(&rows);
+        let (solutions, count) = seven_point(&points);
         for f in &solutions[..count] {
-            if is_oriented(f, &points) {
+            if !self.is_oriented || is_oriented(f, &points) {
                 models.extend(self.frame.fundamental_to_pixels(f));
             }
         }
@@ -255,4 +279,33 @@ pub fn estimate_fundamental(
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
     ransac(FundamentalEstimator::new(matches)?, options, monitor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eight to ten matches anywhere: a sample of seven fits exactly, whatever the signs of its depths.
+    #[test]
+    fn few_matches_have_a_matrix_whatever_is_behind_a_camera() {
+        let mut num_unoriented = 0;
+        for seed in 0..60 {
+            let mut random = Random::new(seed);
+            let len = 8 + random.below(3);
+            let mut pixels = || -> Vec<_> {
+                let mut at = |size: f64| random.uniform(0.0, size);
+                (0..len)
+                    .map(|_| Point2::new(at(640.0), at(480.0)))
+                    .collect()
+            };
+            let (p1, p2) = (pixels(), pixels());
+            let set = MatchSet::new(&p1, &p2).unwrap();
+            let estimator = FundamentalEstimator::new(set).unwrap();
+            num_unoriented += usize::from(!estimator.is_oriented);
+            let report =
+                estimate_fundamental(&p1, &p2, &RansacOptions::default(), &mut ()).unwrap();
+            assert!(report.num_inliers >= 7, "{seed}");
+        }
+        assert!(num_unoriented > 0);
+    }
 }

@@ -3,17 +3,20 @@
 use super::coordinates::{CommonFrame, Coordinates};
 use super::estimate_fundamental::refuse_collinear;
 use super::five_point::pose_in_front;
+use super::focal_profile::FocalProfile;
 use super::refine_focal::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
 use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
 use super::{RelativePose, decompose_essential, sampson, select_pose};
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, plausible_focals_px};
+use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::robust::{
-    Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
+    Data, Estimator, Evidence, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
 use crate::{Error, Result};
 use arrayvec::ArrayVec;
+use core::ops::Range;
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// The motion between two cameras that share a focal length, up to the length of the translation.
@@ -23,8 +26,9 @@ pub struct PoseWithFocal {
     pub pose: RelativePose,
     /// The focal length of both cameras, pixels.
     pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it. `None` for a
-    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
+    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it, there and at other
+    /// focal lengths that explain the matches nearly as well. `None` for a candidate that is yet to be judged, and
+    /// where the focal length makes no difference at all.
     pub focal_std_px: Option<f64>,
 }
 
@@ -38,7 +42,7 @@ impl PoseWithFocal {
             .is_some_and(|std_px| std_px < TELLING * self.focal_px)
     }
 
-    fn new(
+    pub(super) fn new(
         (rotation, direction): (Matrix3<f64>, Vector3<f64>),
         focal_px: f64,
         centers: &[Point2<f64>; 2],
@@ -57,24 +61,22 @@ impl PoseWithFocal {
 /// [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is six matches, and of its solutions only those are looked at that put the six points in front of both
-/// cameras, and whose focal length is between a fifth and twenty times the reach of the pixels about the
-/// principal points. The error is the Sampson error in pixels; refinement minimizes it over rotation, direction
-/// and focal length. Equal matches count once.
+/// cameras, and whose focal length is plausible: at least a fifth of the distance from the principal points within which
+/// three of four matches are, and at most twenty times that of the farthest. The error is the Sampson error in pixels;
+/// refinement minimizes it over rotation, direction and focal length. In the end the best motions for focal lengths over the plausible range are compared with the model,
+/// since samples may all lead to the valley of a wrong one. Equal matches count once.
 ///
 /// Source: as [`essential_6point`](super::essential_6point).
 #[derive(Debug, Clone)]
 pub struct FocalEstimator {
-    matches: MatchSet,
-    pixels: Coordinates,
-    in_frame: Coordinates,
-    frame: CommonFrame,
-    centers: [Point2<f64>; 2],
-    centers_in_frame: FocalCenters,
-    reach_px: f64,
+    pub(super) matches: MatchSet,
+    pub(super) pixels: Coordinates,
+    pub(super) in_frame: Coordinates,
+    pub(super) frame: CommonFrame,
+    pub(super) centers: [Point2<f64>; 2],
+    pub(super) centers_in_frame: FocalCenters,
+    pub(super) focals_px: Range<f64>,
 }
-
-/// Focal lengths that are looked at, as multiples of the reach of the pixels.
-const FOCALS: [f64; 2] = [0.2, 20.0];
 
 const NAME: &str = "a relative pose with a focal length from matches";
 
@@ -105,8 +107,9 @@ impl FocalEstimator {
             let (p1, p2) = matches.pair(i);
             (p1 - centers[0]).norm().max((p2 - centers[1]).norm())
         });
+        let mut far: Vec<_> = far.collect();
         Ok(Self {
-            reach_px: far.fold(0.0, f64::max),
+            focals_px: plausible_focals_px(&mut far),
             in_frame: pixels.mapped(&frame),
             centers_in_frame: FocalCenters::new(&frame, &centers),
             matches,
@@ -146,11 +149,13 @@ impl FocalEstimator {
             &self.centers_in_frame,
             (&model.pose, model.focal_px),
         )?;
-        Some(share * model.focal_px)
+        let profile = FocalProfile::new(self, model, max_error_px, &mut Random::new(0));
+        let elsewhere = profile.map_or(0.0, |profile| profile.relative_deviation(model));
+        Some(share.max(elsewhere) * model.focal_px)
     }
 
     fn is_usable(&self, focal_px: f64) -> bool {
-        (FOCALS[0] * self.reach_px..FOCALS[1] * self.reach_px).contains(&focal_px)
+        self.focals_px.contains(&focal_px)
     }
 }
 
@@ -213,6 +218,19 @@ impl Estimator for FocalEstimator {
     ) -> Option<PoseWithFocal> {
         let near = self.in_frame.weighted(near, weights);
         self.refined(model, &near, RobustLoss::Trivial, 4)
+    }
+
+    fn alternative(
+        &mut self,
+        model: &PoseWithFocal,
+        evidence: Evidence<'_>,
+        max_error_px: f64,
+        random: &mut Random,
+    ) -> Option<PoseWithFocal> {
+        let Evidence::Inliers(_) = evidence else {
+            return None;
+        };
+        FocalProfile::new(self, model, max_error_px, random)?.better_than(model)
     }
 
     fn support(&self, model: &PoseWithFocal, max_error_px: f64, cost_limit: f64) -> Support {

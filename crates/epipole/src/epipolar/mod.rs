@@ -17,6 +17,7 @@ mod estimate_pose_and_focal;
 mod estimate_with_gravity;
 mod five_point;
 mod focal_lengths;
+mod focal_profile;
 mod from_cameras;
 mod in_front;
 pub(crate) mod judge;

@@ -1,12 +1,12 @@
 //! Features of photographs by any of the detectors.
 
 use super::{
-    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions,
-    RefineOptions, describe_patches, detect_orb, detect_sift, good_features_to_track,
-    match_descriptors, match_hamming, refine_corners,
+    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Features, Keypoint, Match,
+    MatchOptions, RefineOptions, SiftOptions, describe_patches, detect_orb, detect_sift,
+    good_features_to_track, match_descriptors, match_hamming, refine_corners,
 };
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
-use crate::progress::Monitor;
+use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 use image::RgbImage;
 
@@ -82,8 +82,7 @@ pub fn detect_features(
 ) -> Result<AnyFeatures> {
     match options.kind {
         FeatureKind::Sift | FeatureKind::RootSift => {
-            let sift = options.sift(image.width(), image.height());
-            let found = detect_sift(image, &sift, monitor)?;
+            let found = sift(image, options, monitor)?;
             Ok(AnyFeatures {
                 keypoints: found.keypoints,
                 descriptors: AnyDescriptors::Vectors(found.descriptors),
@@ -98,6 +97,34 @@ pub fn detect_features(
         }
         FeatureKind::Harris => harris(image, options),
     }
+}
+
+/// Share of the time that a search in the size of a photograph takes of one in twice the size as well.
+const OWN_SIZE_SHARE: f32 = 0.2;
+
+/// SIFT, in twice the size where the photograph is small, or where the larger features leave room for more.
+fn sift(
+    image: &GrayImage32,
+    options: &FeatureOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Features> {
+    let once = options.sift(image.width(), image.height());
+    if once.upsample || options.max_upsampled_pixels == 0 {
+        return detect_sift(image, &once, monitor);
+    }
+    let mut before = 0.0;
+    if options.max_features > 0 {
+        before = OWN_SIZE_SHARE;
+        let found = detect_sift(image, &once, &mut Part::new(monitor, 0.0, before))?;
+        if found.keypoints.len() >= options.max_features {
+            return Ok(found);
+        }
+    }
+    let twice = SiftOptions {
+        upsample: true,
+        ..once
+    };
+    detect_sift(image, &twice, &mut Part::new(monitor, before, 1.0))
 }
 
 fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
@@ -159,7 +186,9 @@ pub fn match_any_descriptors(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Status;
     use image::{Luma, Rgb};
+    use std::ops::ControlFlow;
 
     /// Boxes of several sizes on a slope of gray.
     fn boxes() -> GrayImage32 {
@@ -343,6 +372,39 @@ mod tests {
                 assert_eq!(differs, counts_for.contains(&kind), "{name} {kind:?}");
             }
         }
+    }
+
+    /// The same image, called large or small.
+    #[test]
+    fn large_photographs_have_the_features_of_small_ones() {
+        let image = busy();
+        let found = |max_upsampled_pixels, max_features| {
+            let options = FeatureOptions {
+                max_upsampled_pixels,
+                max_features,
+                ..FeatureOptions::default()
+            };
+            let mut shares = Vec::new();
+            let found = detect_features(&image, &options, &mut |status: Status| {
+                shares.push(status.share);
+                ControlFlow::Continue(())
+            });
+            assert!(shares.is_sorted() && shares[0] == 0.0, "{shares:?}");
+            found.unwrap()
+        };
+        let num_pixels = 120 * 100;
+        for max_features in [0, 8192] {
+            let small = found(num_pixels, max_features);
+            assert_eq!(found(num_pixels - 1, max_features), small);
+        }
+        // Those of its own size come first, where they are enough.
+        let own = found(0, 0);
+        let enough = own.keypoints.len();
+        assert_eq!(found(num_pixels - 1, enough), own);
+        assert_eq!(
+            found(num_pixels - 1, enough + 1),
+            found(num_pixels, enough + 1)
+        );
     }
 
     #[test]

@@ -42,8 +42,8 @@ pub struct FeatureOptions {
     pub contrast_threshold: Option<f32>,
     /// Take every direction to be 0, for cameras held upright. Harris' corners have none. False.
     pub upright: bool,
-    /// SIFT: photographs of up to so many pixels are looked at in twice their size, too; 0 for none.
-    /// 1.5 million: larger ones have features enough, and doubling them takes seconds.
+    /// SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones, which takes
+    /// seconds, only if they have fewer than `max_features` without; none if 0. 1.5 million.
     pub max_upsampled_pixels: u64,
     /// SIFT: the blur that a photograph is assumed to have, pixels, 0 to half of `sigma_px`. 0.5, as
     /// Lowe's; from 0.3 more of them match where photographs are sharp, fewer where features are rare.
@@ -98,7 +98,7 @@ impl Default for FeatureOptions {
 }
 
 impl FeatureOptions {
-    /// What they are for SIFT, in an image of that size.
+    /// What they are for SIFT, in an image of that size, before it is known how many features a large one has.
     ///
     /// ```
     /// let options = epipole::feature::FeatureOptions::default();

@@ -70,7 +70,9 @@ fn nearest_to_rays(sights: &[Sight<'_>], chosen: impl Fn(usize) -> bool) -> Opti
         .then(|| Point3::from(solved))
 }
 
-/// The largest angle under which a point sees two of the cameras, radians.
+/// The largest angle at which rays from two of the cameras meet in a point, radians, in [0, π/2]; as
+/// [`triangulation_angle_rad`](crate::triangulation::triangulation_angle_rad), rays that meet head on are as bad as
+/// parallel ones.
 pub(super) fn widest_angle_rad<'a>(
     point: &Point3<f64>,
     centers: impl Iterator<Item = Point3<f64>> + Clone + 'a,
@@ -79,10 +81,10 @@ pub(super) fn widest_angle_rad<'a>(
     let mut least_cosine: f64 = 1.0;
     for (i, a) in directions.clone().enumerate() {
         for b in directions.clone().skip(i + 1) {
-            least_cosine = least_cosine.min(a.dot(&b));
+            least_cosine = least_cosine.min(a.dot(&b).abs());
         }
     }
-    libm::acos(least_cosine.clamp(-1.0, 1.0))
+    libm::acos(least_cosine)
 }
 
 struct Refinement<'a> {
@@ -262,5 +264,31 @@ mod tests {
         shift(&mut apart[0], 0.0, 200.0);
         assert!(triangulate_track(&apart, 2.0, 0.01).is_none());
         assert!(triangulate_track(&[], 2.0, 0.0).is_none());
+    }
+
+    /// Two cameras that face each other leave a point between them free to move along their rays.
+    #[test]
+    fn cameras_that_face_each_other_do_not_place_a_point() {
+        let up = Vector3::new(0.0, -1.0, 0.0);
+        let camera = |center: Point3<f64>| PosedCamera {
+            intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
+            cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
+        };
+        let truth = Point3::new(0.01, 0.0, 0.7);
+        let sight = |x: f64, z: f64, (u, v): (f64, f64)| {
+            let camera = camera(Point3::new(x, 0.0, z));
+            let pixel = camera.project(&truth).unwrap() + Vector2::new(u, v);
+            let view = View::Pixel(pixel);
+            Sight { camera, view }
+        };
+        let facing = [sight(0.0, -5.0, (0.3, 0.2)), sight(0.0, 5.0, (-0.2, 0.3))];
+        assert!(triangulate_track(&facing, 2.0, 0.03).is_none());
+        let centers = facing.map(|sight| sight.camera.center_in_world());
+        assert!(widest_angle_rad(&truth, centers.into_iter()) < 0.01);
+        // A third one, aside, does.
+        let aside = [facing[0], facing[1], sight(2.0, -5.0, (0.1, -0.2))];
+        let (point, inliers) = triangulate_track(&aside, 2.0, 0.03).unwrap();
+        assert!((point - truth).norm() < 0.02, "{point}");
+        assert_eq!(inliers, [true; 3]);
     }
 }

@@ -165,7 +165,8 @@ pub(super) fn verify_pair(
     {
         let ray1 = cam2_from_cam1.rotation * intrinsics[0].ray(&pixels1[n]).normalize();
         let ray2 = intrinsics[1].ray(&pixels2[n]).normalize();
-        angles.push(libm::acos(ray1.dot(&ray2).clamp(-1.0, 1.0)));
+        // Head on is as bad as parallel.
+        angles.push(libm::acos(ray1.dot(&ray2).abs().min(1.0)));
         matches.push(pair.matches[n]);
     }
     angles.sort_by(f64::total_cmp);

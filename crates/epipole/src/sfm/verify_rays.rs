@@ -41,7 +41,8 @@ pub(super) fn verify_rays(
     let (mut kept, mut inliers, mut angles) = (Vec::new(), Vec::new(), Vec::new());
     for (n, _) in (report.inliers.iter().enumerate()).filter(|(_, inlier)| **inlier) {
         let turned = cam2_from_cam1.rotation * seen1[n].ray();
-        angles.push(libm::acos(turned.dot(&seen2[n].ray()).clamp(-1.0, 1.0)));
+        // Head on is as bad as parallel.
+        angles.push(libm::acos(turned.dot(&seen2[n].ray()).abs().min(1.0)));
         inliers.push([seen1[n], seen2[n]]);
         kept.push(matches[n]);
     }
