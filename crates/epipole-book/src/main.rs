@@ -2,11 +2,11 @@
 
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
-use epipole_book::assets::make_lab;
-use epipole_book::figures::Widgets;
+use epipole_book::resolve::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
-use epipole_book::stills;
+use epipole_book::write::assets::make_lab;
+use epipole_book::write::stills;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -2,12 +2,12 @@
 //! (types, compressed copies, the content policy, open access for embedding sites), watches the
 //! sources, and tells open pages to reload.
 
-use crate::assets::LAB_FOLDER;
-use crate::figures::Widgets;
 use crate::html::escape;
 use crate::problems::Problem;
+use crate::resolve::figures::Widgets;
 use crate::site::{Options, Outcome, build};
-use crate::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
+use crate::write::assets::LAB_FOLDER;
+use crate::write::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;

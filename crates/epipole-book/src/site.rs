@@ -1,22 +1,22 @@
 //! The whole site: chapters through mdBook's loader, pages through our renderer, files to disk.
 
-use crate::assets::{self, Assets, LAB_FOLDER};
-use crate::compress;
-use crate::figures::Gallery;
-use crate::frames;
 use crate::html::{escape, forbidden_inline, path_to_root};
-use crate::include::include;
-use crate::links;
-use crate::markdown::Renderer;
-use crate::notebook;
-use crate::page::Page;
-use crate::panels;
+use crate::parse::include::include;
+use crate::parse::source::Source;
 use crate::problems::{Problem, Problems, name_list};
-use crate::progress::{progress_table, solved_mark};
-use crate::shared::{PAGE_OF_REFERENCES, Shared, resolve};
-use crate::source::Source;
-use crate::symbols;
-use crate::template::{Nav, Template};
+use crate::render::links;
+use crate::render::markdown::Renderer;
+use crate::render::notebook;
+use crate::render::page::Page;
+use crate::render::panels;
+use crate::render::progress::{progress_table, solved_mark};
+use crate::render::symbols;
+use crate::resolve::figures::Gallery;
+use crate::resolve::shared::{PAGE_OF_REFERENCES, Shared, resolve};
+use crate::write::assets::{self, Assets, LAB_FOLDER};
+use crate::write::compress;
+use crate::write::frames;
+use crate::write::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
 use mdbook_driver::MDBook;
 use mdbook_driver::book::{Book, BookItem, Chapter};

@@ -1,6 +1,6 @@
 //! A gallery of one figure, and books of a few lines in temporary folders.
 
-use epipole_book::figures::{Figure, Gallery, Poster, Room};
+use epipole_book::resolve::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::site::{Options, Outcome, build};
 use std::fs;
 use std::path::{Path, PathBuf};
