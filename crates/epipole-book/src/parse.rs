@@ -1,9 +1,12 @@
-//! Chapters to data: Markdown, directives, and the place that each word came from.
+//! Chapters to data: Markdown, directives, and the file and line of each word.
 
+pub(crate) mod book;
+pub(crate) mod content;
 pub(crate) mod events;
-pub(crate) mod include;
+mod include;
 pub(crate) mod outline;
 pub mod rhythm;
 pub mod source;
 pub(crate) mod stand_ins;
 pub mod syntax;
+pub(crate) mod text;

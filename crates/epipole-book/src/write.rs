@@ -1,7 +1,10 @@
-//! Pages to a site: templates, frames, assets, compression.
+//! Pages to a site: assets, templates, frames, compression.
 
 pub mod assets;
 pub mod compress;
+pub(crate) mod disk;
 pub(crate) mod frames;
+pub(crate) mod gathered;
+pub mod policy;
 pub mod stills;
-pub mod template;
+pub(crate) mod template;

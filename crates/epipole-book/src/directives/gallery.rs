@@ -2,93 +2,131 @@
 //! copy for other pages. A script keeps those at the state that the reader has set.
 
 use crate::html::{escape, path_to_root};
+use crate::parse::text::Request;
 use crate::problems::Place;
-use crate::render::markdown::Renderer;
-use crate::render::page::{FigureEntry, Heading};
-use crate::resolve::figures::Room;
-use crate::resolve::posters::{self, Posters};
-use crate::resolve::shared::{PanelRequest, token};
-use crate::write::frames;
+use crate::render::directive::{Directive, Parser};
+use crate::render::insert::Insert;
+use crate::render::page::{FigureEntry, Heading, PanelRequest};
+use crate::render::pictures;
+use crate::render::tokens::{PANEL, token};
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
+use crate::resolve::facts::Facts;
+use crate::resolve::figures::{Room, frame_path};
+use crate::resolve::posters::Posters;
 use serde_json::Value;
+use std::sync::Arc;
 
-/// All figures, one section each.
-///
-/// # Errors
-/// The sentence of a figure that cannot be opened or drawn.
-pub(crate) fn list(renderer: &mut Renderer, place: &Place) -> Result<String, String> {
-    let names = renderer.shared.gallery.names();
-    names
-        .iter()
-        .map(|name| entry(renderer, name, place))
-        .collect()
+/// The list of all figures.
+pub(super) struct Gallery(Place);
+
+/// A figure in its first state.
+struct Exhibit {
+    name: String,
+    title: String,
+    help: String,
+    facts: Arc<Facts>,
+    posters: Posters,
 }
 
-fn entry(renderer: &mut Renderer, name: &str, place: &Place) -> Result<String, String> {
-    let shared = renderer.shared;
-    let settings = Vec::new();
-    let figure = shared.gallery.open(name, &settings)?;
-    let facts = shared.facts(name, &settings)?;
-    let (title, help) = shared.gallery.about(name);
-    let posters = match shared.posters_in() {
-        Some(folder) => {
-            let rooms = Room::all_for(facts.aspect());
-            posters::draw(figure.as_ref(), rooms, name, &settings, renderer, folder)?
-        }
-        None => Posters::default(),
-    };
-    let snapshot = facts.snapshot();
-    let page = &mut renderer.page;
-    let id = format!("figure-{name}");
-    page.headings.push(Heading {
-        level: 2,
-        id: name.to_owned(),
-        title: title.clone(),
-        html: escape(&title),
-    });
-    page.start_section(name, &title);
-    page.words.push_str(facts.description());
-    let number = page.next_figure_number();
-    page.figures.push(FigureEntry {
-        id: id.clone(),
-        number,
-        place: place.clone(),
-    });
-    let panel = shared.wants_panel(PanelRequest {
-        name: name.to_owned(),
-        title: title.clone(),
-        help: help.clone(),
-        snapshot: snapshot.clone(),
-        attributes: Default::default(),
-        sizes: posters.sizes.clone(),
-    });
-    let root = path_to_root(&renderer.page.path);
-    let frame = frames::path(name);
-    // As in chapters: the first may be in sight at once.
-    let loading = match renderer.page.figures.len() {
-        1 => "fetchpriority=\"high\"",
-        _ => "loading=\"lazy\"",
-    };
-    Ok(format!(
-        "<section class=\"gallery\" data-name=\"{name}\">\n\
-         <h2 id=\"{name}\"><a href=\"#{name}\">{title}</a></h2>\n\
-         <figure class=\"epipole\" id=\"{id}\">\n\
-         <epipole-figure name=\"{name}\">{panel}<picture>{sources}<img src=\"{src}\" alt=\"{alt}\" \
-         {loading} decoding=\"async\"></picture></epipole-figure>\n\
-         <figcaption><code>{name}</code> {alt}</figcaption>\n</figure>\n\
-         <p>{help} Its own page, for frames: <a class=\"own-page\" href=\"{root}{frame}\">{frame}</a>.</p>\n\
-         {snippet}{settings}{readouts}{buttons}{keys}</section>\n",
-        title = escape(&title),
-        panel = token("panel", &panel.to_string()),
-        sources = posters.sources,
-        src = posters.src,
-        alt = escape(facts.description()),
-        help = escape(&help),
-        snippet = snippet(name),
-        settings = settings_table(snapshot),
-        readouts = readouts_table(snapshot),
-        buttons = buttons(snapshot),
-        keys = keys(snapshot),
-    ))
+/// All figures.
+pub(super) struct Exhibits(Vec<Exhibit>, Place);
+
+impl Directive for Gallery {
+    const NAME: &'static str = "gallery";
+    type Resolved = Exhibits;
+
+    fn parse(request: &Request, _: &Parser) -> Result<Self, String> {
+        Ok(Gallery(request.place.clone()))
+    }
+
+    fn resolve(self, book: &Book) -> Result<Exhibits, String> {
+        let names = book.gallery.names().into_iter();
+        let exhibits: Result<_, String> = names.map(|name| exhibit(name, book)).collect();
+        Ok(Exhibits(exhibits?, self.0))
+    }
+
+    fn render(Exhibits(exhibits, place): Exhibits, page: &mut Writer) -> Insert {
+        let exhibits = exhibits.into_iter();
+        let html = exhibits.map(|exhibit| exhibit.html(page, &place)).collect();
+        Insert::Block { html }
+    }
+}
+
+fn exhibit(name: String, book: &Book) -> Result<Exhibit, String> {
+    let facts = book.facts(&name, &[])?;
+    let posters = book.posters(&name, &[], Room::all_for(facts.aspect()))?;
+    let (title, help) = book.gallery.about(&name);
+    Ok(Exhibit {
+        name,
+        title,
+        help,
+        facts,
+        posters,
+    })
+}
+
+impl Exhibit {
+    fn html(self, page: &mut Writer, place: &Place) -> String {
+        let Exhibit {
+            name,
+            title,
+            help,
+            facts,
+            posters,
+        } = self;
+        let sizes = posters.sizes();
+        let pictures = pictures::add(page, &name, posters);
+        let snapshot = facts.snapshot();
+        let page = &mut page.page;
+        let id = format!("figure-{name}");
+        page.headings.push(Heading {
+            level: 2,
+            id: name.clone(),
+            title: title.clone(),
+            html: escape(&title),
+        });
+        page.start_section(&name, &title);
+        page.words.push_str(facts.description());
+        let number = page.next_figure_number();
+        page.figures.push(FigureEntry {
+            id: id.clone(),
+            number,
+            place: place.clone(),
+        });
+        let panel = token(PANEL, &page.panels.len().to_string());
+        page.panels.push(PanelRequest {
+            name: name.clone(),
+            title: title.clone(),
+            help: help.clone(),
+            snapshot: snapshot.clone(),
+            attributes: Default::default(),
+            sizes,
+        });
+        let root = path_to_root(&page.path);
+        let frame = frame_path(&name);
+        format!(
+            "<section class=\"gallery\" data-name=\"{name}\">\n\
+             <h2 id=\"{name}\"><a href=\"#{name}\">{title}</a></h2>\n\
+             <figure class=\"epipole\" id=\"{id}\">\n\
+             <epipole-figure name=\"{name}\">{panel}<picture>{sources}<img src=\"{src}\" alt=\"{alt}\" \
+             {loading} decoding=\"async\"></picture></epipole-figure>\n\
+             <figcaption><code>{name}</code> {alt}</figcaption>\n</figure>\n\
+             <p>{help} Its own page, for frames: <a class=\"own-page\" href=\"{root}{frame}\">{frame}</a>.</p>\n\
+             {snippet}{settings}{readouts}{buttons}{keys}</section>\n",
+            title = escape(&title),
+            sources = pictures.sources,
+            src = pictures.src,
+            alt = escape(facts.description()),
+            loading = page.loading_of_last_figure(),
+            help = escape(&help),
+            snippet = snippet(&name),
+            settings = settings_table(snapshot),
+            readouts = readouts_table(snapshot),
+            buttons = buttons(snapshot),
+            keys = keys(snapshot),
+        )
+    }
 }
 
 /// What a page of someone else says; the script of this page knows more kinds of pages.

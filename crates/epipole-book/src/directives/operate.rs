@@ -1,116 +1,87 @@
-//! Prose that operates figures: `{{#do …}}` sets one, `{{#live …}}` quotes its numbers. Both are words of
-//! the sentence; a script of the page (`web/book/operate.ts`) brings them to life.
+//! `{{#do ransac-race outliers=0.7 | words}}`: words of a sentence that set the nearest figure of that name. A script of
+//! the page (`web/book/operate.ts`) brings them to life.
 
-use crate::directives::expand::Insert;
 use crate::html::escape;
-use crate::parse::outline::{
-    Instance, clicked_before, nearest, own_settings, setting, with_wishes,
-};
-use crate::parse::source::Source;
-use crate::parse::syntax::Directive;
-use crate::problems::Place;
-use crate::render::markdown::Renderer;
+use crate::parse::outline::{Instance, own_settings, with_wishes};
+use crate::parse::text::Request;
+use crate::render::directive::{Directive, ParsedText, Parser, Text};
+use crate::render::insert::Insert;
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
 use crate::resolve::claims;
-use crate::resolve::facts::Facts;
-use std::sync::Arc;
 
-/// `{{#do figure key=value … | words}}`: the words, and where they take the figure.
-pub(crate) fn set(
-    renderer: &mut Renderer,
-    directive: &Directive,
-    body: Option<Source>,
-    place: &Place,
-) -> Result<Insert, String> {
-    let how = "write {{#do figure key=value … | words}}";
-    let ([wanted], Some(body)) = (&directive.words[..], body) else {
-        return Err(how.to_owned());
-    };
-    let wishes = own_settings(directive);
-    if wishes.is_empty() || body.text().trim().is_empty() {
-        return Err(how.to_owned());
-    }
-    let figure = nearest(wanted, place, &renderer.instances)?.clone();
-    let facts = after(renderer, &figure, &wishes)?;
-    if let Some(claim) = setting(directive, "claim") {
-        claims::check(claim, &facts)?;
-        // What the words say holds for whoever has clicked other words before.
-        for clicked in clicked_before(&figure, (place, &wishes), &renderer.acts) {
-            let settings = clicked
-                .iter()
-                .fold(figure.settings.clone(), |settings, act| {
-                    with_wishes(settings, &act.wishes)
-                });
-            let settings = with_wishes(settings, &wishes);
-            let facts = renderer.shared.facts(&figure.name, &settings)?;
-            claims::check(claim, &facts)
-                .map_err(|error| format!("once other words have set the figure, {error}"))?;
+/// The words, and what they set. `T` is the stage of the words.
+pub(super) struct Do<T> {
+    figure: Instance,
+    wishes: Vec<(String, String)>,
+    claim: Option<String>,
+    /// States of the figure for readers who clicked other words before.
+    after_others: [Vec<(String, String)>; 2],
+    words: T,
+}
+
+/// What is left to say once the claim was checked.
+pub(super) struct Checked {
+    /// Anchor of the figure.
+    id: String,
+    wishes: Vec<(String, String)>,
+    words: Text,
+}
+
+impl Directive for Do<ParsedText> {
+    const NAME: &'static str = "do";
+    type Resolved = Checked;
+
+    fn parse(request: &Request, parser: &Parser) -> Result<Self, String> {
+        let how = "write {{#do figure key=value … | words}}";
+        let ([wanted], Some(body)) = (&request.call.words[..], &request.body) else {
+            return Err(how.to_owned());
+        };
+        let wishes = own_settings(request.call);
+        if wishes.is_empty() || body.text().trim().is_empty() {
+            return Err(how.to_owned());
         }
+        let figure = parser.outline.nearest(wanted, &request.place)?;
+        let outline = parser.outline;
+        Ok(Do {
+            after_others: outline.after_others(figure, &request.place, &wishes),
+            figure: figure.clone(),
+            wishes,
+            claim: request.setting("claim").map(str::to_owned),
+            words: parser.text(body),
+        })
     }
-    let html = renderer.inline(&body);
-    let parameters =
-        serde_json::Map::from_iter(wishes.into_iter().map(|(key, value)| (key, value.into())));
-    let parameters = serde_json::Value::Object(parameters).to_string();
-    Ok(Insert::Inline {
-        html: format!(
+
+    fn resolve(self, book: &Book) -> Result<Checked, String> {
+        let Instance { name, settings, .. } = &self.figure;
+        let settings = with_wishes(settings.clone(), &self.wishes);
+        let facts = book.facts(name, &settings)?;
+        if let Some(claim) = &self.claim {
+            claims::check(claim, &facts)?;
+            // What the words say holds for whoever has clicked other words before.
+            for settings in &self.after_others {
+                let facts = book.facts(name, settings)?;
+                claims::check(claim, &facts)
+                    .map_err(|error| format!("once other words have set the figure, {error}"))?;
+            }
+        }
+        Ok(Checked {
+            id: self.figure.id,
+            wishes: self.wishes,
+            words: self.words.resolve(book),
+        })
+    }
+
+    fn render(checked: Checked, page: &mut Writer) -> Insert {
+        let html = checked.words.inline(page);
+        let wishes = checked.wishes.into_iter();
+        let parameters = wishes.map(|(key, value)| (key, value.into()));
+        let parameters = serde_json::Map::from_iter(parameters);
+        let parameters = serde_json::Value::Object(parameters).to_string();
+        Insert::inline(format!(
             "<span class=\"do\" data-figure=\"{}\" data-parameters=\"{}\">{html}</span>",
-            escape(&figure.id),
+            escape(&checked.id),
             escape(&parameters)
-        ),
-        text: String::new(),
-    })
-}
-
-/// `{{#live figure.readout}}`: a number that follows the figure, as it is when the page comes.
-pub(crate) fn quote(
-    renderer: &mut Renderer,
-    directive: &Directive,
-    place: &Place,
-) -> Result<Insert, String> {
-    let how = "write {{#live figure.readout}}";
-    let ([word], true) = (&directive.words[..], directive.settings.is_empty()) else {
-        return Err(how.to_owned());
-    };
-    let (wanted, id) = word.rsplit_once('.').ok_or(how)?;
-    let figure = nearest(wanted, place, &renderer.instances)?.clone();
-    let shown = after(renderer, &figure, &[])?
-        .shown(id)
-        .map_err(|error| format!("figure {}: {error}", figure.name))?;
-    Ok(Insert::Inline {
-        html: format!(
-            "<span class=\"live\" data-figure=\"{}\" data-shows=\"{}\">{}</span>",
-            escape(&figure.id),
-            escape(id),
-            escape(&shown.text)
-        ),
-        text: shown.text,
-    })
-}
-
-/// `{{#claim figure key=value … | readout > number}}`: nothing to see; the build fails if it is false.
-pub(crate) fn claim(
-    renderer: &mut Renderer,
-    directive: &Directive,
-    body: Option<Source>,
-    place: &Place,
-) -> Result<Insert, String> {
-    let ([wanted], Some(body)) = (&directive.words[..], body) else {
-        return Err("write {{#claim figure key=value … | readout > number}}".to_owned());
-    };
-    let figure = nearest(wanted, place, &renderer.instances)?.clone();
-    let facts = after(renderer, &figure, &own_settings(directive))?;
-    claims::check(body.text(), &facts)?;
-    Ok(Insert::Inline {
-        html: String::new(),
-        text: String::new(),
-    })
-}
-
-/// What a figure of the page shows once `wishes` are put on top of the chapter's own settings.
-fn after(
-    renderer: &Renderer,
-    figure: &Instance,
-    wishes: &[(String, String)],
-) -> Result<Arc<Facts>, String> {
-    let settings = with_wishes(figure.settings.clone(), wishes);
-    renderer.shared.facts(&figure.name, &settings)
+        ))
+    }
 }

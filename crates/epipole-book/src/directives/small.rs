@@ -1,74 +1,120 @@
-//! Small pictures of figures: where a paragraph tells what other chapters hold, it can show it.
+//! `{{#small figure key=value … page=sfm.md | words}}`: a small picture of a figure in that state, with words below it.
+//!
+//! With `moves="key=value …"` the picture comes to life where a reader looks at it: the figure goes there and back
+//! (`web/book/small.ts`). It leads to the page, once there is such a page: chapters can name those that are still to
+//! come. If the page has a quiz, the script of the page says how much of it the reader has solved.
 
-use crate::directives::expand::Insert;
 use crate::html::escape;
-use crate::parse::outline::{own_settings, setting, with_wishes};
-use crate::parse::source::Source;
-use crate::parse::syntax::Directive;
+use crate::parse::outline::{own_settings, with_wishes};
+use crate::parse::text::Request;
 use crate::problems::Place;
+use crate::render::directive::{Directive, ParsedText, Parser, Text};
+use crate::render::insert::Insert;
 use crate::render::links;
-use crate::render::markdown::Renderer;
+use crate::render::pictures;
+use crate::render::tokens::{SOLVED, token};
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
 use crate::resolve::figures::Room;
-use crate::resolve::posters::{self, Posters};
-use crate::resolve::shared::token;
+use crate::resolve::posters::Posters;
 
-/// `{{#small figure key=value … page=sfm.md | words}}`: the figure's picture for a phone, with words below
-/// it. With `moves="key=value …"` the picture comes to life where a reader looks at it: the figure goes there and back
-/// (`web/book/small.ts`). It leads to the page, once there is such a page: chapters can name those that are still to come. If the
-/// page has a quiz, the script of the page says how much of it the reader has solved.
-pub(crate) fn picture(
-    renderer: &mut Renderer,
-    directive: &Directive,
-    body: Option<Source>,
-    place: &Place,
-) -> Result<Insert, String> {
-    let ([name], Some(body)) = (&directive.words[..], body) else {
-        return Err("write {{#small figure key=value … page=… | words}}".to_owned());
-    };
-    let shared = renderer.shared;
-    let settings = own_settings(directive);
-    let problem = |error: String| format!("figure {name}: {error}");
-    let figure = shared.gallery.open(name, &settings).map_err(problem)?;
-    let posters = match shared.posters_in() {
-        Some(folder) => {
-            let rooms = &[Room::Phone];
-            posters::draw(figure.as_ref(), rooms, name, &settings, renderer, folder)?
-        }
-        None => Posters::default(),
-    };
-    let moves = match setting(directive, "moves") {
-        Some(moves) => {
-            let moves = moves_of(moves, &settings)?;
-            // What the page would ask of it can be asked.
-            let there = with_wishes(settings.clone(), &moves);
-            shared.gallery.open(name, &there).map_err(problem)?;
-            life(name, &settings, &moves)
-        }
-        None => String::new(),
-    };
-    let words = renderer.inline(&body);
-    // What the picture shows, the words say.
-    let inside = format!(
-        "<picture>{}<img src=\"{}\" alt=\"\" loading=\"lazy\" decoding=\"async\"></picture>\
-         <span>{words}</span>",
-        posters.sources, posters.src
-    );
-    let page = setting(directive, "page").map(|page| {
-        let file = page.split('#').next().unwrap_or(page);
-        (page, shared.read(file).is_some())
-    });
-    let html = match page {
-        Some((page, true)) => {
-            let href = links::rewrite(renderer, page, place.clone());
-            // Which quiz the page has is known once it is rendered.
-            let solved = token("solved", page.split('#').next().unwrap_or(page));
-            let href = escape(&href);
-            format!("<a class=\"small\"{moves} href=\"{href}\">{inside}{solved}</a>")
-        }
-        _ => format!("<span class=\"small\">{inside}</span>"),
-    };
-    let text = String::new();
-    Ok(Insert::Inline { html, text })
+/// A figure in a state, and the page that it stands for. `T` is the stage of its words.
+pub(super) struct Small<T> {
+    name: String,
+    settings: Vec<(String, String)>,
+    moves: Option<String>,
+    /// The page, if it exists.
+    page: Option<String>,
+    words: T,
+    place: Place,
+}
+
+/// A small picture, drawn.
+pub(super) struct Drawn {
+    small: Small<Text>,
+    posters: Posters,
+    /// Attributes that bring the picture to life.
+    life: String,
+}
+
+impl Directive for Small<ParsedText> {
+    const NAME: &'static str = "small";
+    type Resolved = Drawn;
+
+    fn parse(request: &Request, parser: &Parser) -> Result<Self, String> {
+        let ([name], Some(body)) = (&request.call.words[..], &request.body) else {
+            return Err("write {{#small figure key=value … page=… | words}}".to_owned());
+        };
+        let page = request.setting("page");
+        let exists = |page: &&str| parser.content.read(file_of(page)).is_some();
+        Ok(Small {
+            name: name.clone(),
+            settings: own_settings(request.call),
+            moves: request.setting("moves").map(str::to_owned),
+            page: page.filter(exists).map(str::to_owned),
+            words: parser.text(body),
+            place: request.place.clone(),
+        })
+    }
+
+    fn resolve(self, book: &Book) -> Result<Drawn, String> {
+        let Small { name, settings, .. } = &self;
+        let problem = |error: String| format!("figure {name}: {error}");
+        book.gallery.open(name, settings).map_err(problem)?;
+        let posters = book.posters(name, settings, &[Room::Phone])?;
+        let life = match &self.moves {
+            Some(moves) => {
+                let moves = moves_of(moves, settings)?;
+                // What the page would ask of it can be asked.
+                let there = with_wishes(settings.clone(), &moves);
+                book.gallery.open(name, &there).map_err(problem)?;
+                life(name, settings, &moves)
+            }
+            None => String::new(),
+        };
+        Ok(Drawn {
+            small: Small {
+                name: self.name,
+                settings: self.settings,
+                moves: self.moves,
+                page: self.page,
+                words: self.words.resolve(book),
+                place: self.place,
+            },
+            posters,
+            life,
+        })
+    }
+
+    fn render(drawn: Drawn, page: &mut Writer) -> Insert {
+        let Drawn {
+            small,
+            posters,
+            life,
+        } = drawn;
+        let pictures = pictures::add(page, &small.name, posters);
+        let words = small.words.inline(page);
+        // What the picture shows, the words say.
+        let inside = format!(
+            "<picture>{}<img src=\"{}\" alt=\"\" loading=\"lazy\" decoding=\"async\"></picture>\
+             <span>{words}</span>",
+            pictures.sources, pictures.src
+        );
+        let Some(target) = &small.page else {
+            return Insert::inline(format!("<span class=\"small\">{inside}</span>"));
+        };
+        let href = escape(&links::rewrite(page, target, small.place));
+        // Which quiz the page has is known once it is rendered.
+        let solved = token(SOLVED, file_of(target));
+        Insert::inline(format!(
+            "<a class=\"small\"{life} href=\"{href}\">{inside}{solved}</a>"
+        ))
+    }
+}
+
+/// The file of a link to a section.
+fn file_of(page: &str) -> &str {
+    page.split('#').next().unwrap_or(page)
 }
 
 /// Where the figure goes: each setting with a place to come back to.

@@ -1,13 +1,19 @@
 //! `{{#include file}}` and `{{#include file:anchor}}`, also inside listings, so that the code on a
 //! page is a file that the tests run.
 
-use crate::parse::source::Source;
-use crate::resolve::shared::Shared;
+use super::content::Content;
+use super::source::Source;
+use crate::problems::Problems;
 
 const OPENING: &str = "{{#include ";
 
 /// The text with all includes replaced; what is wrong is reported.
-pub(crate) fn include(source: &Source, folder: &str, shared: &Shared) -> Source {
+pub(crate) fn include(
+    source: &Source,
+    folder: &str,
+    content: &Content,
+    problems: &Problems,
+) -> Source {
     let text = source.text();
     let mut whole = Source::default();
     let mut from = 0;
@@ -25,9 +31,9 @@ pub(crate) fn include(source: &Source, folder: &str, shared: &Shared) -> Source 
             continue;
         }
         let argument = text[start + OPENING.len()..end - 2].trim();
-        match part(argument, folder, shared) {
+        match part(argument, folder, content) {
             Ok(part) => whole.push_slice(&part, 0..part.text().trim_end_matches('\n').len()),
-            Err(message) => shared.problems.report(place, message),
+            Err(message) => problems.report(place, message),
         }
     }
     whole.push_slice(source, from..text.len());
@@ -35,7 +41,7 @@ pub(crate) fn include(source: &Source, folder: &str, shared: &Shared) -> Source 
 }
 
 /// The text of `file` or `file:anchor`.
-fn part(argument: &str, folder: &str, shared: &Shared) -> Result<Source, String> {
+fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, String> {
     let (file, anchor) = match argument.split_once(':') {
         Some((file, anchor)) => (file, Some(anchor)),
         None => (argument, None),
@@ -45,7 +51,7 @@ fn part(argument: &str, folder: &str, shared: &Shared) -> Result<Source, String>
     } else {
         format!("{folder}/{file}")
     };
-    let source = shared
+    let source = content
         .read(&path)
         .ok_or_else(|| format!("there is no file {path} to include"))?;
     let mut chosen = Source::default();

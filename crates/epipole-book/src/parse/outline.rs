@@ -1,8 +1,8 @@
-//! The figures of a page, known before the page is rendered: so a sentence can speak of the figure below
-//! it as well as of the one above.
+//! Figures of a page and the words that set them, found before the directives are parsed: a sentence can name a
+//! figure below it.
 
-use crate::parse::source::Source;
-use crate::parse::syntax::{Directive, Piece, split};
+use super::source::Source;
+use super::syntax::{Call, Piece, split};
 use crate::problems::{Place, name_list};
 
 /// A figure of a page.
@@ -17,13 +17,76 @@ pub(crate) struct Instance {
     last_line: usize,
 }
 
+/// A chapter at a glance.
+#[derive(Debug, Default)]
+pub(crate) struct Outline {
+    figures: Vec<Instance>,
+    acts: Vec<Act>,
+    /// Letters of the chapter that its figures draw as well.
+    pub(crate) symbols: Vec<String>,
+}
+
+impl Outline {
+    pub(crate) fn of(source: &Source) -> Outline {
+        let figures = instances(source);
+        Outline {
+            acts: acts(source, &figures),
+            figures,
+            symbols: symbols(source),
+        }
+    }
+
+    /// The figure of the directive at `place`.
+    pub(crate) fn at(&self, place: &Place) -> Option<&Instance> {
+        at(place, &self.figures)
+    }
+
+    /// The figure that a sentence at `place` means by `name` or `name#id`.
+    ///
+    /// # Errors
+    /// A sentence with the figures of the page.
+    pub(crate) fn nearest(&self, wanted: &str, place: &Place) -> Result<&Instance, String> {
+        nearest(wanted, place, &self.figures)
+    }
+
+    /// States of `figure` after the words at `place`, for a reader who clicked other words before: everything above
+    /// them, and everything below them.
+    pub(crate) fn after_others(
+        &self,
+        figure: &Instance,
+        place: &Place,
+        wishes: &[(String, String)],
+    ) -> [Vec<(String, String)>; 2] {
+        clicked_before(figure, (place, wishes), &self.acts).map(|clicked| {
+            let start = figure.settings.clone();
+            let settings = clicked
+                .iter()
+                .fold(start, |settings, act| with_wishes(settings, &act.wishes));
+            with_wishes(settings, wishes)
+        })
+    }
+}
+
+/// The letters that a chapter lists.
+fn symbols(source: &Source) -> Vec<String> {
+    let mut names = Vec::new();
+    for piece in split(source) {
+        if let Piece::Directive(directive) = piece
+            && directive.name == "symbols"
+        {
+            names.extend(directive.words);
+        }
+    }
+    names
+}
+
 /// What a figure's tag says to the builder and to the page; everything else is the figure's state.
 const WORDS_OF_THE_PAGE: [&str; 8] = [
     "id", "controls", "readouts", "goals", "claim", "page", "play", "moves",
 ];
 
 /// The settings of a directive that are the figure's own.
-pub(crate) fn own_settings(directive: &Directive) -> Vec<(String, String)> {
+pub(crate) fn own_settings(directive: &Call) -> Vec<(String, String)> {
     let mut settings = directive.settings.clone();
     settings.retain(|(key, _)| !WORDS_OF_THE_PAGE.contains(&key.as_str()));
     settings
@@ -31,7 +94,7 @@ pub(crate) fn own_settings(directive: &Directive) -> Vec<(String, String)> {
 
 /// All figures of a chapter in their order. Those that nobody named are `fig-name`, and from the second
 /// of their kind on `fig-name-2`.
-pub(crate) fn instances(source: &Source) -> Vec<Instance> {
+fn instances(source: &Source) -> Vec<Instance> {
     let mut found: Vec<Instance> = Vec::new();
     for piece in split(source) {
         let Piece::Directive(directive) = piece else {
@@ -43,7 +106,7 @@ pub(crate) fn instances(source: &Source) -> Vec<Instance> {
         if directive.name != "figure" {
             continue;
         }
-        let id = match setting(&directive, "id") {
+        let id = match directive.setting("id") {
             Some(id) => id.to_owned(),
             None => free_id(name, &found),
         };
@@ -68,7 +131,7 @@ pub(crate) struct Act {
 }
 
 /// All words of a chapter that set figures, in their order; `all` are its figures.
-pub(crate) fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
+fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
     let act = |piece| {
         let Piece::Directive(directive) = piece else {
             return None;
@@ -90,7 +153,7 @@ pub(crate) fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
 
 /// What a reader may have clicked for `figure` before the words at `place`: everything above them from the top
 /// down, and everything below them from the bottom up.
-pub(crate) fn clicked_before<'a>(
+fn clicked_before<'a>(
     figure: &Instance,
     (place, wishes): (&Place, &[(String, String)]),
     all: &'a [Act],
@@ -115,13 +178,6 @@ pub(crate) fn with_wishes(
     settings
 }
 
-/// A setting of a directive.
-pub(crate) fn setting<'a>(directive: &'a Directive, key: &str) -> Option<&'a str> {
-    let mut settings = directive.settings.iter();
-    let found = settings.find(|(known, _)| known == key);
-    found.map(|(_, value)| value.as_str())
-}
-
 fn free_id(name: &str, taken: &[Instance]) -> String {
     let first = format!("fig-{name}");
     let is_free = |id: &String| taken.iter().all(|figure| figure.id != *id);
@@ -131,7 +187,7 @@ fn free_id(name: &str, taken: &[Instance]) -> String {
 }
 
 /// The figure that the tag at `place` makes.
-pub(crate) fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance> {
+fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance> {
     all.iter().find(|figure| figure.first == *place)
 }
 
@@ -140,11 +196,7 @@ pub(crate) fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance>
 ///
 /// # Errors
 /// A sentence with the figures of the page.
-pub(crate) fn nearest<'a>(
-    wanted: &str,
-    place: &Place,
-    all: &'a [Instance],
-) -> Result<&'a Instance, String> {
+fn nearest<'a>(wanted: &str, place: &Place, all: &'a [Instance]) -> Result<&'a Instance, String> {
     let (name, id) = match wanted.split_once('#') {
         Some((name, id)) => (name, Some(id)),
         None => (wanted, None),

@@ -1,7 +1,7 @@
 //! How long a chapter goes on without anything to look at.
 
-use crate::parse::source::Source;
-use crate::parse::syntax::{Directive, Piece, markdown_options, split};
+use super::source::Source;
+use super::syntax::{Call, Piece, markdown_options, split};
 use crate::problems::Place;
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 
@@ -17,7 +17,7 @@ pub struct Stretch {
 
 /// The stretches of a chapter, up to its quiz: what follows is not read in one go.
 pub fn stretches(source: &Source) -> Vec<Stretch> {
-    let figures: Vec<Directive> = split(source)
+    let figures: Vec<Call> = split(source)
         .into_iter()
         .filter_map(|piece| match piece {
             Piece::Directive(directive) if directive.name == "figure" => Some(directive),

@@ -1,8 +1,6 @@
 //! Stand-ins for the HTML of directives while Markdown is parsed, of private-use characters: so
 //! Markdown cannot mangle it, and every event still knows its file and line.
 
-use crate::directives::expand::Insert;
-
 const OPEN: char = '\u{E000}';
 const CLOSE: char = '\u{E001}';
 
@@ -44,16 +42,4 @@ pub(crate) fn parts(words: &str) -> Vec<Part<'_>> {
         parts.push(Part::Words(rest));
     }
     parts
-}
-
-/// A text with what `form` makes of each insert in the place of its stand-in.
-pub(crate) fn substitute(words: &str, inserts: &[Insert], form: fn(&Insert) -> String) -> String {
-    let mut text = String::new();
-    for part in parts(words) {
-        match part {
-            Part::Words(words) => text.push_str(words),
-            Part::Insert(index) => text.push_str(&inserts.get(index).map(form).unwrap_or_default()),
-        }
-    }
-    text
 }

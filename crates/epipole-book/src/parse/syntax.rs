@@ -1,13 +1,13 @@
 //! `{{#name words key=value | body}}`: the one notation by which a chapter asks the builder for
 //! something. Code is left alone, and `\{{#` is a literal `{{#`.
 
-use crate::parse::source::Source;
+use super::source::Source;
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use std::ops::Range;
 
 /// One request in a chapter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Directive {
+pub struct Call {
     /// What stands after `{{#`.
     pub name: String,
     /// The words before the first `key=value`.
@@ -20,13 +20,22 @@ pub struct Directive {
     pub span: Range<usize>,
 }
 
+impl Call {
+    /// The value of a setting.
+    pub fn setting(&self, key: &str) -> Option<&str> {
+        let mut settings = self.settings.iter();
+        let found = settings.find(|(known, _)| known == key);
+        found.map(|(_, value)| value.as_str())
+    }
+}
+
 /// A piece of a chapter: text, a directive, or an opening without an end.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Piece {
     /// Ordinary text.
     Text(Range<usize>),
     /// A directive.
-    Directive(Directive),
+    Directive(Call),
     /// Something that starts like a directive: its place, and what is wrong.
     Broken(Range<usize>, String),
 }
@@ -119,7 +128,7 @@ fn closing(text: &str, start: usize) -> Option<usize> {
     None
 }
 
-fn parse(text: &str, span: Range<usize>) -> Result<Directive, String> {
+fn parse(text: &str, span: Range<usize>) -> Result<Call, String> {
     let inner = span.start + 3..span.end - 2;
     if !text[span.clone()].ends_with("}}") {
         return Err("the braces of this directive do not match".to_owned());
@@ -146,7 +155,7 @@ fn parse(text: &str, span: Range<usize>) -> Result<Directive, String> {
             None => return Err(format!("`{token}`: a setting is written `key=value`")),
         }
     }
-    Ok(Directive {
+    Ok(Call {
         name,
         words,
         settings,
@@ -201,7 +210,7 @@ mod tests {
         split(&Source::new(text, Place::new("a.md", 1)))
     }
 
-    fn only_directive(text: &str) -> Directive {
+    fn only_directive(text: &str) -> Call {
         match &split_text(text)[..] {
             [Piece::Directive(directive)] => directive.clone(),
             other => panic!("{other:?}"),

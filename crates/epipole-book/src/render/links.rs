@@ -1,43 +1,40 @@
-//! Links and pictures: relative, and checked.
+//! Links and pictures of a text: relative. Whether they lead anywhere is checked when all pages are known.
 
+use super::page::{Link, WantedFile};
+use super::writer::Writer;
 use crate::html::escape;
-use crate::problems::{Place, Problems, name_list};
-use crate::render::markdown::Renderer;
-use crate::render::page::{Link, Page};
-use crate::write::assets::LAB_FOLDER;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::problems::Place;
+
+/// The folder of the Lab below that of the site.
+pub(crate) const LAB_FOLDER: &str = "lab";
 
 /// A link as it goes into the page. Links between chapters name the Markdown file, and the
 /// anchor of a section or a figure.
-pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> String {
+pub(crate) fn rewrite(writer: &mut Writer, written: &str, place: Place) -> String {
     if is_external(written) {
         return written.to_owned();
     }
     if written.starts_with('/') {
         let message =
             format!("the link \"{written}\" starts with /: write it relative to this file");
-        renderer.report(place, message);
+        writer.report(place, message);
         return written.to_owned();
     }
     let (path, fragment) = match written.split_once('#') {
         Some((path, fragment)) => (path, Some(fragment.to_owned())),
         None => (written, None),
     };
-    let own = renderer.page.path.clone();
+    let own = writer.page.path.clone();
+    let link = |page: String, fragment: &Option<String>| Link {
+        page,
+        fragment: fragment.clone(),
+        written: written.to_owned(),
+        place: place.clone(),
+    };
     if path.is_empty() {
-        let written = written.to_owned();
-        renderer.page.links.push(Link {
-            page: own,
-            fragment,
-            written,
-            place,
-        });
-        return renderer
-            .page
-            .links
-            .last()
-            .map(|link| link.written.clone())
-            .unwrap_or_default();
+        let own = link(own, &fragment);
+        writer.page.links.push(own);
+        return written.to_owned();
     }
     if let Some(link) = to_the_lab(&own, path) {
         return link;
@@ -50,27 +47,22 @@ pub(crate) fn rewrite(renderer: &mut Renderer, written: &str, place: Place) -> S
             Some(fragment) => format!("{shown}.html#{fragment}"),
             None => format!("{shown}.html"),
         };
-        let written = written.to_owned();
-        renderer.page.links.push(Link {
-            page,
-            fragment,
-            written,
-            place,
-        });
+        let link = link(page, &fragment);
+        writer.page.links.push(link);
         return href;
     }
-    if !renderer.shared.copy_file(&target) {
-        renderer.report(
-            place,
-            format!("the link \"{written}\" leads nowhere: there is no {target}"),
-        );
-    }
+    let missing = format!("the link \"{written}\" leads nowhere: there is no {target}");
+    writer.page.wanted_files.push(WantedFile {
+        path: target,
+        place,
+        missing,
+    });
     written.to_owned()
 }
 
 /// A picture of the content folder as HTML.
 pub(crate) fn image(
-    renderer: &mut Renderer,
+    writer: &mut Writer,
     written: &str,
     title: &str,
     alternative: &str,
@@ -78,17 +70,20 @@ pub(crate) fn image(
 ) -> String {
     if is_external(written) || written.starts_with('/') {
         let message = format!("the picture \"{written}\" must be a file of the content folder");
-        renderer.report(place, message);
+        writer.report(place, message);
         return String::new();
     }
     if alternative.is_empty() {
         let message = format!("the picture \"{written}\" needs words for those who cannot see it");
-        renderer.report(place.clone(), message);
+        writer.report(place.clone(), message);
     }
-    let target = resolve_path(&renderer.page.path, written);
-    if !renderer.shared.copy_file(&target) {
-        renderer.report(place, format!("there is no picture {target}"));
-    }
+    let target = resolve_path(&writer.page.path, written);
+    let missing = format!("there is no picture {target}");
+    writer.page.wanted_files.push(WantedFile {
+        path: target,
+        place,
+        missing,
+    });
     let title = if title.is_empty() {
         String::new()
     } else {
@@ -134,74 +129,6 @@ fn resolve_path(own: &str, written: &str) -> String {
     parts.join("/")
 }
 
-/// Reports links to pages or anchors that do not exist, and anchors that exist twice.
-pub(crate) fn check(pages: &[Page], drafts: &BTreeSet<String>, problems: &Problems) {
-    let mut anchors: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    for page in pages {
-        let mut ids = BTreeSet::new();
-        for id in ids_of(&page.html) {
-            if !ids.insert(id.clone())
-                && let Some(figure) = page.figures.iter().rev().find(|figure| figure.id == id)
-            {
-                let message = format!("two elements are called \"{id}\": give this figure an id=…");
-                problems.report(figure.place.clone(), message);
-            }
-        }
-        anchors.insert(&page.path, ids);
-    }
-    for link in pages.iter().flat_map(|page| &page.links) {
-        let written = &link.written;
-        let Some(ids) = anchors.get(link.page.as_str()) else {
-            let chapters: Vec<String> = pages
-                .iter()
-                .map(|page| page.path.replace(".html", ".md"))
-                .collect();
-            let message = if drafts.contains(&link.page) {
-                format!("the link \"{written}\" leads to a draft")
-            } else {
-                let known = name_list(&chapters);
-                format!("the link \"{written}\" leads to no chapter; chapters: {known}")
-            };
-            problems.report(link.place.clone(), message);
-            continue;
-        };
-        if let Some(fragment) = &link.fragment
-            && !ids.contains(fragment)
-        {
-            let known: Vec<&String> = ids.iter().filter(|id| !id.starts_with("quiz-")).collect();
-            let message = format!(
-                "the link \"{written}\" leads to no section; anchors there: {}",
-                name_list(&known)
-            );
-            problems.report(link.place.clone(), message);
-        }
-    }
-}
-
-/// All `id`s of a page.
-pub(crate) fn ids_of(html: &str) -> Vec<String> {
-    let mut ids = Vec::new();
-    let mut rest = html;
-    while let Some(open) = rest.find('<') {
-        rest = &rest[open + 1..];
-        if !rest.starts_with(|letter: char| letter.is_ascii_alphabetic()) {
-            continue;
-        }
-        let name = rest
-            .find(|c: char| !c.is_ascii_alphanumeric() && c != '-')
-            .unwrap_or(rest.len());
-        let (attributes, after) = crate::html::attributes(&rest[name..]);
-        ids.extend(
-            attributes
-                .into_iter()
-                .filter(|(key, _)| key == "id")
-                .map(|(_, id)| id),
-        );
-        rest = after;
-    }
-    ids
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -243,13 +170,5 @@ mod tests {
         ] {
             assert_eq!(is_external(link), external, "{link}");
         }
-    }
-
-    #[test]
-    fn ids() {
-        assert_eq!(
-            ids_of("<p id=a><epipole-figure id=\"b\" x='>'></p> <c id=d"),
-            ["a", "b", "d"]
-        );
     }
 }

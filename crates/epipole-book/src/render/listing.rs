@@ -1,7 +1,7 @@
 //! Listings of code: what of the code a page shows, and how.
 
+use super::highlight::highlight;
 use crate::html::escape;
-use crate::render::highlight::highlight;
 use pulldown_cmark::CodeBlockKind;
 
 /// A line that hides itself and what follows it in the listing, as a comment of its language.

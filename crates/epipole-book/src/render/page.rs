@@ -1,8 +1,9 @@
-//! A finished page and what other pages need to know of it.
+//! A rendered page and all that it asks of other pages, of the content folder and of the site.
 
+use super::notebook::Cell;
 use crate::problems::Place;
-use crate::render::notebook::Cell;
 use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A heading of a page.
 #[derive(Debug, Clone)]
@@ -58,6 +59,43 @@ pub struct Section {
     pub words: String,
 }
 
+/// A quiz of a page.
+#[derive(Debug, Clone)]
+pub struct QuizEntry {
+    /// Its file, without `.toml`.
+    pub name: String,
+    /// Number of questions.
+    pub questions: usize,
+}
+
+/// Input of `web/prerender.mjs` for one figure.
+#[derive(Debug, Clone, Serialize)]
+pub struct PanelRequest {
+    /// The figure.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// What a reader can do with it.
+    pub help: String,
+    /// What it shows beside the picture.
+    pub snapshot: serde_json::Value,
+    /// Attributes of the element.
+    pub attributes: BTreeMap<String, String>,
+    /// Width and height of its posters, CSS pixels.
+    pub sizes: Vec<(u32, f64)>,
+}
+
+/// A file of the content folder that goes to the same path of the site.
+#[derive(Debug, Clone)]
+pub struct WantedFile {
+    /// From the content folder.
+    pub path: String,
+    /// Where the chapter names it.
+    pub place: Place,
+    /// The problem if there is no such file.
+    pub missing: String,
+}
+
 /// A page of the book.
 #[derive(Debug, Clone, Default)]
 pub struct Page {
@@ -87,6 +125,20 @@ pub struct Page {
     pub symbols: Vec<String>,
     /// Whether the list of references is here.
     pub has_references: bool,
+    /// Quizzes.
+    pub quizzes: Vec<QuizEntry>,
+    /// Goals of its figures that it shows, each `figure/goal`.
+    pub goals: BTreeSet<String>,
+    /// Figures that it refers to, and where.
+    pub wanted_figures: Vec<(String, Place)>,
+    /// Where it cites first.
+    pub cites: Option<Place>,
+    /// Panels of its figures.
+    pub panels: Vec<PanelRequest>,
+    /// Files that were made for it, by their path in the site.
+    pub files: BTreeMap<String, Vec<u8>>,
+    /// Files that it links to or shows.
+    pub wanted_files: Vec<WantedFile>,
     /// Words of the section that is being rendered.
     pub(crate) words: String,
 }
@@ -98,6 +150,14 @@ impl Page {
         match &self.number {
             Some(number) => format!("{number}.{count}"),
             None => count.to_string(),
+        }
+    }
+
+    /// Attribute of the last figure's picture: the first of a page may be in sight at once, the others can wait.
+    pub(crate) fn loading_of_last_figure(&self) -> &'static str {
+        match self.figures.len() {
+            1 => "fetchpriority=\"high\"",
+            _ => "loading=\"lazy\"",
         }
     }
 

@@ -2,8 +2,8 @@
 //! shadow root, so that nothing moves when a figure wakes. The elements' own code writes them, in
 //! `web/prerender.mjs`; all figures of the book go through it at once.
 
-use crate::resolve::shared::PanelRequest;
-use crate::write::assets::Tools;
+use super::page::PanelRequest;
+use crate::tools::Tools;
 use anyhow::{Context, Result, bail};
 use std::io::Write;
 use std::path::Path;
@@ -23,7 +23,7 @@ pub(crate) fn are_made(project: &Path) -> bool {
 ///
 /// # Errors
 /// If the script is missing, fails, or answers something else.
-pub(crate) fn make(project: &Path, requests: &[PanelRequest]) -> Result<Vec<String>> {
+pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<String>> {
     if requests.is_empty() || !are_made(project) {
         return Ok(Vec::new());
     }

@@ -1,24 +1,19 @@
-//! The letters that a chapter's figures draw as well: `{{#symbols P p p' ℓ' e'}}` gives each its color in all
-//! formulas of the chapter, and makes a list of them where it stands.
+//! Letters that figures draw as well: where a chapter lists them, they have their colors in all of its formulas.
 
 use crate::html::escape;
-use crate::parse::source::Source;
-use crate::parse::syntax::{Piece, split};
-use crate::problems::name_list;
-use crate::render::math::{Layout, mathml};
 
 /// A letter that figures know.
-struct Symbol {
+pub(crate) struct Symbol {
     /// As a chapter writes it.
-    name: &'static str,
+    pub(crate) name: &'static str,
     /// As the figures write it: a pixel and its homogeneous vector are the same place in a picture.
-    drawn: &'static str,
-    latex: &'static str,
+    pub(crate) drawn: &'static str,
+    pub(crate) latex: &'static str,
     /// Which color it has.
-    role: &'static str,
-    meaning: &'static str,
+    pub(crate) role: &'static str,
+    pub(crate) meaning: &'static str,
     /// Its mark in the list, in a square of 16.
-    mark: &'static str,
+    pub(crate) mark: &'static str,
 }
 
 const DIAMOND: &str = "<path d=\"M8 2l6 6-6 6-6-6z\"/>";
@@ -28,7 +23,7 @@ const LINE: &str = "<path d=\"M1 13L15 3\"/>";
 const RING: &str =
     "<circle cx=\"8\" cy=\"8\" r=\"5.5\" fill=\"none\"/><circle cx=\"8\" cy=\"8\" r=\"1\"/>";
 
-const SYMBOLS: [Symbol; 10] = [
+pub(crate) const SYMBOLS: [Symbol; 10] = [
     symbol("P", "P", "point", "a point of the world", DIAMOND),
     symbol("X", "X", "point", "a point of the world", DIAMOND),
     symbol("p", "p", "pixel", "its pixel in image 1", DISK),
@@ -82,54 +77,9 @@ const fn symbol(
     }
 }
 
-fn find(name: &str) -> Option<&'static Symbol> {
+/// The letter that a chapter calls `name`.
+pub(crate) fn find(name: &str) -> Option<&'static Symbol> {
     SYMBOLS.iter().find(|symbol| symbol.name == name)
-}
-
-/// The letters that a chapter asks for, known before it is rendered.
-pub(crate) fn wanted(source: &Source) -> Vec<String> {
-    let mut names = Vec::new();
-    for piece in split(source) {
-        if let Piece::Directive(directive) = piece
-            && directive.name == "symbols"
-        {
-            names.extend(directive.words);
-        }
-    }
-    names
-}
-
-/// The list of the letters.
-///
-/// # Errors
-/// A letter that nobody knows, with those that are known.
-pub(crate) fn list(names: &[String]) -> Result<String, String> {
-    let mut rows = String::new();
-    for name in names {
-        let Some(symbol) = find(name) else {
-            let known: Vec<String> = SYMBOLS
-                .iter()
-                .map(|symbol| symbol.name.to_owned())
-                .collect();
-            return Err(format!(
-                "unknown symbol \"{name}\"; known: {}",
-                name_list(&known)
-            ));
-        };
-        rows.push_str(&format!(
-            "<li><span data-symbol=\"{drawn}\" data-letter=\"{name}\" data-role=\"{role}\"><svg viewBox=\"0 0 16 16\" aria-hidden=\"true\">{mark}</svg>{math}</span> <span class=\"meaning\">{meaning}</span></li>\n",
-            drawn = escape(symbol.drawn),
-            name = escape(symbol.name),
-            role = symbol.role,
-            mark = symbol.mark,
-            math = mathml(symbol.latex, Layout::Inline)?,
-            meaning = symbol.meaning,
-        ));
-    }
-    Ok(format!(
-        "<div class=\"symbols\" role=\"group\" aria-label=\"Letters of this chapter\">\n\
-         <p>Letters of this chapter, in text and pictures</p>\n<ul>\n{rows}</ul>\n</div>\n"
-    ))
 }
 
 /// A formula in which the letters `names` carry their color and their name. A letter with an index, or
@@ -189,6 +139,7 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::math::{Layout, mathml};
 
     fn marked(latex: &str, names: &[&str]) -> Vec<String> {
         let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
@@ -208,21 +159,5 @@ mod tests {
         assert_eq!(marked("F e = 0, F^\\top e' = 0", &["e", "e'"]), ["e", "e'"]);
         assert_eq!(marked("\\hat x = T x", &["x"]), ["p"]);
         assert_eq!(marked("x'^\\top F x = 0", &["x", "x'"]), ["p'", "p"]);
-    }
-
-    #[test]
-    fn the_list_names_each_letter() {
-        let html = list(&["P".to_owned(), "ℓ'".to_owned()]).unwrap();
-        assert!(html.contains("a point of the world") && html.contains("data-role=\"line\""));
-        let pixel = list(&["x".to_owned()]).unwrap();
-        assert!(
-            pixel.contains("data-symbol=\"p\" data-letter=\"x\""),
-            "{pixel}"
-        );
-        let message = list(&["Q".to_owned()]).unwrap_err();
-        assert!(
-            message.contains("unknown symbol \"Q\"; known: P, X"),
-            "{message}"
-        );
     }
 }

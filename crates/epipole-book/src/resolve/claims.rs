@@ -4,7 +4,7 @@
 //! left stands the name of a readout, of a control, or `goal.name`; on the right a number, such a name,
 //! or words. `name#2` is the second number of a readout that holds several ("0.2 % (start: 9.2)").
 
-use crate::resolve::facts::{Facts, Shown};
+use super::facts::{Facts, Shown};
 
 const OPERATORS: [&str; 8] = [">=", "<=", "!=", ">", "<", "=", "has", "lacks"];
 

@@ -1,8 +1,8 @@
 //! What a figure shows in one of its states: the numbers, words and settings that a page prints, quotes
 //! and relies on. Taken from the same snapshot that a page in a browser gets.
 
+use super::figures::Aspect;
 use crate::problems::name_list;
-use crate::resolve::figures::Aspect;
 use serde_json::Value;
 
 /// A figure in one state, by its snapshot.

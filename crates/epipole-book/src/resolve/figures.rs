@@ -45,6 +45,11 @@ impl Room {
     }
 }
 
+/// The page of a figure for frames, from the root of the site.
+pub fn frame_path(name: &str) -> String {
+    format!("embed/{name}.html")
+}
+
 /// A picture of a figure, drawn without a browser.
 pub struct Poster {
     /// Pixels in a row.

@@ -5,6 +5,7 @@
 //! parameter fails the build, so prose cannot drift away from the code.
 
 mod corners;
+mod entry;
 mod epipolar;
 mod gradients;
 mod matching;
@@ -15,7 +16,7 @@ mod stereo;
 mod triangulation;
 
 use crate::problems::name_list;
-use nalgebra::Point2;
+pub use entry::{Arguments, Entry, Number};
 
 /// All numbers that chapters may print, in the order of the chapters.
 pub fn registry() -> impl Iterator<Item = &'static Entry> {
@@ -31,73 +32,6 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
         sfm::ENTRIES,
     ];
     rooms.into_iter().flatten()
-}
-
-/// A number as the core gives it, and how many decimals to print.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Number {
-    /// A whole number.
-    Count(u64),
-    /// A real number and its decimals.
-    Real(f64, usize),
-}
-
-/// One line of the registry.
-pub struct Entry {
-    /// What a chapter calls it.
-    pub name: &'static str,
-    /// The parameters; all must be given.
-    pub parameters: &'static [&'static str],
-    /// What it is, for authors.
-    pub summary: &'static str,
-    compute: fn(&Arguments) -> Result<Number, String>,
-}
-
-/// The values of an entry's parameters.
-pub struct Arguments<'a> {
-    names: &'static [&'static str],
-    values: &'a [f64],
-}
-
-impl Arguments<'_> {
-    fn get(&self, name: &str) -> f64 {
-        let index = self.names.iter().position(|known| *known == name);
-        index
-            .and_then(|index| self.values.get(index).copied())
-            .unwrap_or(f64::NAN)
-    }
-
-    /// A parameter that counts something.
-    fn count(&self, name: &str) -> Result<usize, String> {
-        let value = self.get(name);
-        if (0.0..1e9).contains(&value) && value == value.trunc() {
-            Ok(value as usize)
-        } else {
-            Err(format!("{name}={value} is not a count"))
-        }
-    }
-
-    /// A parameter that counts from 1 to `length`, as an index.
-    fn index(&self, name: &str, length: usize) -> Result<usize, String> {
-        let index = self.count(name)?.checked_sub(1);
-        index
-            .filter(|&index| index < length)
-            .ok_or_else(|| format!("{name} must be 1 to {length}"))
-    }
-
-    /// (u, v), a pixel of image 1.
-    fn pixel1(&self) -> Point2<f64> {
-        Point2::new(self.get("u"), self.get("v"))
-    }
-
-    /// (u2, v2), a pixel of image 2.
-    fn pixel2(&self) -> Point2<f64> {
-        Point2::new(self.get("u2"), self.get("v2"))
-    }
-}
-
-fn sentence(error: epipole::Error) -> String {
-    error.to_string()
 }
 
 /// The text of a number: `name` and `settings` as an author writes them.
@@ -156,11 +90,8 @@ pub fn compute(name: &str, settings: &[(String, String)]) -> Result<Number, Stri
         }
         values.push(value);
     }
-    let number = (entry.compute)(&Arguments {
-        names: entry.parameters,
-        values: &values,
-    })
-    .map_err(|error| format!("{name}: {error}"))?;
+    let number = (entry.compute)(&Arguments::new(entry.parameters, &values))
+        .map_err(|error| format!("{name}: {error}"))?;
     match number {
         Number::Real(value, _) if !value.is_finite() => Err(format!("{name} is not finite here")),
         number => Ok(number),

@@ -1,103 +1,66 @@
 //! Posters: pictures of the figures, drawn while the book is built, kept between builds.
 
-use crate::html::path_to_root;
-use crate::render::markdown::Renderer;
-use crate::resolve::figures::{Figure, Poster, Room};
-use crate::write::assets::fnv;
+use super::cache::Cache;
+use super::figures::{Figure, Poster, Room};
 use rayon::prelude::*;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 /// Device pixels of a poster to a CSS pixel.
 const SCALE: u32 = 2;
 
-/// Of 100, for posters with photographs. At two device pixels to a CSS pixel text stays crisp.
+/// Quality of lossy posters, of 100. At two device pixels to a CSS pixel text stays crisp.
 const QUALITY: f32 = 76.0;
 
-/// Pages of this width have no more room than a phone, or than a column: `web/theme/tokens.css` keeps the
-/// figures of the others wider.
-const PHONE: &str = "(max-width: 551.98px)";
-const COLUMN: &str = "(max-width: 927.98px)";
-const DARK: &str = "(prefers-color-scheme: dark)";
+/// Posters of a figure for some widths of a page, narrow ones first.
+#[derive(Debug, Default)]
+pub(crate) struct Posters(pub(crate) Vec<Shades>);
 
-/// The posters of a figure for all widths of a page, light and dark, as HTML.
-#[derive(Default)]
-pub(crate) struct Posters {
-    /// A `<source>` for each. They carry the sizes, since those differ.
-    pub(crate) sources: String,
-    /// The widest, light.
-    pub(crate) src: String,
+/// The posters for one width of a page.
+#[derive(Debug)]
+pub(crate) struct Shades {
+    /// CSS pixels.
+    pub(crate) width: u32,
+    pub(crate) light: Encoded,
+    pub(crate) dark: Encoded,
+}
+
+impl Posters {
     /// Width and height of each, CSS pixels.
-    pub(crate) sizes: Vec<(u32, f64)>,
-}
-
-/// Draws the posters for these rooms, narrow ones first, or takes them from `folder`, and adds them to the
-/// site.
-pub(crate) fn draw(
-    figure: &dyn Figure,
-    rooms: &[Room],
-    name: &str,
-    settings: &[(String, String)],
-    renderer: &Renderer,
-    folder: &Path,
-) -> Result<Posters, String> {
-    let drawn: Vec<[Encoded; 2]> = rooms
-        .par_iter()
-        .map(|room| {
-            let file = kept_as(folder, name, settings, &room.width().to_string());
-            cached(&file, || {
-                let [light, dark] = figure.posters(*room, SCALE)?;
-                Ok([encode(&light)?, encode(&dark)?])
-            })
-        })
-        .collect::<Result<_, String>>()?;
-    let root = path_to_root(&renderer.page.path);
-    let add = |encoded: &Encoded, suffix: &str| {
-        let bytes = encoded.webp.clone();
-        let path = renderer
-            .shared
-            .add_asset(&format!("figures/{name}-{suffix}"), "webp", bytes);
-        format!("{root}{path}")
-    };
-    let mut posters = Posters::default();
-    for (index, [light, dark]) in drawn.iter().enumerate() {
-        let width = rooms[index].width();
-        let height = f64::from(light.size.1) / f64::from(SCALE);
-        posters.sizes.push((width, height));
-        posters.src = add(light, &format!("{width}-light"));
-        let dark_src = add(dark, &format!("{width}-dark"));
-        // The widest is for all pages that the ones before leave.
-        let pages = [PHONE, COLUMN]
-            .get(index)
-            .filter(|_| index + 1 < rooms.len());
-        let when_dark = pages.map_or(DARK.to_owned(), |pages| format!("{pages} and {DARK}"));
-        for (src, media, (width, height)) in [
-            (&dark_src, when_dark.as_str(), dark.size),
-            (&posters.src, pages.unwrap_or(&"all"), light.size),
-        ] {
-            posters.sources.push_str(&format!(
-                "<source srcset=\"{src}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
-            ));
-        }
+    pub(crate) fn sizes(&self) -> Vec<(u32, f64)> {
+        let height = |light: &Encoded| f64::from(light.size.1) / f64::from(SCALE);
+        let all = self.0.iter();
+        all.map(|shades| (shades.width, height(&shades.light)))
+            .collect()
     }
-    Ok(posters)
 }
 
-/// The file in `folder` that keeps something of a figure in some state between builds.
-pub(crate) fn kept_as(
-    folder: &Path,
+/// Draws the posters for these rooms, or takes them from the cache.
+pub(super) fn draw(
+    figure: &dyn Figure,
     name: &str,
     settings: &[(String, String)],
-    what: &str,
-) -> PathBuf {
-    let key = fnv(format!("{}{name}{settings:?}{what}", program()).as_bytes());
-    folder.join(format!("{name}-{key:016x}"))
+    rooms: &[Room],
+    cache: &Cache,
+) -> Result<Posters, String> {
+    let shades = |room: &Room| {
+        let width = room.width();
+        let make = || {
+            let [light, dark] = figure.posters(*room, SCALE)?;
+            let made = [encode(&light)?, encode(&dark)?];
+            let bytes = pack(&made);
+            Ok((made, bytes))
+        };
+        let [light, dark] = cache.get_or((name, settings, &width.to_string()), unpack, make)?;
+        Ok(Shades { width, light, dark })
+    };
+    let drawn: Result<_, String> = rooms.par_iter().map(shades).collect();
+    drawn.map(Posters)
 }
 
 /// A compressed poster and its size in device pixels: their ratio is exactly that of the living picture.
-struct Encoded {
-    webp: Vec<u8>,
-    size: (u32, u32),
+#[derive(Debug)]
+pub(crate) struct Encoded {
+    pub(crate) webp: Vec<u8>,
+    pub(crate) size: (u32, u32),
 }
 
 /// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs
@@ -126,21 +89,6 @@ fn encode(poster: &Poster) -> Result<Encoded, String> {
         webp: smaller.to_vec(),
         size: (poster.width, poster.height),
     })
-}
-
-/// What `make` gave when the file was written: two posters behind a line with their sizes.
-fn cached(
-    file: &Path,
-    make: impl FnOnce() -> Result<[Encoded; 2], String>,
-) -> Result<[Encoded; 2], String> {
-    if let Some(kept) = fs::read(file).ok().and_then(|bytes| unpack(&bytes)) {
-        return Ok(kept);
-    }
-    let made = make()?;
-    // A cache that cannot be written costs time, nothing else.
-    let part = file.with_extension("part");
-    let _ = fs::write(&part, pack(&made)).and_then(|()| fs::rename(&part, file));
-    Ok(made)
 }
 
 fn pack(posters: &[Encoded; 2]) -> Vec<u8> {
@@ -175,19 +123,6 @@ fn unpack(bytes: &[u8]) -> Option<[Encoded; 2]> {
     rest.is_empty().then_some(posters)
 }
 
-/// This program's build: figures drawn by another build are drawn again.
-fn program() -> String {
-    let metadata = std::env::current_exe().and_then(fs::metadata);
-    let modified = metadata
-        .as_ref()
-        .ok()
-        .and_then(|metadata| metadata.modified().ok());
-    format!(
-        "{modified:?} {:?}",
-        metadata.map(|metadata| metadata.len()).ok()
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -202,16 +137,15 @@ mod tests {
     }
 
     #[test]
-    fn posters_are_webp_and_kept() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("a-1");
-        let first = cached(&file, || Ok([poster(9), poster(200)])).unwrap();
-        assert_eq!(&first[0].webp[8..12], b"WEBP");
-        assert_eq!(first[0].size, (4, 2));
-        let second = cached(&file, || Err("it was kept".to_owned())).unwrap();
-        assert_eq!(second[1].webp, first[1].webp);
-        assert_eq!(second[1].size, first[1].size);
-        fs::write(&file, b"broken").unwrap();
-        assert!(cached(&file, || Err("made again".to_owned())).is_err());
+    fn posters_are_webp_and_unpack_as_packed() {
+        let posters = [poster(9), poster(200)];
+        assert_eq!(&posters[0].webp[8..12], b"WEBP");
+        assert_eq!(posters[0].size, (4, 2));
+        let packed = pack(&posters);
+        let again = unpack(&packed).unwrap();
+        assert_eq!(again[1].webp, posters[1].webp);
+        assert_eq!(again[1].size, posters[1].size);
+        assert!(unpack(&packed[1..]).is_none());
+        assert!(unpack(b"broken").is_none());
     }
 }

@@ -2,13 +2,14 @@
 //! without script; its address sets the figure. Where the address of the book is known, each page links to what
 //! oEmbed wants to know of it.
 
-use crate::render::markdown::Renderer;
+use super::assets::Assets;
+use super::policy::CONTENT_SECURITY_POLICY;
+use crate::html::escape;
 use crate::render::page::Page;
-use crate::resolve::figures::Room;
-use crate::resolve::posters;
-use crate::resolve::shared::Shared;
-use crate::write::assets::Assets;
-use crate::write::template::CONTENT_SECURITY_POLICY;
+use crate::render::pictures::{self, Pictures};
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
+use crate::resolve::figures::{Room, frame_path};
 use anyhow::{Context, Result, anyhow};
 use handlebars::Handlebars;
 use mdbook_driver::config::Config;
@@ -30,48 +31,41 @@ pub(crate) struct Frame {
     src: String,
     width: u32,
     height: f64,
+    files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The page of a figure, from the root of the site.
-pub(crate) fn path(name: &str) -> String {
-    format!("embed/{name}.html")
-}
-
-/// Draws the posters of all figures in their first state; none in a build that only looks for problems.
+/// Asks for the posters of all figures in their first state. They are drawn into pages of their own, whose files
+/// belong to the site.
 ///
 /// # Errors
 /// The sentence of a figure that cannot be drawn.
-pub(crate) fn draw(shared: &Shared) -> Result<Vec<Frame>> {
-    let Some(folder) = shared.posters_in() else {
-        return Ok(Vec::new());
-    };
+pub(crate) fn draw(book: &Book) -> Result<Vec<Frame>> {
     let frame = |name: &String| {
-        let settings = Vec::new();
-        let figure = shared.gallery.open(name, &settings)?;
-        let facts = shared.facts(name, &settings)?;
-        let page = Page {
-            path: path(name),
-            ..Page::default()
-        };
-        let renderer = Renderer::new(shared, page, None);
-        let rooms = Room::all_for(facts.aspect());
-        let drawn = posters::draw(figure.as_ref(), rooms, name, &settings, &renderer, folder)?;
-        let column = drawn
-            .sizes
+        let facts = book.facts(name, &[])?;
+        let posters = book.posters(name, &[], Room::all_for(facts.aspect()))?;
+        let sizes = posters.sizes();
+        let column = sizes
             .iter()
             .find(|(width, _)| *width == Room::Column.width());
         let (width, height) = column.copied().unwrap_or_default();
+        let page = Page {
+            path: frame_path(name),
+            ..Page::default()
+        };
+        let mut writer = Writer::new(page, &[], book.problems);
+        let Pictures { sources, src } = pictures::add(&mut writer, name, posters);
         Ok(Frame {
             name: name.clone(),
-            title: shared.gallery.about(name).0,
+            title: book.gallery.about(name).0,
             description: facts.description().to_owned(),
-            sources: drawn.sources,
-            src: drawn.src,
+            sources,
+            src,
             width,
             height,
+            files: writer.page.files,
         })
     };
-    let frames: Result<Vec<Frame>, String> = shared.gallery.names().iter().map(frame).collect();
+    let frames: Result<Vec<Frame>, String> = book.gallery.names().iter().map(frame).collect();
     frames.map_err(|problem| anyhow!(problem))
 }
 
@@ -98,7 +92,7 @@ pub(crate) fn add(
     project: &Path,
     config: &Config,
     assets: &Assets,
-    frames: &[Frame],
+    frames: Vec<Frame>,
 ) -> Result<()> {
     let file = project.join("web/theme/frame.hbs");
     let source = std::fs::read_to_string(&file)
@@ -109,7 +103,7 @@ pub(crate) fn add(
     let address = address(config);
     let book_title = config.book.title.as_deref().unwrap_or("Book");
     for frame in frames {
-        let path = path(&frame.name);
+        let path = frame_path(&frame.name);
         let described = path.replace(".html", ".json");
         let data = Data {
             language: config.book.language.as_deref().unwrap_or("en"),
@@ -141,6 +135,7 @@ pub(crate) fn add(
             });
             files.insert(described, facts.to_string().into_bytes());
         }
+        files.extend(frame.files);
     }
     Ok(())
 }
@@ -153,7 +148,6 @@ pub(crate) fn address(config: &Config) -> Option<String> {
 
 /// The frame as another page writes it.
 fn snippet(address: &str, title: &str, height: f64) -> String {
-    use crate::html::escape;
     format!(
         "<iframe src=\"{}\" title=\"{}\" width=\"100%\" height=\"{}\" loading=\"lazy\" \
          allow=\"fullscreen; clipboard-write\"></iframe>",

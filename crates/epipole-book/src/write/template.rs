@@ -1,37 +1,16 @@
 //! A page around its content: `web/theme/index.hbs` and what it may use.
 
+use super::assets::Assets;
+use super::policy::CONTENT_SECURITY_POLICY;
 use crate::html::path_to_root;
+use crate::parse::book::Entry;
+use crate::render::links::LAB_FOLDER;
 use crate::render::page::Page;
-use crate::site::Entry;
-use crate::write::assets::{Assets, LAB_FOLDER};
 use anyhow::{Context, Result};
 use handlebars::Handlebars;
 use mdbook_driver::config::Config;
 use serde::Serialize;
 use std::path::Path;
-
-macro_rules! policy {
-    ($connect:literal, $more:literal) => {
-        concat!(
-            "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; ",
-            "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'",
-            $connect,
-            "; worker-src 'self'; ",
-            "manifest-src 'self'; base-uri 'none'; form-action 'none'",
-            $more
-        )
-    };
-}
-
-/// What a page may load and do. Sent as a header by `serve`, and part of every page.
-pub const CONTENT_SECURITY_POLICY: &str = policy!("", "");
-
-/// The same for pages that stand in frames of other pages. In a page itself browsers would ignore the last part.
-pub const FRAME_POLICY: &str = policy!("", "; frame-ancestors *");
-
-/// The same for the Lab, which also opens the reader's own videos, and whose workers learn from an address of the page
-/// whether their work is still wanted.
-pub const LAB_POLICY: &str = policy!(" blob:", "; media-src blob:");
 
 /// The template and what is the same on all pages.
 pub(crate) struct Template<'a> {

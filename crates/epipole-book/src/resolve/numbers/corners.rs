@@ -1,7 +1,7 @@
 //! Numbers of the chapter on corners.
 
-use super::Number::Real;
-use super::{Arguments, Entry, Number, sentence};
+use super::entry::Number::Real;
+use super::entry::{Arguments, Entry, Number, sentence};
 use epipole::feature::{Scaling, StructureTensorOptions, Window, WindowTensor, harris_response};
 use epipole::imaging::gray_from_values;
 use nalgebra::Vector2;

@@ -1,7 +1,7 @@
 //! Numbers of the chapters on epipolar geometry and on the eight-point algorithm.
 
-use super::Number::Real;
-use super::{Arguments, Entry, sentence};
+use super::entry::Number::Real;
+use super::entry::{Arguments, Entry, sentence};
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::epipolar::{
     EightPoint, Epipole, epipolar_line2, epipolar_row, epipoles, essential_from_motion,

@@ -1,7 +1,7 @@
 //! Numbers of the chapter on gradients.
 
-use super::Number::{Count, Real};
-use super::{Arguments, Entry, sentence};
+use super::entry::Number::{Count, Real};
+use super::entry::{Arguments, Entry, sentence};
 use epipole::imaging::{
     BT601_WEIGHTS, Border, DerivativeFilter, Gradient, GrayImage32, centered_difference,
     gaussian_derivative_kernels, gray_from_values, noise_gain, separable_filter, sobel,

@@ -1,7 +1,7 @@
 //! Numbers of the chapter on matching.
 
-use super::Number::Real;
-use super::{Entry, sentence};
+use super::entry::Number::Real;
+use super::entry::{Entry, sentence};
 use epipole::feature::{Descriptors, Keypoint, describe_patches, nearest_few, nearest_two};
 use epipole::imaging::gray_from_values;
 

@@ -1,7 +1,7 @@
 //! Numbers of the chapter on RANSAC.
 
-use super::Number::{Count, Real};
-use super::{Arguments, Entry, sentence};
+use super::entry::Number::{Count, Real};
+use super::entry::{Arguments, Entry, sentence};
 use epipole::robust::{num_trials_with_replacement, num_trials_without_replacement};
 
 /// What chapters may print.

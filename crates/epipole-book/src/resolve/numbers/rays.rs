@@ -1,7 +1,7 @@
 //! Numbers of the chapter on cameras and rays.
 
-use super::Number::Real;
-use super::{Arguments, Entry, sentence};
+use super::entry::Number::Real;
+use super::entry::{Arguments, Entry, sentence};
 use epipole::camera::Intrinsics;
 use nalgebra::{Matrix2, Matrix3, Point2, Point3, RowVector3};
 

@@ -1,7 +1,7 @@
 //! Numbers of the chapter on structure from motion.
 
-use super::Number::{Count, Real};
-use super::{Arguments, Entry};
+use super::entry::Number::{Count, Real};
+use super::entry::{Arguments, Entry};
 use epipole::camera::RigidTransform;
 use nalgebra::Vector3;
 

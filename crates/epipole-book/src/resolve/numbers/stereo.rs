@@ -1,7 +1,7 @@
 //! Numbers of the chapter on stereo.
 
-use super::Number::Real;
-use super::{Entry, sentence};
+use super::entry::Number::Real;
+use super::entry::{Entry, sentence};
 use epipole::stereo::depth_from_disparity;
 
 /// What chapters may print.

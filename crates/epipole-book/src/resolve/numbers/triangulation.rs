@@ -1,7 +1,7 @@
 //! Numbers of the chapter on triangulation.
 
-use super::Number::{self, Real};
-use super::{Arguments, Entry, sentence};
+use super::entry::Number::{self, Real};
+use super::entry::{Arguments, Entry, sentence};
 use epipole::camera::{Camera, Intrinsics, RigidTransform, look_at};
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,

@@ -1,7 +1,8 @@
 //! `embed/`: what other sites load. `epipole.js` is always the newest; `<version>/epipole.js` is that of one version,
 //! with the hashes of all that it loads; `widget.js` holds everything, for pages that show anywidgets.
 
-use super::{Assets, Tools, read};
+use super::files::Assets;
+use crate::tools::{Tools, read};
 use anyhow::{Context, Result};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;

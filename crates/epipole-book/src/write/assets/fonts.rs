@@ -1,6 +1,9 @@
 //! Fonts cut down to the letters that the book uses, by HarfBuzz (npm `subset-font`).
 
-use super::{Assets, Letters, Tools, add_hashed, fnv, read};
+use super::files::{Assets, add_hashed};
+use super::letters::Letters;
+use crate::hash::fnv;
+use crate::tools::{Tools, read};
 use anyhow::{Context, Result};
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,14 +1,14 @@
 //! The Lab: a folder of the site with a page, its module, and those of its workers.
 
-use super::{Assets, Tools, add_hashed, read, scripts, wasm};
+use super::files::{Assets, add_hashed};
+use super::{scripts, wasm};
+use crate::render::links::LAB_FOLDER;
+use crate::tools::{Tools, read, target_folder};
 use crate::write::compress;
-use crate::write::template::LAB_POLICY;
+use crate::write::policy::LAB_POLICY;
 use anyhow::{Context, Result, ensure};
 use std::path::Path;
 use std::process::{Command, Stdio};
-
-/// The folder of the Lab below that of the site.
-pub(crate) const FOLDER: &str = "lab";
 
 /// Makes the Lab in the folder of the site. Returns how many files it has.
 ///
@@ -34,7 +34,7 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
         .files
         .insert("index.html".to_owned(), html.into_bytes());
     compress::add(&mut assets.files, false)?;
-    let folder = site.join(FOLDER);
+    let folder = site.join(LAB_FOLDER);
     let next = site.join("lab.next");
     for old in [&next, &folder] {
         if old.exists() {
@@ -53,7 +53,7 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
 
 /// What the Lab computes of the sample that it opens with, computed now so that no reader has to wait for it.
 fn solved(tools: &Tools) -> Result<Vec<u8>> {
-    let target = super::target_folder(&tools.project);
+    let target = target_folder(&tools.project);
     // The whole workspace is named, so that the core is the one that this builder was compiled with, and need not be
     // compiled once more.
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))

@@ -1,7 +1,9 @@
 //! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
 
+use super::files::{Assets, add_hashed};
 use super::wasm::{Module, Modules};
-use super::{Assets, Tools, add_hashed, embed, fonts, read};
+use super::{embed, fonts};
+use crate::tools::{Tools, read};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 use std::collections::BTreeMap;

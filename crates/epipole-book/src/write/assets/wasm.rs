@@ -3,7 +3,8 @@
 //! Two modules of the same crate: the figures, which every page with a figure loads, and their long
 //! computations, which a worker loads when a figure asks for one.
 
-use super::{Tools, likeness, read};
+use super::likeness;
+use crate::tools::{Tools, read, target_folder};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -109,7 +110,7 @@ fn way(package: &str, feature: &str) -> Way {
 
 /// Builds one module: a package with one of its features.
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
-    let target = super::target_folder(&tools.project);
+    let target = target_folder(&tools.project);
     let profile = profile(feature);
     let way = way(package, feature);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
