@@ -10,6 +10,7 @@
 mod directives;
 mod hash;
 pub mod html;
+mod parallel;
 pub mod parse;
 pub mod phases;
 pub mod problems;

@@ -54,12 +54,18 @@ impl Phases {
     pub fn run<T>(&self, name: &'static str, count: usize, work: impl FnOnce(&Steps) -> T) -> T {
         let bar = matches!(self.display, Display::Bar).then(|| bar(name, count));
         let steps = Steps(bar);
-        let start = Instant::now();
-        let result = work(&steps);
-        let time = start.elapsed();
+        let result = self.beside(name, || work(&steps));
         if let Some(bar) = &steps.0 {
             bar.finish_and_clear();
         }
+        result
+    }
+
+    /// Runs a phase while others run, without a bar.
+    pub fn beside<T>(&self, name: &'static str, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        let time = start.elapsed();
         if let Display::Lines = self.display {
             eprintln!("{name}: {:.1} s", time.as_secs_f64());
         }

@@ -2,6 +2,7 @@
 
 use crate::directives::VOCABULARY;
 use crate::html::path_to_root;
+use crate::parallel;
 use crate::parse::book::{self, Chapter, Manuscript};
 use crate::parse::content::Content;
 use crate::phases::Phases;
@@ -21,7 +22,6 @@ use crate::write::frames::{self, Frame};
 use crate::write::gathered;
 use crate::write::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::thread::ScopedJoinHandle;
@@ -70,7 +70,13 @@ pub fn build(options: &Options, gallery: &dyn Gallery, phases: &Phases) -> Resul
     std::thread::scope(|scope| {
         // The modules take longest and need nothing of the pages.
         let wanted = options.assets && !options.check;
-        let modules = wanted.then(|| scope.spawn(|| assets::modules(&options.project)));
+        let modules = wanted.then(|| {
+            scope.spawn(|| {
+                phases.beside("build WebAssembly (beside the others)", || {
+                    assets::modules(&options.project)
+                })
+            })
+        });
         let modules = || match modules.map(ScopedJoinHandle::join) {
             None => Ok(None),
             Some(Ok(modules)) => modules,
@@ -179,12 +185,11 @@ fn pages(chapters: Vec<Chapter>, content: &Content, book: &Book, phases: &Phases
             .collect()
     });
     let resolved: Vec<_> = phases.run("ask figures and draw posters", count, |steps| {
-        let drafts = parsed.into_par_iter().map(|draft| {
+        parallel::map(parsed, |draft| {
             let resolved = draft.resolve(book);
             steps.done();
             resolved
-        });
-        drafts.collect()
+        })
     });
     phases.run("render pages", 0, |_| {
         let pages = resolved.into_iter().map(|draft| draft.render(problems));

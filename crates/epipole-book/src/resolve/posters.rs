@@ -2,7 +2,7 @@
 
 use super::cache::Cache;
 use super::figures::{Figure, Poster, Room};
-use rayon::prelude::*;
+use crate::parallel;
 
 /// Device pixels of a poster to a CSS pixel.
 const SCALE: u32 = 2;
@@ -41,10 +41,10 @@ pub(super) fn draw(
     rooms: &[Room],
     cache: &Cache,
 ) -> Result<Posters, String> {
-    let shades = |room: &Room| {
+    let shades = |room: Room| {
         let width = room.width();
         let make = || {
-            let [light, dark] = figure.posters(*room, SCALE)?;
+            let [light, dark] = figure.posters(room, SCALE)?;
             let made = [encode(&light)?, encode(&dark)?];
             let bytes = pack(&made);
             Ok((made, bytes))
@@ -52,7 +52,8 @@ pub(super) fn draw(
         let [light, dark] = cache.get_or((name, settings, &width.to_string()), unpack, make)?;
         Ok(Shades { width, light, dark })
     };
-    let drawn: Result<_, String> = rooms.par_iter().map(shades).collect();
+    let drawn = parallel::map(rooms.to_vec(), shades).into_iter();
+    let drawn: Result<_, String> = drawn.collect();
     drawn.map(Posters)
 }
 
