@@ -71,7 +71,11 @@ fn paths(code: &str) -> Vec<String> {
         } else {
             let step = rest[length..].chars().next().map_or(0, char::len_utf8);
             at += length + step;
-            paths.push(path);
+            // `name: Type` has a colon that belongs to no path.
+            let path = path.trim_matches(':');
+            if !path.is_empty() {
+                paths.push(path.to_owned());
+            }
         }
     }
     paths
