@@ -3,6 +3,10 @@
 use crate::hash::fnv;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Hash of the sources that draw figures: what others have drawn is drawn again.
+const DRAWN_BY: &str = env!("EPIPOLE_BOOK_DRAWN_BY");
 
 /// A folder with results, each under a hash of all that it depends on.
 #[derive(Debug, Clone)]
@@ -24,7 +28,7 @@ impl Cache {
         read: impl FnOnce(&[u8]) -> Option<T>,
         make: impl FnOnce() -> Result<(T, Vec<u8>), String>,
     ) -> Result<T, String> {
-        let key = fnv(format!("{}{name}{settings:?}{what}", program()).as_bytes());
+        let key = fnv(format!("{DRAWN_BY}{name}{settings:?}{what}").as_bytes());
         let file = self.0.join(format!("{name}-{key:016x}"));
         let kept = fs::read(&file).ok();
         if let Some(kept) = kept.and_then(|bytes| read(&bytes)) {
@@ -32,23 +36,17 @@ impl Cache {
         }
         let (made, bytes) = make()?;
         // A cache that cannot be written costs time, nothing else.
-        let part = file.with_extension("part");
+        let part = file.with_extension(part_name());
         let _ = fs::write(&part, bytes).and_then(|()| fs::rename(&part, &file));
         Ok(made)
     }
 }
 
-/// This program's build: figures drawn by another build are drawn again.
-fn program() -> String {
-    let metadata = std::env::current_exe().and_then(fs::metadata);
-    let modified = metadata
-        .as_ref()
-        .ok()
-        .and_then(|metadata| metadata.modified().ok());
-    format!(
-        "{modified:?} {:?}",
-        metadata.map(|metadata| metadata.len()).ok()
-    )
+/// An extension of its own for each file that is being written: two threads may make the same.
+fn part_name() -> String {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    format!("{}-{count}.part", std::process::id())
 }
 
 #[cfg(test)]
