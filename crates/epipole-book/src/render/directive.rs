@@ -31,10 +31,14 @@ pub(crate) trait Directive: Sized + Send + 'static {
 }
 
 /// A directive of any kind that is parsed.
-pub(crate) struct Parsed(Box<dyn FnOnce(&Book) -> Option<Resolved> + Send>);
+pub(crate) struct Parsed(Box<Resolve>);
 
 /// A directive of any kind that is resolved.
-pub(crate) struct Resolved(Box<dyn FnOnce(&mut Writer) -> Insert + Send>);
+pub(crate) struct Resolved(Box<Render>);
+
+/// The stages of a directive that are still to come, its own type erased.
+type Resolve = dyn FnOnce(&Book) -> Option<Resolved> + Send;
+type Render = dyn FnOnce(&mut Writer) -> Insert + Send;
 
 /// Parser for the texts of a chapter.
 pub(crate) type Parser<'a> = text::Parser<'a, Parsed>;

@@ -12,6 +12,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 type Settings = [(String, String)];
 
+/// A figure in a state.
+type State = (String, Vec<(String, String)>);
+
 /// The sources of all answers. Chapters can ask from several threads.
 pub(crate) struct Book<'a> {
     pub(crate) problems: &'a Problems,
@@ -19,7 +22,7 @@ pub(crate) struct Book<'a> {
     pub(crate) references: References,
     /// Posters are drawn only with a cache: a check of the content needs none.
     cache: Option<Cache>,
-    facts: Mutex<BTreeMap<(String, Vec<(String, String)>), Arc<Facts>>>,
+    facts: Mutex<BTreeMap<State, Arc<Facts>>>,
 }
 
 impl<'a> Book<'a> {
