@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod circles;
+mod imports;
 
 use epipole_tests::{files_below, root};
 use std::collections::BTreeSet;
@@ -313,6 +314,37 @@ fn the_rooms_of_the_lab_keep_apart() {
             );
         }
     }
+}
+
+/// The builder's stages: each may use those before it. What `site.rs` and `serve.rs` run is not among them.
+const STAGES: &[&str] = &["parse", "resolve", "render", "directives", "write"];
+
+#[test]
+fn stages_of_the_builder_run_one_way() {
+    let imports = imports::imports(&root().join("crates/epipole-book/src"));
+    let stage = |module: &str| module.split("::").next().unwrap_or(module).to_owned();
+    let rank = |module: &str| STAGES.iter().position(|other| *other == stage(module));
+    for (module, named) in &imports {
+        for other in named {
+            if let Some(own) = rank(module) {
+                let later = rank(other) > Some(own) || ["site", "serve"].contains(&&**other);
+                // Pages are written without knowing the vocabulary.
+                let sideways = stage(module) == "write" && stage(other) == "directives";
+                assert!(!later && !sideways, "{module} names {other}");
+            }
+        }
+    }
+    assert!(STAGES.iter().all(|stage| imports.contains_key(*stage)));
+}
+
+#[test]
+fn no_circle_of_files_in_the_builder() {
+    let imports = imports::imports(&root().join("crates/epipole-book/src"));
+    let circles = imports::circles(&imports);
+    assert!(
+        circles.is_empty(),
+        "files that import each other: {circles:#?}"
+    );
 }
 
 #[test]

@@ -2,11 +2,12 @@
 
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
-use epipole_book::assets::make_lab;
-use epipole_book::figures::Widgets;
+use epipole_book::phases::Phases;
+use epipole_book::resolve::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
-use epipole_book::stills;
+use epipole_book::write::assets::make_lab;
+use epipole_book::write::stills;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -18,6 +19,9 @@ struct Cli {
     /// The folder with content/, web/ and crates/.
     #[arg(long, global = true, default_value = ".")]
     project: PathBuf,
+    /// Print the seconds of each phase at the end.
+    #[arg(long, global = true)]
+    timings: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -80,14 +84,17 @@ fn run(cli: &Cli) -> Result<bool> {
     match &cli.command {
         Command::Build { out: chosen, live } => {
             let out = chosen.clone().unwrap_or(out);
-            once(&Options {
-                project,
-                out,
-                assets: true,
-                live: *live,
-                check: false,
-                notebooks: None,
-            })
+            once(
+                &Options {
+                    project,
+                    out,
+                    assets: true,
+                    live: *live,
+                    check: false,
+                    notebooks: None,
+                },
+                cli.timings,
+            )
         }
         Command::Lab { out: chosen } => {
             let start = Instant::now();
@@ -100,22 +107,28 @@ fn run(cli: &Cli) -> Result<bool> {
             );
             Ok(true)
         }
-        Command::Check => once(&Options {
-            project,
-            out,
-            assets: false,
-            live: true,
-            check: true,
-            notebooks: None,
-        }),
-        Command::Notebooks { folder } => once(&Options {
-            project,
-            out,
-            assets: false,
-            live: true,
-            check: true,
-            notebooks: Some(folder.clone()),
-        }),
+        Command::Check => once(
+            &Options {
+                project,
+                out,
+                assets: false,
+                live: true,
+                check: true,
+                notebooks: None,
+            },
+            cli.timings,
+        ),
+        Command::Notebooks { folder } => once(
+            &Options {
+                project,
+                out,
+                assets: false,
+                live: true,
+                check: true,
+                notebooks: Some(folder.clone()),
+            },
+            cli.timings,
+        ),
         Command::Stills { folder } => {
             let count = stills::write(&Widgets, folder)?;
             println!("{count} pictures in {}", folder.display());
@@ -137,9 +150,14 @@ fn run(cli: &Cli) -> Result<bool> {
 }
 
 /// Builds once and says how it went. False if the content has problems.
-fn once(options: &Options) -> Result<bool> {
+fn once(options: &Options, timings: bool) -> Result<bool> {
     let start = Instant::now();
-    match build(options, &Widgets)? {
+    let phases = Phases::on_stderr();
+    let outcome = build(options, &Widgets, &phases)?;
+    if timings {
+        eprint!("{}", phases.timings());
+    }
+    match outcome {
         Outcome::Problems(problems) => {
             for problem in &problems {
                 eprintln!("{problem}");

@@ -2,12 +2,13 @@
 //! (types, compressed copies, the content policy, open access for embedding sites), watches the
 //! sources, and tells open pages to reload.
 
-use crate::assets::LAB_FOLDER;
-use crate::figures::Widgets;
 use crate::html::escape;
+use crate::phases::Phases;
 use crate::problems::Problem;
+use crate::render::links::LAB_FOLDER;
+use crate::resolve::figures::Widgets;
 use crate::site::{Options, Outcome, build};
-use crate::template::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
+use crate::write::policy::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;
@@ -220,7 +221,7 @@ fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
             .context("cargo cannot be started")?;
         return Ok(status.success());
     }
-    match build(options, &Widgets)? {
+    match build(options, &Widgets, &Phases::on_stderr())? {
         Outcome::Built { pages, .. } => {
             println!("{pages} pages in {:.1} s", start.elapsed().as_secs_f64());
             Ok(true)

@@ -1,8 +1,8 @@
 //! What holds of the chapters that we ship.
 
+use epipole_book::parse::rhythm::stretches;
+use epipole_book::parse::source::Source;
 use epipole_book::problems::Place;
-use epipole_book::rhythm::stretches;
-use epipole_book::source::Source;
 use std::fs;
 use std::path::Path;
 

@@ -1,6 +1,7 @@
 //! A gallery of one figure, and books of a few lines in temporary folders.
 
-use epipole_book::figures::{Figure, Gallery, Poster, Room};
+use epipole_book::phases::Phases;
+use epipole_book::resolve::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::site::{Options, Outcome, build};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -107,7 +108,7 @@ impl Book {
             check: false,
             notebooks: None,
         };
-        build(&options, &OneDot).unwrap()
+        build(&options, &OneDot, &Phases::silent()).unwrap()
     }
 
     pub(crate) fn out(&self) -> PathBuf {

@@ -1,0 +1,360 @@
+//! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, what it prints, and cells of
+//! the chapter's notebook.
+//!
+//! The fences are `python numpy`, `python opencv` and `rust`, in this order, those that there are. What a tab prints is
+//! recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run it. A listing with
+//! `picture="what it shows"` makes `result.png`, which is recorded as `<chapter>.<name>.png`.
+
+use crate::html::{escape, path_to_root};
+use crate::parse::source::Source;
+use crate::parse::text::Request;
+use crate::problems::Place;
+use crate::render::code::{COPY, Heading, LONGEST_LINE, shown, take_name};
+use crate::render::directive::{Directive, ParsedText, Parser, Text};
+use crate::render::insert::{Block, Fence, Insert, Words};
+use crate::render::listing::pre;
+use crate::render::notebook::Cell;
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
+
+/// The tabs: as a fence names them, their languages, and as the page calls them.
+const TABS: [(&str, &str, &str); 3] = [
+    ("numpy", "python", "NumPy"),
+    ("opencv", "python", "OpenCV"),
+    ("rust", "rust", "Rust"),
+];
+
+/// The beginning of a listing. `T` is the stage of its title.
+pub(super) struct Listing<T> {
+    name: String,
+    /// The title as Markdown.
+    written: String,
+    title: T,
+    /// Alternative text of the picture that it makes, if it makes one.
+    picture: Option<String>,
+    recorded: Recorded,
+}
+
+/// What the tests have seen a listing do.
+struct Recorded {
+    /// `<chapter>.<name>`, as its files are called.
+    stem: String,
+    /// What each of the tabs prints.
+    prints: [Option<Source>; 3],
+    picture: Option<Vec<u8>>,
+}
+
+impl Directive for Listing<ParsedText> {
+    const NAME: &'static str = "listing";
+    type Resolved = Listing<Text>;
+
+    fn parse(request: &Request, parser: &Parser) -> Result<Self, String> {
+        let name = request.one_word("name | Title")?;
+        let Some(title) = &request.body else {
+            return Err("write {{#listing name | Title}}".to_owned());
+        };
+        let chapter = parser.page.trim_end_matches(".html").replace('/', "-");
+        let stem = format!("{chapter}.{name}");
+        let prints = |(tab, _, _)| parser.content.read(&format!("listings/{stem}.{tab}.txt"));
+        let picture = parser.content.path(&format!("listings/{stem}.png"));
+        Ok(Listing {
+            name: name.to_owned(),
+            written: title.text().to_owned(),
+            title: parser.text(title),
+            picture: request.setting("picture").map(str::to_owned),
+            recorded: Recorded {
+                prints: TABS.map(prints),
+                picture: std::fs::read(picture).ok(),
+                stem,
+            },
+        })
+    }
+
+    fn resolve(self, book: &Book) -> Result<Listing<Text>, String> {
+        Ok(Listing {
+            name: self.name,
+            written: self.written,
+            title: self.title.resolve(book),
+            picture: self.picture,
+            recorded: self.recorded,
+        })
+    }
+
+    fn render(listing: Listing<Text>, page: &mut Writer) -> Insert {
+        let heading = Heading {
+            name: listing.name,
+            title: listing.written,
+            html: listing.title.inline(page),
+        };
+        Insert::Opening(Box::new(Opened {
+            heading,
+            picture: listing.picture,
+            recorded: listing.recorded,
+        }))
+    }
+}
+
+/// A listing whose words and fences follow.
+struct Opened {
+    heading: Heading,
+    picture: Option<String>,
+    recorded: Recorded,
+}
+
+/// A tab of a listing.
+struct Tab<'a> {
+    key: &'static str,
+    label: &'static str,
+    fence: &'a Fence,
+    prints: String,
+}
+
+impl Block for Opened {
+    fn end(&self) -> &'static str {
+        "{{/listing}}"
+    }
+
+    fn render(&self, page: &mut Writer, words: Words, fences: &[Fence], place: &Place) -> String {
+        if !take_name(page, &self.heading.name, place) {
+            return String::new();
+        }
+        self.html(page, words, fences).unwrap_or_else(|message| {
+            page.report(place.clone(), message);
+            String::new()
+        })
+    }
+}
+
+impl Opened {
+    fn html(&self, page: &mut Writer, words: Words, fences: &[Fence]) -> Result<String, String> {
+        let name = &self.heading.name;
+        let tabs = self.tabs(page, fences)?;
+        if let Some(contradiction) = contradictions(&tabs).first() {
+            return Err(format!("listing {name}: {contradiction}"));
+        }
+        let parts: String = tabs
+            .iter()
+            .map(|tab| part(page, name, tab, tabs.len()))
+            .collect();
+        let result = match &self.picture {
+            Some(alternative) => self.picture(page, alternative)?,
+            None => String::new(),
+        };
+        self.add_cells(page, &words.markdown, &tabs);
+        Ok(format!(
+            "{words}<div class=\"listing\" id=\"listing-{name}\" role=\"group\" aria-labelledby=\"listing-{name}-title\">\n\
+             <div class=\"listing-bar\"><p class=\"listing-title\" id=\"listing-{name}-title\">{title}</p>{chooser}{COPY}</div>\n\
+             {parts}{result}</div>\n",
+            words = words.html,
+            title = self.heading.html,
+            chooser = chooser(name, &tabs),
+        ))
+    }
+
+    fn tabs<'a>(&self, page: &Writer, fences: &'a [Fence]) -> Result<Vec<Tab<'a>>, String> {
+        let name = &self.heading.name;
+        let mut tabs: Vec<Tab> = Vec::new();
+        let mut last = None;
+        for fence in fences {
+            let word = match fence.word.as_str() {
+                "" if fence.language == "python" => "numpy",
+                "" => fence.language.as_str(),
+                word => word,
+            };
+            let known = TABS
+                .iter()
+                .position(|(key, language, _)| *key == word && *language == fence.language);
+            let Some(index) = known else {
+                let written = format!("{} {}", fence.language, fence.word);
+                return Err(format!(
+                    "listing {name}: `{}` is no tab; its fences are `python numpy`, `python opencv`, `rust`",
+                    written.trim()
+                ));
+            };
+            if last >= Some(index) {
+                return Err(format!(
+                    "listing {name}: each tab comes once, in the order NumPy, OpenCV, Rust"
+                ));
+            }
+            last = Some(index);
+            let (key, _, label) = TABS[index];
+            let prints = self.recorded.prints(page, index)?;
+            tabs.push(Tab {
+                key,
+                label,
+                fence,
+                prints,
+            });
+        }
+        match tabs.is_empty() {
+            true => Err(format!("listing {name} has no code")),
+            false => Ok(tabs),
+        }
+    }
+
+    /// The picture that the tests have seen the listing make.
+    fn picture(&self, page: &mut Writer, alternative: &str) -> Result<String, String> {
+        let file = format!("listings/{}.png", self.recorded.stem);
+        let bytes = self.recorded.picture.clone().ok_or_else(|| {
+            format!("there is no {file}, the picture it makes: run `make bless-listings`")
+        })?;
+        let (width, height) = png_size(&bytes).ok_or_else(|| format!("{file} is no PNG"))?;
+        let path = page.add_asset(&format!("listing-{}", self.heading.name), "png", bytes);
+        Ok(format!(
+            "<div class=\"listing-picture\"><img src=\"{root}{path}\" alt=\"{alternative}\" \
+             width=\"{width}\" height=\"{height}\" loading=\"lazy\" decoding=\"async\"></div>\n",
+            root = path_to_root(&page.page.path),
+            alternative = escape(alternative),
+        ))
+    }
+
+    /// Adds the Python of the listing to the chapter's notebook.
+    fn add_cells(&self, page: &mut Writer, markdown: &str, tabs: &[Tab]) {
+        let (name, title) = (&self.heading.name, &self.heading.title);
+        let head = Cell::text(format!("## {title}\n\n{}", markdown.trim()));
+        let mut cells = vec![head];
+        let python = tabs.iter().filter(|tab| tab.key != "rust");
+        for (index, tab) in python.enumerate() {
+            if index > 0 {
+                cells.push(Cell::text(format!("### With {}", tab.label)));
+            }
+            cells.push(Cell::Code {
+                id: format!("{name}-{}", tab.key),
+                source: tab.fence.code.clone(),
+                prints: tab.prints.clone(),
+            });
+        }
+        if cells.len() > 1 {
+            page.page.cells.extend(cells);
+        }
+    }
+}
+
+impl Recorded {
+    /// What the tests have seen a tab print; lines that are too long are reported.
+    fn prints(&self, page: &Writer, tab: usize) -> Result<String, String> {
+        let Some(text) = &self.prints[tab] else {
+            return Err(format!(
+                "there is no listings/{}.{}.txt, which says what it prints: run `make bless-listings`",
+                self.stem, TABS[tab].0
+            ));
+        };
+        for (number, line) in text.text().lines().enumerate() {
+            if line.chars().count() > LONGEST_LINE {
+                let mut place = text.place(0);
+                place.line += number;
+                let message =
+                    format!("a listing prints lines of at most {LONGEST_LINE} characters");
+                page.report(place, message);
+            }
+        }
+        Ok(text.text().trim_end().to_owned())
+    }
+}
+
+/// One of `count` tabs: the code and what it prints.
+fn part(page: &Writer, name: &str, tab: &Tab, count: usize) -> String {
+    let code = pre(&shown(tab.fence, page), &tab.fence.language);
+    let key = tab.key;
+    // Where there is one part only, the bar names it.
+    let own_name = match count {
+        1 => String::new(),
+        _ => format!("<p class=\"listing-name\">{}</p>\n", tab.label),
+    };
+    let prints = match tab.prints.as_str() {
+        "" => String::new(),
+        prints => format!(
+            "<div class=\"prints\"><p class=\"prints-name\">It prints</p>\n\
+             <pre data-language=\"What it prints\"><samp>{}</samp></pre></div>\n",
+            escape(prints)
+        ),
+    };
+    format!(
+        "<div class=\"listing-part\" id=\"listing-{name}-{key}\" data-tab=\"{key}\">\n\
+         {own_name}{code}{prints}</div>\n"
+    )
+}
+
+/// What switches between the tabs.
+fn chooser(name: &str, tabs: &[Tab]) -> String {
+    if let [only] = tabs {
+        return format!("<p class=\"listing-only\">{}</p>", only.label);
+    }
+    let choices: String = tabs
+        .iter()
+        .enumerate()
+        .map(|(index, tab)| {
+            let (key, label, chosen) = (tab.key, tab.label, index == 0);
+            let stop = if chosen { "0" } else { "-1" };
+            format!(
+                "<button type=\"button\" role=\"tab\" id=\"listing-{name}-{key}-tab\" data-tab=\"{key}\" data-label=\"{label}\" \
+                 aria-controls=\"listing-{name}-{key}\" aria-selected=\"{chosen}\" tabindex=\"{stop}\">{label}</button>"
+            )
+        })
+        .collect();
+    format!(
+        "<div class=\"listing-tabs\" role=\"tablist\" aria-labelledby=\"listing-{name}-title\">{choices}</div>"
+    )
+}
+
+/// Lines such as `depth: 2.00 m` that two tabs print with the same words and different values.
+fn contradictions(tabs: &[Tab]) -> Vec<String> {
+    let mut known: Vec<(&str, &str, &str)> = Vec::new();
+    let mut found = Vec::new();
+    for tab in tabs {
+        let mut own = Vec::new();
+        for (what, value) in tab.prints.lines().filter_map(|line| line.split_once(':')) {
+            let before = known.iter().find(|(known, ..)| *known == what);
+            if let Some((_, other, label)) = before.filter(|(_, other, _)| *other != value) {
+                found.push(format!(
+                    "{label} prints \"{what}:{other}\" and {} \"{what}:{value}\"",
+                    tab.label
+                ));
+            }
+            own.push((what, value, tab.label));
+        }
+        known.extend(own);
+    }
+    found
+}
+
+/// Width and height as the head of a PNG has them.
+fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    let head = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(8..16)?;
+    let (width, height) = head.split_at(4);
+    let number = |four: &[u8]| four.try_into().ok().map(u32::from_be_bytes);
+    Some((number(width)?, number(height)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tabs_that_print_the_same_words_print_the_same_values() {
+        let fence = Fence {
+            language: "python".to_owned(),
+            word: String::new(),
+            code: String::new(),
+            place: Place::new("a.md", 1),
+        };
+        let tab = |label, prints: &str| Tab {
+            key: "numpy",
+            label,
+            fence: &fence,
+            prints: prints.to_owned(),
+        };
+        let agree = [
+            tab("NumPy", "depth: 2 m\nrest: 1"),
+            tab("Rust", "depth: 2 m"),
+        ];
+        assert!(contradictions(&agree).is_empty());
+        let differ = [tab("NumPy", "depth: 2 m"), tab("Rust", "depth: 3 m")];
+        assert_eq!(
+            contradictions(&differ),
+            ["NumPy prints \"depth: 2 m\" and Rust \"depth: 3 m\""]
+        );
+        // A loop may print the same words several times.
+        assert!(contradictions(&[tab("NumPy", "Z: 1\nZ: 2")]).is_empty());
+    }
+}

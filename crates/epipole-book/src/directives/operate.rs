@@ -1,0 +1,87 @@
+//! `{{#do ransac-race outliers=0.7 | words}}`: words of a sentence that set the nearest figure of that name. A script of
+//! the page (`web/book/operate.ts`) brings them to life.
+
+use crate::html::escape;
+use crate::parse::outline::{Instance, own_settings, with_wishes};
+use crate::parse::text::Request;
+use crate::render::directive::{Directive, ParsedText, Parser, Text};
+use crate::render::insert::Insert;
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
+use crate::resolve::claims;
+
+/// The words, and what they set. `T` is the stage of the words.
+pub(super) struct Do<T> {
+    figure: Instance,
+    wishes: Vec<(String, String)>,
+    claim: Option<String>,
+    /// States of the figure for readers who clicked other words before.
+    after_others: [Vec<(String, String)>; 2],
+    words: T,
+}
+
+/// What is left to say once the claim was checked.
+pub(super) struct Checked {
+    /// Anchor of the figure.
+    id: String,
+    wishes: Vec<(String, String)>,
+    words: Text,
+}
+
+impl Directive for Do<ParsedText> {
+    const NAME: &'static str = "do";
+    type Resolved = Checked;
+
+    fn parse(request: &Request, parser: &Parser) -> Result<Self, String> {
+        let how = "write {{#do figure key=value … | words}}";
+        let ([wanted], Some(body)) = (&request.call.words[..], &request.body) else {
+            return Err(how.to_owned());
+        };
+        let wishes = own_settings(request.call);
+        if wishes.is_empty() || body.text().trim().is_empty() {
+            return Err(how.to_owned());
+        }
+        let figure = parser.outline.nearest(wanted, &request.place)?;
+        let outline = parser.outline;
+        Ok(Do {
+            after_others: outline.after_others(figure, &request.place, &wishes),
+            figure: figure.clone(),
+            wishes,
+            claim: request.setting("claim").map(str::to_owned),
+            words: parser.text(body),
+        })
+    }
+
+    fn resolve(self, book: &Book) -> Result<Checked, String> {
+        let Instance { name, settings, .. } = &self.figure;
+        let settings = with_wishes(settings.clone(), &self.wishes);
+        let facts = book.facts(name, &settings)?;
+        if let Some(claim) = &self.claim {
+            claims::check(claim, &facts)?;
+            // What the words say holds for whoever has clicked other words before.
+            for settings in &self.after_others {
+                let facts = book.facts(name, settings)?;
+                claims::check(claim, &facts)
+                    .map_err(|error| format!("once other words have set the figure, {error}"))?;
+            }
+        }
+        Ok(Checked {
+            id: self.figure.id,
+            wishes: self.wishes,
+            words: self.words.resolve(book),
+        })
+    }
+
+    fn render(checked: Checked, page: &mut Writer) -> Insert {
+        let html = checked.words.inline(page);
+        let wishes = checked.wishes.into_iter();
+        let parameters = wishes.map(|(key, value)| (key, value.into()));
+        let parameters = serde_json::Map::from_iter(parameters);
+        let parameters = serde_json::Value::Object(parameters).to_string();
+        Insert::inline(format!(
+            "<span class=\"do\" data-figure=\"{}\" data-parameters=\"{}\">{html}</span>",
+            escape(&checked.id),
+            escape(&parameters)
+        ))
+    }
+}

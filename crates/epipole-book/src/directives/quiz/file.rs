@@ -1,0 +1,195 @@
+//! `quizzes/<name>.toml` to questions.
+
+use super::numeric::{Answer, Number};
+use crate::parse::source::Source;
+use crate::problems::{Place, Problems};
+use serde::Deserialize;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    question: Vec<Spanned<Written>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    /// Permanent: the reader's progress is stored under it.
+    id: String,
+    prompt: String,
+    /// Multiple choice: one right answer makes radio buttons, several make check boxes. A choice can be a picture:
+    /// `{{#small figure … | words}}`.
+    #[serde(default)]
+    choices: Vec<WrittenChoice>,
+    /// Put in order: what comes first stands first; readers see them shuffled.
+    #[serde(default)]
+    steps: Vec<String>,
+    /// A numeric answer that the core computes, written as in `{{#value …}}`.
+    value: Option<String>,
+    /// A numeric answer that only the question defines.
+    answer: Option<f64>,
+    /// Tolerance of a numeric answer; 0 where it is not given.
+    #[serde(default)]
+    tolerance: f64,
+    unit: Option<String>,
+    explanation: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenChoice {
+    text: String,
+    #[serde(default)]
+    right: bool,
+    /// Answer to a reader who picks it.
+    why: Option<String>,
+}
+
+/// A question. `T` is the stage of its texts.
+pub(super) struct Question<T> {
+    pub(super) id: String,
+    /// Counted from 1.
+    pub(super) number: usize,
+    pub(super) kind: Kind<T>,
+    pub(super) prompt: T,
+    pub(super) explanation: T,
+    place: Place,
+}
+
+/// Kinds of questions.
+pub(super) enum Kind<T> {
+    /// Choices, the first of them right, as authors like to write them.
+    Choices(Vec<Choice<T>>),
+    /// Steps in the right order.
+    Steps(Vec<T>),
+    /// A number, once asked for, then known.
+    Number(Number),
+    /// A number that is known.
+    Answer(Answer),
+}
+
+/// A choice of a question.
+pub(super) struct Choice<T> {
+    pub(super) text: T,
+    pub(super) right: bool,
+    pub(super) why: Option<T>,
+}
+
+/// Makes a text of what is written at a place.
+pub(super) type MakeText<'a, T> = dyn FnMut(&str, &Place) -> T + 'a;
+
+/// The questions of a file that have no problems, and the number of all. Problems are reported.
+pub(super) fn parse<T>(
+    source: &Source,
+    text: &mut MakeText<T>,
+    problems: &Problems,
+) -> (Vec<Question<T>>, usize) {
+    let file: File = match toml::from_str(source.text()) {
+        Ok(file) => file,
+        Err(error) => {
+            let at = error.span().map_or(0, |span| span.start);
+            problems.report(source.place(at), error.message());
+            return (Vec::new(), 0);
+        }
+    };
+    let mut ids: Vec<&str> = Vec::new();
+    let mut questions = Vec::new();
+    for (index, spanned) in file.question.iter().enumerate() {
+        let written = spanned.as_ref();
+        let id = &written.id;
+        let place = source.place(spanned.span().start);
+        if ids.contains(&id.as_str()) {
+            problems.report(place.clone(), format!("two questions are called \"{id}\""));
+        }
+        ids.push(id);
+        match kind(written, &place, text) {
+            Ok(kind) => questions.push(Question {
+                id: id.clone(),
+                number: index + 1,
+                kind,
+                prompt: text(&written.prompt, &place),
+                explanation: text(&written.explanation, &place),
+                place,
+            }),
+            Err(message) => problems.report(place, format!("question \"{id}\": {message}")),
+        }
+    }
+    (questions, file.question.len())
+}
+
+fn kind<T>(written: &Written, place: &Place, text: &mut MakeText<T>) -> Result<Kind<T>, String> {
+    let kinds = [
+        !written.choices.is_empty(),
+        !written.steps.is_empty(),
+        written.value.is_some(),
+        written.answer.is_some(),
+    ];
+    if kinds.iter().filter(|&&given| given).count() != 1 {
+        return Err("give exactly one of choices, steps, value and answer".to_owned());
+    }
+    if !written.steps.is_empty() {
+        if written.steps.len() < 3 {
+            return Err("two steps have only one other order: give three or more".to_owned());
+        }
+        let steps = written.steps.iter().map(|step| text(step, place));
+        return Ok(Kind::Steps(steps.collect()));
+    }
+    if written.choices.is_empty() {
+        return Ok(Kind::Number(Number {
+            value: written.value.clone(),
+            answer: written.answer,
+            tolerance: written.tolerance,
+            unit: written.unit.clone(),
+        }));
+    }
+    if written.choices.iter().all(|choice| !choice.right) {
+        return Err("no choice is marked right = true".to_owned());
+    }
+    let choices = written.choices.iter().map(|choice| Choice {
+        text: text(&choice.text, place),
+        right: choice.right,
+        why: choice.why.as_ref().map(|why| text(why, place)),
+    });
+    Ok(Kind::Choices(choices.collect()))
+}
+
+impl<T> Question<T> {
+    /// The question with its texts and its number resolved; none if there is a problem, which is reported.
+    pub(super) fn resolve<U>(
+        self,
+        mut text: impl FnMut(T) -> U,
+        problems: &Problems,
+    ) -> Option<Question<U>> {
+        let kind = match self.kind {
+            Kind::Choices(choices) => Kind::Choices(
+                choices
+                    .into_iter()
+                    .map(|choice| Choice {
+                        text: text(choice.text),
+                        right: choice.right,
+                        why: choice.why.map(&mut text),
+                    })
+                    .collect(),
+            ),
+            Kind::Steps(steps) => Kind::Steps(steps.into_iter().map(&mut text).collect()),
+            Kind::Answer(answer) => Kind::Answer(answer),
+            Kind::Number(number) => match number.answer() {
+                Ok(answer) => Kind::Answer(answer),
+                Err(message) => {
+                    let id = &self.id;
+                    problems.report(self.place, format!("question \"{id}\": {message}"));
+                    return None;
+                }
+            },
+        };
+        Some(Question {
+            id: self.id,
+            number: self.number,
+            kind,
+            prompt: text(self.prompt),
+            explanation: text(self.explanation),
+            place: self.place,
+        })
+    }
+}

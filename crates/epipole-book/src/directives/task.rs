@@ -1,0 +1,126 @@
+//! `{{#task name | Title}}` … `{{/task}}`: a programming task of the notebook, with the fences `python start`,
+//! `python check` and `python solution`.
+
+use crate::html::path_to_root;
+use crate::parse::text::Request;
+use crate::problems::{Place, name_list};
+use crate::render::code::{COPY, Heading, shown, take_name};
+use crate::render::directive::{Directive, ParsedText, Parser, Text};
+use crate::render::insert::{Block, Fence, Insert, Words};
+use crate::render::listing::pre;
+use crate::render::notebook::{self, Cell};
+use crate::render::writer::Writer;
+use crate::resolve::book::Book;
+
+/// The fences.
+const FENCES: [&str; 3] = ["start", "check", "solution"];
+
+/// The beginning of a task. `T` is the stage of its title.
+pub(super) struct Task<T> {
+    name: String,
+    /// The title as Markdown.
+    written: String,
+    title: T,
+}
+
+impl Directive for Task<ParsedText> {
+    const NAME: &'static str = "task";
+    type Resolved = Task<Text>;
+
+    fn parse(request: &Request, parser: &Parser) -> Result<Self, String> {
+        let name = request.one_word("name | Title")?;
+        let Some(title) = &request.body else {
+            return Err("write {{#task name | Title}}".to_owned());
+        };
+        Ok(Task {
+            name: name.to_owned(),
+            written: title.text().to_owned(),
+            title: parser.text(title),
+        })
+    }
+
+    fn resolve(self, book: &Book) -> Result<Task<Text>, String> {
+        Ok(Task {
+            name: self.name,
+            written: self.written,
+            title: self.title.resolve(book),
+        })
+    }
+
+    fn render(task: Task<Text>, page: &mut Writer) -> Insert {
+        let heading = Heading {
+            name: task.name,
+            title: task.written,
+            html: task.title.inline(page),
+        };
+        Insert::Opening(Box::new(Opened(heading)))
+    }
+}
+
+/// A task whose words and fences follow.
+struct Opened(Heading);
+
+impl Block for Opened {
+    fn end(&self) -> &'static str {
+        "{{/task}}"
+    }
+
+    fn render(&self, page: &mut Writer, words: Words, fences: &[Fence], place: &Place) -> String {
+        if !take_name(page, &self.0.name, place) {
+            return String::new();
+        }
+        self.html(page, &words, fences).unwrap_or_else(|message| {
+            page.report(place.clone(), message);
+            String::new()
+        })
+    }
+}
+
+impl Opened {
+    fn html(&self, page: &mut Writer, words: &Words, fences: &[Fence]) -> Result<String, String> {
+        let Heading { name, title, html } = &self.0;
+        let found: Vec<&str> = fences.iter().map(|fence| fence.word.as_str()).collect();
+        let is_python = fences.iter().all(|fence| fence.language == "python");
+        let [start, check, solution] = fences else {
+            return Err(self.wrong_fences());
+        };
+        if found != FENCES || !is_python {
+            return Err(self.wrong_fences());
+        }
+        let code = pre(&shown(start, page), "python");
+        let solved = pre(&shown(solution, page), "python");
+        let cell = |word: &str, fence: &Fence| Cell::Code {
+            id: format!("{name}-{word}"),
+            source: fence.code.clone(),
+            prints: String::new(),
+        };
+        page.page.cells.extend([
+            Cell::text(format!(
+                "## Your turn: {title}\n\n{}",
+                words.markdown.trim()
+            )),
+            cell("start", start),
+            Cell::text("The next cell looks at your function and says what is missing.".to_owned()),
+            cell("check", check),
+        ]);
+        let (file, root) = (
+            notebook::path(&page.page.path),
+            path_to_root(&page.page.path),
+        );
+        Ok(format!(
+            "{words}<div class=\"listing task\" id=\"task-{name}\" role=\"group\" aria-labelledby=\"task-{name}-title\">\n\
+             <div class=\"listing-bar\"><p class=\"listing-title\" id=\"task-{name}-title\">{html}</p>\
+             <p class=\"listing-only\">Python</p>{COPY}</div>\n\
+             <div class=\"listing-part\">\n{code}</div>\n</div>\n\
+             <p>Write it in <a href=\"{root}{file}\" download>the notebook</a>. The cell below it says what is wrong.</p>\n\
+             <details><summary>Solution</summary>\n{solved}</details>\n",
+            words = words.html,
+        ))
+    }
+
+    fn wrong_fences(&self) -> String {
+        let wanted: Vec<String> = FENCES.iter().map(|word| format!("python {word}")).collect();
+        let (name, wanted) = (&self.0.name, name_list(&wanted));
+        format!("task {name} has the fences {wanted}")
+    }
+}

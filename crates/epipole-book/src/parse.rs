@@ -1,0 +1,12 @@
+//! Chapters to data: Markdown, directives, and the file and line of each word.
+
+pub(crate) mod book;
+pub(crate) mod content;
+pub(crate) mod events;
+mod include;
+pub(crate) mod outline;
+pub mod rhythm;
+pub mod source;
+pub(crate) mod stand_ins;
+pub mod syntax;
+pub(crate) mod text;

@@ -1,0 +1,54 @@
+//! What listings and tasks share.
+
+use super::insert::Fence;
+use super::listing::shown_lines;
+use super::writer::Writer;
+use crate::problems::Place;
+
+/// Longest line of code that a reader sees, in characters; more makes even a wide page scroll.
+pub(crate) const LONGEST_LINE: usize = 66;
+
+/// The button that copies what is in sight; a script brings it to life.
+pub(crate) const COPY: &str = "<button type=\"button\" class=\"copy\" hidden>Copy</button>";
+
+/// Name and title of a listing or a task.
+pub(crate) struct Heading {
+    pub(crate) name: String,
+    /// The title as Markdown.
+    pub(crate) title: String,
+    /// The title as HTML.
+    pub(crate) html: String,
+}
+
+/// Takes the name of a listing or a task for the page. False, with a problem, if it is none or was taken before.
+pub(crate) fn take_name(page: &mut Writer, name: &str, place: &Place) -> bool {
+    let is_name =
+        |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
+    let known = &mut page.page.listings;
+    if known.iter().any(|known| known == name) || !name.chars().all(is_name) {
+        let message =
+            format!("\"{name}\": a listing needs a name of its own, of small letters and hyphens");
+        page.report(place.clone(), message);
+        return false;
+    }
+    known.push(name.to_owned());
+    true
+}
+
+/// The lines of a fence that a page shows; lines that are too long are reported.
+pub(crate) fn shown(fence: &Fence, page: &Writer) -> String {
+    let mut shown = String::new();
+    for (number, line) in shown_lines(&fence.code, &fence.language) {
+        let length = line.chars().count();
+        if length > LONGEST_LINE {
+            let mut place = fence.place.clone();
+            place.line += number + 1;
+            let message =
+                format!("{length} characters: a line of a listing has at most {LONGEST_LINE}");
+            page.report(place, message);
+        }
+        shown.push_str(line);
+        shown.push('\n');
+    }
+    shown
+}

@@ -1,0 +1,143 @@
+//! Listings of code: what of the code a page shows, and how.
+
+use super::highlight::highlight;
+use crate::html::escape;
+use pulldown_cmark::CodeBlockKind;
+
+/// A line that hides itself and what follows it in the listing, as a comment of its language.
+const HIDES_THE_REST: [&str; 2] = ["# hidden", "// hidden"];
+
+/// A listing outside of `{{#listing}}` as HTML, highlighted, with a label that says what it is.
+pub(crate) fn listing(code: &str, kind: &CodeBlockKind) -> String {
+    let language = info(kind).0;
+    let code = match language {
+        "rust" => code
+            .split_inclusive('\n')
+            .filter(|line| !is_hidden_rust(line))
+            .collect(),
+        _ => code.to_owned(),
+    };
+    pre(&code, language)
+}
+
+/// The language of a fence and the word behind it, such as `python` and `opencv`.
+pub(crate) fn info<'a>(kind: &'a CodeBlockKind) -> (&'a str, &'a str) {
+    let info = match kind {
+        CodeBlockKind::Fenced(info) => info.as_ref(),
+        CodeBlockKind::Indented => "",
+    };
+    let mut words = info.split([' ', ',']).filter(|word| !word.is_empty());
+    let language = words.next().unwrap_or("");
+    (language, words.next().unwrap_or(""))
+}
+
+/// Code in a box that can scroll.
+pub(crate) fn pre(code: &str, language: &str) -> String {
+    let class = match language {
+        "" => String::new(),
+        language => format!(" class=\"language-{}\"", escape(language)),
+    };
+    let label = match language {
+        "python" => "Python",
+        "rust" => "Rust",
+        "html" => "HTML",
+        "sh" | "console" | "bash" => "Command line",
+        _ => "Listing",
+    };
+    format!(
+        "<pre data-language=\"{label}\"><code{class}>{}</code></pre>\n",
+        highlight(code, language)
+    )
+}
+
+/// The lines of `code` that a reader sees, with their numbers, counted from 0: without assertions, without
+/// what Rust's documentation hides, without what stands below a line `# hidden`; and no two empty lines in
+/// a row.
+pub(crate) fn shown_lines<'a>(code: &'a str, language: &str) -> Vec<(usize, &'a str)> {
+    let mut shown: Vec<(usize, &str)> = Vec::new();
+    // Brackets that an assertion has opened: it goes on while there are any.
+    let mut open = 0;
+    for (number, line) in code.lines().enumerate() {
+        let words = line.trim();
+        if HIDES_THE_REST.contains(&words) {
+            break;
+        }
+        if open > 0 {
+            open += brackets(words);
+            continue;
+        }
+        if is_assertion(words, language) {
+            open = brackets(words).max(0);
+            continue;
+        }
+        if language == "rust" && is_hidden_rust(line) {
+            continue;
+        }
+        let follows_gap = shown.last().is_none_or(|(_, last)| last.trim().is_empty());
+        if !(words.is_empty() && follows_gap) {
+            shown.push((number, line));
+        }
+    }
+    while shown.last().is_some_and(|(_, line)| line.trim().is_empty()) {
+        shown.pop();
+    }
+    shown
+}
+
+fn is_assertion(words: &str, language: &str) -> bool {
+    match language {
+        "rust" => ["assert!(", "assert_eq!(", "assert_ne!("]
+            .iter()
+            .any(|start| words.starts_with(start)),
+        "python" => words.starts_with("assert ") || words.starts_with("assert("),
+        _ => false,
+    }
+}
+
+/// How many brackets a line opens more than it closes.
+fn brackets(line: &str) -> i32 {
+    let count = |letter| match letter {
+        '(' | '[' | '{' => 1,
+        ')' | ']' | '}' => -1,
+        _ => 0,
+    };
+    line.chars().map(count).sum()
+}
+
+/// As in Rust's own documentation, a line that starts with `# ` is run but not shown.
+fn is_hidden_rust(line: &str) -> bool {
+    let line = line.trim_start();
+    line.trim_end() == "#" || line.starts_with("# ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(code: &str, language: &str) -> String {
+        let lines = shown_lines(code, language);
+        lines
+            .iter()
+            .map(|(_, line)| *line)
+            .collect::<Vec<_>>()
+            .join("\n")
+    }
+
+    #[test]
+    fn assertions_stay_out_of_sight() {
+        let code = "a = 1\n\nassert f(\n    a,\n) == 2\n\nprint(a)\nassert a\n";
+        assert_eq!(shown(code, "python"), "a = 1\n\nprint(a)");
+        assert_eq!(shown_lines(code, "python").last(), Some(&(6, "print(a)")));
+        let code =
+            "# fn main() {\nlet a = 1;\nassert_eq!(\n    a,\n    1\n);\nprintln!(\"{a}\");\n# }\n";
+        assert_eq!(shown(code, "rust"), "let a = 1;\nprintln!(\"{a}\");");
+        // Words that only look like one.
+        assert_eq!(shown("assertion = 1\n", "python"), "assertion = 1");
+    }
+
+    #[test]
+    fn a_mark_hides_the_rest() {
+        assert_eq!(shown("a = 1\n\n# hidden\nb = 2\n", "python"), "a = 1");
+        assert_eq!(shown("f();\n// hidden\ng();\n", "rust"), "f();");
+    }
+}

@@ -1,0 +1,337 @@
+//! A text's Markdown to HTML: stand-ins take the place of directives while Markdown is parsed, and their HTML takes the
+//! stand-ins' place afterwards.
+
+use super::blocks::{code_of, collect, lone_block, lone_opening};
+use super::insert::{Block, Insert, Words, substitute};
+use super::links;
+use super::listing::listing;
+use super::math::{Layout, mathml};
+use super::page::Heading;
+use super::symbols;
+use super::tables;
+use super::words::{callout, neighbors, plain};
+use super::writer::Writer;
+use crate::html::{escape, forbidden_inline, slug};
+use crate::parse::events::{Located, end_of, section_starts, take_footnotes};
+use crate::parse::source::Source;
+use crate::parse::stand_ins::{self, Part, parts};
+use crate::parse::syntax::markdown_options;
+use crate::problems::Place;
+use pulldown_cmark::{CowStr, Event, Parser, Tag, TagEnd};
+use std::collections::HashMap;
+
+/// Markdown with stand-ins, and what becomes of these.
+pub(crate) struct Markdown {
+    pub(crate) source: Source,
+    pub(crate) inserts: Vec<Insert>,
+    /// What the search finds in each of the inserts: captions, notes, quizzes.
+    pub(crate) found: Vec<String>,
+}
+
+/// What the events of one text refer to.
+struct Text<'a> {
+    source: &'a Source,
+    inserts: &'a [Insert],
+    found: &'a [String],
+    footnotes: HashMap<CowStr<'a>, Vec<Located<'a>>>,
+}
+
+/// A whole text with paragraphs, headings and so on.
+pub(crate) fn block(markdown: &Markdown, page: &mut Writer) -> String {
+    let (events, text) = parsed(markdown);
+    let starts = section_starts(&events);
+    let mut html = page.events(&events[..starts[0]], &text, false);
+    for bounds in starts.windows(2) {
+        let section = page.events(&events[bounds[0]..bounds[1]], &text, false);
+        html.push_str(&format!("<section>\n{section}</section>\n"));
+    }
+    html
+}
+
+/// A text that stands inside a paragraph, such as a caption.
+pub(crate) fn inline(markdown: &Markdown, page: &mut Writer) -> String {
+    let (events, text) = parsed(markdown);
+    let html = page.events(&events, &text, true);
+    page.page.words.push(' ');
+    html
+}
+
+fn parsed(markdown: &Markdown) -> (Vec<Located<'_>>, Text<'_>) {
+    let Markdown {
+        source,
+        inserts,
+        found,
+    } = markdown;
+    let parser = Parser::new_ext(source.text(), markdown_options());
+    let mut events: Vec<Located> = parser.into_offset_iter().collect();
+    let footnotes = take_footnotes(&mut events);
+    let text = Text {
+        source,
+        inserts,
+        found,
+        footnotes,
+    };
+    (events, text)
+}
+
+impl Writer<'_> {
+    /// HTML of a run of events. `tight` leaves out the tags of paragraphs.
+    fn events(&mut self, events: &[Located], text: &Text, tight: bool) -> String {
+        let mut out: Vec<Event> = Vec::new();
+        // Bytes of the next text that stand behind the formula before it already.
+        let mut skipped = 0;
+        let mut at = 0;
+        while at < events.len() {
+            let (event, range) = &events[at];
+            let place = || text.source.place(range.start);
+            let mut next = at + 1;
+            match event {
+                Event::Start(Tag::Paragraph) => {
+                    next = end_of(events, at);
+                    let inner = &events[at + 1..next - 1];
+                    if let Some(opening) = lone_opening(inner, text.inserts) {
+                        let (html, end) = self.code_block(opening, events, next, text, place());
+                        next = end;
+                        out.push(Event::Html(html.into()));
+                    } else if let Some((block, words)) = lone_block(inner, text.inserts, text.found)
+                    {
+                        self.page.words.push_str(&format!(" {words} "));
+                        out.push(Event::Html(block.to_owned().into()));
+                    } else {
+                        self.page.describe(|| plain(inner, text.inserts));
+                        let html = self.events(inner, text, tight);
+                        let html = match (tight, out.is_empty()) {
+                            (false, _) => format!("<p>{html}</p>\n"),
+                            (true, true) => html,
+                            (true, false) => format!("<br>{html}"),
+                        };
+                        out.push(Event::Html(html.into()));
+                        self.page.words.push(' ');
+                    }
+                }
+                Event::Start(Tag::Heading { level, id, .. }) => {
+                    next = end_of(events, at);
+                    let inner = &events[at + 1..next - 1];
+                    let html = self.heading(*level as u8, id.as_deref(), inner, text);
+                    out.push(Event::Html(html.into()));
+                }
+                Event::Start(Tag::CodeBlock(kind)) => {
+                    next = end_of(events, at);
+                    out.push(Event::Html(
+                        listing(&code_of(&events[at..next]), kind).into(),
+                    ));
+                }
+                Event::Start(Tag::BlockQuote(Some(kind))) => {
+                    next = end_of(events, at);
+                    let html = self.events(&events[at + 1..next - 1], text, false);
+                    out.push(Event::Html(callout(*kind, &html).into()));
+                }
+                Event::Start(Tag::Table(alignments)) => {
+                    next = end_of(events, at);
+                    let html = {
+                        let inner = &events[at + 1..next - 1];
+                        tables::table(inner, alignments, &mut |cell| {
+                            let html = self.events(cell, text, true);
+                            self.page.words.push(' ');
+                            (html, plain(cell, text.inserts))
+                        })
+                    };
+                    out.push(Event::Html(html.into()));
+                }
+                Event::Start(Tag::Link {
+                    link_type,
+                    dest_url,
+                    title,
+                    id,
+                }) => {
+                    let dest_url = links::rewrite(self, dest_url, place()).into();
+                    out.push(Event::Start(Tag::Link {
+                        link_type: *link_type,
+                        dest_url,
+                        title: title.clone(),
+                        id: id.clone(),
+                    }));
+                }
+                Event::Start(Tag::Image {
+                    dest_url, title, ..
+                }) => {
+                    next = end_of(events, at);
+                    let alternative = plain(&events[at + 1..next - 1], text.inserts);
+                    let html = links::image(self, dest_url, title, &alternative, place());
+                    out.push(Event::InlineHtml(html.into()));
+                }
+                Event::InlineMath(latex) => {
+                    let html = self.formula(latex, Layout::Inline, text, place());
+                    let (before, after) = neighbors(events, at);
+                    if let Some(Event::Text(words)) = out.last_mut() {
+                        *words = words[..words.len() - before.len()].to_owned().into();
+                    }
+                    let html = match before.is_empty() && after.is_empty() {
+                        true => html,
+                        false => format!("<span class=\"bound\">{before}{html}{after}</span>"),
+                    };
+                    self.page.words.push_str(after);
+                    skipped = after.len();
+                    out.push(Event::InlineHtml(html.into()));
+                }
+                Event::DisplayMath(latex) => {
+                    out.push(Event::InlineHtml(
+                        self.formula(latex, Layout::Display, text, place()).into(),
+                    ));
+                }
+                Event::Text(words) => {
+                    self.text(&words[std::mem::take(&mut skipped)..], text, &mut out)
+                }
+                Event::Code(code) => {
+                    let code = substitute(code, text.inserts, Insert::text);
+                    self.page.words.push_str(&code);
+                    out.push(Event::Code(code.into()));
+                }
+                Event::Html(html) | Event::InlineHtml(html) => {
+                    if let Some(offence) = forbidden_inline(html) {
+                        let message = format!("{offence}: pages hold no inline scripts and styles");
+                        self.report(place(), message);
+                    }
+                    let html = substitute(html, text.inserts, Insert::html);
+                    out.push(Event::Html(html.into()));
+                }
+                Event::FootnoteReference(label) => match text.footnotes.get(label) {
+                    Some(definition) => {
+                        let note = self.events(definition, text, true);
+                        out.push(Event::InlineHtml(self.note(&note).into()));
+                    }
+                    None => self.report(place(), format!("no footnote is called \"{label}\"")),
+                },
+                Event::SoftBreak | Event::HardBreak | Event::Rule | Event::End(_) => {
+                    // The end of a list's item, say. Within a word nothing ends but emphasis and links.
+                    if !matches!(
+                        event,
+                        Event::End(TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link)
+                    ) {
+                        self.page.words.push(' ');
+                    }
+                    out.push(event.clone());
+                }
+                event => out.push(event.clone()),
+            }
+            at = next;
+        }
+        let mut html = String::new();
+        pulldown_cmark::html::push_html(&mut html, out.into_iter());
+        html
+    }
+
+    /// A block between two directives: the HTML, and the index after its end. It begins before `from`.
+    fn code_block(
+        &mut self,
+        opening: &dyn Block,
+        events: &[Located],
+        from: usize,
+        text: &Text,
+        place: Place,
+    ) -> (String, usize) {
+        let end = opening.end();
+        let is_end = |paragraph: &[Located]| plain(paragraph, text.inserts) == end;
+        let collected = collect(events, from, text.source, is_end);
+        let mut words = Words::default();
+        for inner in collected.words {
+            let source = &text.source.text()[events[inner.start].1.clone()];
+            words
+                .html
+                .push_str(&self.events(&events[inner], text, false));
+            let source = substitute(source, text.inserts, Insert::text);
+            words.markdown.push_str(&source);
+            words.markdown.push_str("\n\n");
+        }
+        for stray in collected.strays {
+            let message = "in a listing or a task words come first and fences after them";
+            self.report(stray, message);
+        }
+        let html = match collected.is_closed {
+            true => opening.render(self, words, &collected.fences, &place),
+            false => {
+                self.report(place, format!("this has no {end}"));
+                String::new()
+            }
+        };
+        (html, collected.next)
+    }
+
+    fn heading(&mut self, level: u8, id: Option<&str>, inner: &[Located], text: &Text) -> String {
+        let title = plain(inner, text.inserts);
+        let wanted = id.map_or_else(|| slug(&title), str::to_owned);
+        let mut id = wanted.clone();
+        let mut count = 1;
+        while self.page.headings.iter().any(|heading| heading.id == id) {
+            id = format!("{wanted}-{count}");
+            count += 1;
+        }
+        self.page.start_section(&id, &title);
+        let html = self.events(inner, text, true);
+        let heading = Heading {
+            level,
+            id: id.clone(),
+            title: title.clone(),
+            html: html.clone(),
+        };
+        self.page.headings.push(heading);
+        let (id, title) = (escape(&id), escape(&title));
+        if level == 1 {
+            let number = match &self.page.number {
+                Some(number) => format!(
+                    "<span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter </span>{number}</span> "
+                ),
+                None => String::new(),
+            };
+            return format!("<h1 id=\"{id}\">{number}{html}</h1>\n");
+        }
+        format!(
+            "<h{level} id=\"{id}\">{html} <a class=\"anchor\" href=\"#{id}\" \
+             aria-label=\"Link to the section {title}\">#</a></h{level}>\n"
+        )
+    }
+
+    fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {
+        let latex = substitute(latex, text.inserts, Insert::text);
+        // A formula that is readable as it is written can be searched for, and belongs into excerpts.
+        match latex.contains(['\\', '{', '^', '_', '&']) {
+            true => self.page.words.push(' '),
+            false => self.page.words.push_str(latex.trim()),
+        }
+        match mathml(&latex, layout) {
+            Ok(html) => symbols::mark(&html, self.symbols),
+            Err(message) => {
+                self.report(place, format!("formula `{}`: {message}", latex.trim()));
+                String::new()
+            }
+        }
+    }
+
+    /// Text with the stand-ins of directives replaced.
+    fn text(&mut self, words: &str, text: &Text, out: &mut Vec<Event>) {
+        for part in parts(words) {
+            match part {
+                Part::Words(words) => {
+                    self.page.words.push_str(words);
+                    out.push(Event::Text(words.to_owned().into()));
+                }
+                Part::Insert(index) => {
+                    let Some(insert) = text.inserts.get(index) else {
+                        continue;
+                    };
+                    if let Insert::Block { .. } | Insert::Opening(_) = insert {
+                        let at = text.source.text().find(&stand_ins::of(index));
+                        let place = text.source.place(at.unwrap_or(0));
+                        self.report(place, "this must stand in a paragraph of its own");
+                        continue;
+                    }
+                    self.page.words.push_str(&insert.text());
+                    if let Some(found) = text.found.get(index).filter(|words| !words.is_empty()) {
+                        self.page.words.push_str(&format!(" {found} "));
+                    }
+                    out.push(Event::InlineHtml(insert.html().into()));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! The page that is being rendered.
+
+use super::page::Page;
+use crate::hash::fnv;
+use crate::problems::{Place, Problems};
+
+/// A page that grows as its chapter is rendered.
+pub(crate) struct Writer<'a> {
+    pub(crate) page: Page,
+    /// Letters of the chapter that its figures draw as well.
+    pub(crate) symbols: &'a [String],
+    problems: &'a Problems,
+    notes: usize,
+}
+
+impl<'a> Writer<'a> {
+    pub(crate) fn new(page: Page, symbols: &'a [String], problems: &'a Problems) -> Self {
+        Writer {
+            page,
+            symbols,
+            problems,
+            notes: 0,
+        }
+    }
+
+    /// Notes a problem.
+    pub(crate) fn report(&self, place: Place, message: impl Into<String>) {
+        self.problems.report(place, message);
+    }
+
+    /// A note in the margin (below its line on a narrow screen).
+    pub(crate) fn note(&mut self, html: &str) -> String {
+        self.notes += 1;
+        let number = self.notes;
+        format!(
+            "<sup class=\"note-mark\">{number}</sup><small class=\"note\" role=\"note\">\
+             <sup class=\"note-number\">{number}</sup> {html}</small>"
+        )
+    }
+
+    /// Adds a file to the site under `assets/`, its name made unique by its content. Returns its path from the root of
+    /// the site.
+    pub(crate) fn add_asset(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
+        let path = format!("assets/{name}-{:016x}.{extension}", fnv(&bytes));
+        self.page.files.insert(path.clone(), bytes);
+        path
+    }
+}

@@ -1,0 +1,88 @@
+//! What the chapters of a build ask: figures, their posters and facts, and references.
+
+use super::cache::Cache;
+use super::facts::Facts;
+use super::figures::{Gallery, Room};
+use super::posters::{self, Posters};
+use super::references::References;
+use crate::parse::content::Content;
+use crate::problems::Problems;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+type Settings = [(String, String)];
+
+/// A figure in a state.
+type State = (String, Vec<(String, String)>);
+
+/// The sources of all answers. Chapters can ask from several threads.
+pub(crate) struct Book<'a> {
+    pub(crate) problems: &'a Problems,
+    pub(crate) gallery: &'a dyn Gallery,
+    pub(crate) references: References,
+    /// Posters are drawn only with a cache: a check of the content needs none.
+    cache: Option<Cache>,
+    facts: Mutex<BTreeMap<State, Arc<Facts>>>,
+}
+
+impl<'a> Book<'a> {
+    pub(crate) fn new(
+        content: &Content,
+        gallery: &'a dyn Gallery,
+        cache: Option<Cache>,
+        problems: &'a Problems,
+    ) -> Self {
+        let references = content.read("references.toml");
+        let references = references.map(|source| References::parse(&source, problems));
+        Book {
+            problems,
+            gallery,
+            references: references.unwrap_or_default(),
+            cache,
+            facts: Mutex::default(),
+        }
+    }
+
+    /// What a figure shows in a state, its computations done.
+    ///
+    /// # Errors
+    /// A sentence that names the figure.
+    pub(crate) fn facts(&self, name: &str, settings: &Settings) -> Result<Arc<Facts>, String> {
+        let key = (name.to_owned(), settings.to_vec());
+        let lock = || self.facts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = lock().get(&key) {
+            return Ok(known.clone());
+        }
+        let of_figure = |error| format!("figure {name}: {error}");
+        let figure = self.gallery.open(name, settings).map_err(of_figure)?;
+        let make = || {
+            let snapshot = figure.snapshot()?;
+            Ok((Facts::parse(&snapshot)?, snapshot.into_bytes()))
+        };
+        let read = |kept: &[u8]| Facts::parse(std::str::from_utf8(kept).ok()?).ok();
+        let facts = match &self.cache {
+            Some(cache) => cache.get_or((name, settings, "facts"), read, make),
+            None => make().map(|(facts, _)| facts),
+        };
+        let facts = Arc::new(facts.map_err(of_figure)?);
+        lock().insert(key, facts.clone());
+        Ok(facts)
+    }
+
+    /// Posters of a figure in a state, narrow ones first; none in a check.
+    ///
+    /// # Errors
+    /// A sentence.
+    pub(crate) fn posters(
+        &self,
+        name: &str,
+        settings: &Settings,
+        rooms: &[Room],
+    ) -> Result<Posters, String> {
+        let figure = self.gallery.open(name, settings)?;
+        match &self.cache {
+            Some(cache) => posters::draw(figure.as_ref(), name, settings, rooms, cache),
+            None => Ok(Posters::default()),
+        }
+    }
+}

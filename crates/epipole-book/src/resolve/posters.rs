@@ -1,0 +1,152 @@
+//! Posters: pictures of the figures, drawn while the book is built, kept between builds.
+
+use super::cache::Cache;
+use super::figures::{Figure, Poster, Room};
+use crate::parallel;
+
+/// Device pixels of a poster to a CSS pixel.
+const SCALE: u32 = 2;
+
+/// Quality of lossy posters, of 100. At two device pixels to a CSS pixel text stays crisp.
+const QUALITY: f32 = 76.0;
+
+/// Posters of a figure for some widths of a page, narrow ones first.
+#[derive(Debug, Default)]
+pub(crate) struct Posters(pub(crate) Vec<Shades>);
+
+/// The posters for one width of a page.
+#[derive(Debug)]
+pub(crate) struct Shades {
+    /// CSS pixels.
+    pub(crate) width: u32,
+    pub(crate) light: Encoded,
+    pub(crate) dark: Encoded,
+}
+
+impl Posters {
+    /// Width and height of each, CSS pixels.
+    pub(crate) fn sizes(&self) -> Vec<(u32, f64)> {
+        let height = |light: &Encoded| f64::from(light.size.1) / f64::from(SCALE);
+        let all = self.0.iter();
+        all.map(|shades| (shades.width, height(&shades.light)))
+            .collect()
+    }
+}
+
+/// Draws the posters for these rooms, or takes them from the cache.
+pub(super) fn draw(
+    figure: &dyn Figure,
+    name: &str,
+    settings: &[(String, String)],
+    rooms: &[Room],
+    cache: &Cache,
+) -> Result<Posters, String> {
+    let shades = |room: Room| {
+        let width = room.width();
+        let make = || {
+            let [light, dark] = figure.posters(room, SCALE)?;
+            let made = [encode(&light)?, encode(&dark)?];
+            let bytes = pack(&made);
+            Ok((made, bytes))
+        };
+        let [light, dark] = cache.get_or((name, settings, &width.to_string()), unpack, make)?;
+        Ok(Shades { width, light, dark })
+    };
+    let drawn = parallel::map(rooms.to_vec(), shades).into_iter();
+    let drawn: Result<_, String> = drawn.collect();
+    drawn.map(Posters)
+}
+
+/// A compressed poster and its size in device pixels: their ratio is exactly that of the living picture.
+#[derive(Debug)]
+pub(crate) struct Encoded {
+    pub(crate) webp: Vec<u8>,
+    pub(crate) size: (u32, u32),
+}
+
+/// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs
+/// lossy.
+fn encode(poster: &Poster) -> Result<Encoded, String> {
+    let encoder = webp::Encoder::from_rgba(&poster.rgba, poster.width, poster.height);
+    let encode = |lossless: bool| {
+        let failed = |error: String| format!("the poster could not be encoded: {error}");
+        let mut config =
+            webp::WebPConfig::new().map_err(|()| failed("no configuration".to_owned()))?;
+        config.lossless = i32::from(lossless);
+        config.quality = if lossless { 75.0 } else { QUALITY };
+        // Colors of thin lines and letters at full resolution.
+        config.use_sharp_yuv = 1;
+        encoder
+            .encode_advanced(&config)
+            .map_err(|error| failed(format!("{error:?}")))
+    };
+    let (lossless, lossy) = (encode(true)?, encode(false)?);
+    let smaller = if lossless.len() <= lossy.len() {
+        lossless
+    } else {
+        lossy
+    };
+    Ok(Encoded {
+        webp: smaller.to_vec(),
+        size: (poster.width, poster.height),
+    })
+}
+
+fn pack(posters: &[Encoded; 2]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for poster in posters {
+        let length = u32::try_from(poster.webp.len()).unwrap_or(u32::MAX);
+        for number in [poster.size.0, poster.size.1, length] {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes.extend(&poster.webp);
+    }
+    bytes
+}
+
+fn unpack(bytes: &[u8]) -> Option<[Encoded; 2]> {
+    let mut rest = bytes;
+    let mut next = || {
+        let mut number = || {
+            let (first, after) = rest.split_first_chunk::<4>()?;
+            rest = after;
+            Some(u32::from_le_bytes(*first))
+        };
+        let (width, height, length) = (number()?, number()?, number()?);
+        let (webp, after) = rest.split_at_checked(length as usize)?;
+        rest = after;
+        Some(Encoded {
+            webp: webp.to_vec(),
+            size: (width, height),
+        })
+    };
+    let posters = [next()?, next()?];
+    rest.is_empty().then_some(posters)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn poster(level: u8) -> Encoded {
+        encode(&Poster {
+            width: 4,
+            height: 2,
+            rgba: [level, 0, 0, 255].repeat(8),
+        })
+        .unwrap()
+    }
+
+    #[test]
+    fn posters_are_webp_and_unpack_as_packed() {
+        let posters = [poster(9), poster(200)];
+        assert_eq!(&posters[0].webp[8..12], b"WEBP");
+        assert_eq!(posters[0].size, (4, 2));
+        let packed = pack(&posters);
+        let again = unpack(&packed).unwrap();
+        assert_eq!(again[1].webp, posters[1].webp);
+        assert_eq!(again[1].size, posters[1].size);
+        assert!(unpack(&packed[1..]).is_none());
+        assert!(unpack(b"broken").is_none());
+    }
+}

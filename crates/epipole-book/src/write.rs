@@ -1,0 +1,10 @@
+//! Pages to a site: assets, templates, frames, compression.
+
+pub mod assets;
+pub mod compress;
+pub(crate) mod disk;
+pub(crate) mod frames;
+pub(crate) mod gathered;
+pub mod policy;
+pub mod stills;
+pub(crate) mod template;

@@ -1,0 +1,67 @@
+//! What the browser downloads beside the pages: styles, fonts, scripts and WebAssembly. Every name
+//! carries a hash of the content; what is in `embed/` has stable names, for other sites.
+
+mod embed;
+mod files;
+mod fonts;
+mod lab;
+mod letters;
+mod likeness;
+mod scripts;
+mod wasm;
+
+pub use files::{Assets, add_hashed};
+pub use lab::make as make_lab;
+pub use letters::{Letters, used_letters};
+pub(crate) use wasm::Modules;
+
+use crate::tools::{Tools, read};
+use anyhow::Result;
+use std::path::Path;
+
+/// The figures for the browser, if the project has figures: what takes longest.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
+    let manifest = project.join("crates/epipole-web/Cargo.toml");
+    if !manifest.is_file() {
+        return Ok(None);
+    }
+    wasm::make(&Tools::find(project)?).map(Some)
+}
+
+/// Makes everything else, and puts the figures to it.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub(crate) fn make(
+    project: &Path,
+    live: bool,
+    letters: &Letters,
+    modules: Option<&Modules>,
+) -> Result<Assets> {
+    let tools = Tools::find(project)?;
+    let mut assets = Assets::default();
+    fonts::add(&tools, letters, &mut assets)?;
+    let look = scripts::add_look(&tools, live, &mut assets)?;
+    scripts::add_pages(&tools, &look, live, &mut assets)?;
+    if let Some(modules) = modules {
+        scripts::add_elements(&tools, modules, &look, live, &mut assets)?;
+    }
+    let icon = read(&tools.project.join("web/theme/icon.svg"))?;
+    assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
+    let licenses = [
+        (
+            "OFL-STIX-Two.txt",
+            tools.modules.join("@fontsource/stix-two-math/LICENSE"),
+        ),
+        ("THIRD-PARTY.txt", tools.project.join("web/THIRD-PARTY.txt")),
+    ];
+    for (name, source) in licenses {
+        assets
+            .files
+            .insert(format!("licenses/{name}"), read(&source)?);
+    }
+    Ok(assets)
+}

@@ -1,0 +1,88 @@
+//! `embed/`: what other sites load. `epipole.js` is always the newest; `<version>/epipole.js` is that of one version,
+//! with the hashes of all that it loads; `widget.js` holds everything, for pages that show anywidgets.
+
+use super::files::Assets;
+use crate::tools::{Tools, read};
+use anyhow::{Context, Result};
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use serde_json::{Map, json};
+use sha2::{Digest, Sha384};
+
+/// As the folder of this version is called.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Paths of what figures consist of, from the root of the site.
+pub(super) struct Parts<'a> {
+    pub(super) elements: &'a str,
+    /// Tests have none.
+    pub(super) worker: Option<&'a str>,
+    pub(super) figures: &'a str,
+    pub(super) jobs: &'a str,
+}
+
+/// Adds the scripts for other sites.
+///
+/// # Errors
+/// If a part was not made, or the glue for widgets cannot be read.
+pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Result<()> {
+    let newest = format!("export * from \"../{}\";\n", parts.elements);
+    let fixed = format!("export * from \"../../{}\";\n", parts.elements);
+    let entry = format!("embed/{VERSION}/epipole.js");
+    assets
+        .files
+        .insert("embed/epipole.js".to_owned(), newest.into_bytes());
+    assets.files.insert(entry.clone(), fixed.into_bytes());
+    let Some(worker) = parts.worker else {
+        return Ok(());
+    };
+    let all = [
+        ("code", parts.elements),
+        ("worker", worker),
+        ("figures", parts.figures),
+        ("jobs", parts.jobs),
+    ];
+    let content = |path: &str| {
+        let bytes = assets.files.get(path);
+        bytes.with_context(|| format!("{path} was not made"))
+    };
+    let mut hashes = Map::new();
+    for path in all.map(|(_, path)| path).into_iter().chain([&*entry]) {
+        hashes.insert(path.to_owned(), json!(integrity(content(path)?)));
+    }
+    let mut inside = Map::new();
+    for (name, path) in all {
+        let text = BASE64_STANDARD.encode(content(path)?);
+        inside.insert(name.to_owned(), json!(text));
+    }
+    let glue = read(&tools.project.join("python/epipole_figures/glue.js"))?;
+    let mut widget = format!("const INSIDE = {};\n", json!(inside)).into_bytes();
+    widget.extend(glue);
+    let told = json!({"version": VERSION, "integrity": hashes});
+    let told = serde_json::to_vec_pretty(&told)?;
+    let files = [
+        (format!("embed/{VERSION}/integrity.json"), told),
+        ("embed/widget.js".to_owned(), widget),
+    ];
+    assets.files.extend(files);
+    Ok(())
+}
+
+/// As the attribute `integrity` and import maps have it.
+fn integrity(bytes: &[u8]) -> String {
+    format!("sha384-{}", BASE64_STANDARD.encode(Sha384::digest(bytes)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hashes_are_those_that_browsers_expect() {
+        // From `printf abc | openssl dgst -sha384 -binary | base64`.
+        assert_eq!(
+            integrity(b"abc"),
+            "sha384-ywB1P0WjXou1oD1pmsZQBycsMqsO3tFjGotgWkP/W+2AhgcroefMI1i67KE0yCWn"
+        );
+    }
+}

@@ -1,0 +1,236 @@
+//! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
+
+use super::files::{Assets, add_hashed};
+use super::wasm::{Module, Modules};
+use super::{embed, fonts};
+use crate::tools::{Tools, read};
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// How the style sheet names fonts, before they have their hashed names.
+const FONT: &str = "stix-two:";
+
+/// How scripts name the figures' style sheet.
+const LOOK: &str = "epipole-look";
+
+/// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
+pub(super) fn add_pages(tools: &Tools, look: &Path, fast: bool, assets: &mut Assets) -> Result<()> {
+    // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
+    let mut css = bundle(
+        tools,
+        "web/theme/book.css",
+        &["--external:stix-two:*"],
+        fast,
+        assets,
+    )?;
+    let path = css.remove("book").context("esbuild made no style sheet")?;
+    let bytes = assets.files.remove(&path).unwrap_or_default();
+    let mut text = String::from_utf8(bytes)?;
+    while let Some(start) = text.find(FONT) {
+        let name: String = text[start + FONT.len()..]
+            .chars()
+            .take_while(|c| c.is_ascii_alphanumeric() || *c == '-')
+            .collect();
+        let url = fonts::font_url(assets, &name)?;
+        text.replace_range(start..start + FONT.len() + name.len(), &url);
+    }
+    assets.css = add_hashed(&mut assets.files, "book", "css", text.into_bytes());
+
+    let look = format!("--alias:{LOOK}={}", look.display());
+    let before = ["--format=iife", &look];
+    let head = bundle(tools, "web/book/head.ts", &before, fast, assets)?;
+    assets.head = head
+        .get("head")
+        .cloned()
+        .context("esbuild made no head.js")?;
+    let module = ["--format=esm", "--splitting"];
+    let page = bundle(tools, "web/book/page.ts", &module, fast, assets)?;
+    assets.page = page
+        .get("page")
+        .cloned()
+        .context("esbuild made no page.js")?;
+    Ok(())
+}
+
+/// The custom elements: `web/src/worker.ts` first, as the elements name it, then
+/// `web/src/index.ts`. The sources find the other files beside their own through the constants
+/// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, the generated bindings as the modules
+/// `epipole-web` and `epipole-jobs`, and the file `look` as `epipole-look`.
+pub(super) fn add_elements(
+    tools: &Tools,
+    modules: &Modules,
+    look: &Path,
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<()> {
+    let Modules { figures, jobs } = modules;
+    let mut add =
+        |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
+    let figures_wasm = add("epipole-figures", &figures.wasm);
+    let jobs_wasm = add("epipole-jobs", &jobs.wasm);
+    let define = |name: &str, path: &str| {
+        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
+    };
+    let mut flags = vec![
+        "--format=esm".to_owned(),
+        format!("--alias:epipole-web={}", figures.glue.display()),
+        format!("--alias:epipole-jobs={}", jobs.glue.display()),
+        format!("--alias:{LOOK}={}", look.display()),
+        define("EPIPOLE_WASM", &figures_wasm),
+        define("EPIPOLE_JOBS_WASM", &jobs_wasm),
+    ];
+    let source = "web/src/worker.ts";
+    let mut worker = None;
+    if tools.project.join(source).is_file() {
+        let made = bundle(tools, source, &borrowed(&flags), fast, assets)?;
+        let made = made.get("worker").context("esbuild made no worker.js")?;
+        flags.push(define("EPIPOLE_WORKER", made));
+        worker = Some(made.clone());
+    }
+    let made = bundle(tools, "web/src/index.ts", &borrowed(&flags), fast, assets)?;
+    let elements = made
+        .get("index")
+        .context("esbuild made no script for the elements")?;
+    let parts = embed::Parts {
+        elements,
+        worker: worker.as_deref(),
+        figures: &figures_wasm,
+        jobs: &jobs_wasm,
+    };
+    embed::add(tools, &parts, assets)?;
+    assets.elements = Some(elements.clone());
+    let frame = bundle(tools, "web/book/frame.ts", &["--format=esm"], fast, assets)?;
+    assets.frame = frame.get("frame").cloned();
+    let styles = bundle(tools, "web/theme/frame.css", &[], fast, assets)?;
+    assets.frame_css = styles.get("frame").cloned().unwrap_or_default();
+    Ok(())
+}
+
+/// The page of the Lab and its workers: style sheet and script.
+pub(super) fn add_lab(
+    tools: &Tools,
+    [page, vision, files]: [&Module; 3],
+    sample: &str,
+    assets: &mut Assets,
+) -> Result<(String, String)> {
+    let mut add =
+        |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
+    let page_wasm = add("lab-page", &page.wasm);
+    let vision_wasm = add("lab-vision", &vision.wasm);
+    let files_wasm = add("lab-files", &files.wasm);
+    let define = |name: &str, path: &str| {
+        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
+    };
+    let mut flags = vec![
+        "--format=esm".to_owned(),
+        format!("--alias:epipole-lab-page={}", page.glue.display()),
+        format!("--alias:epipole-lab-vision={}", vision.glue.display()),
+        format!("--alias:epipole-lab-files={}", files.glue.display()),
+        define("LAB_PAGE_WASM", &page_wasm),
+        define("LAB_VISION_WASM", &vision_wasm),
+        define("LAB_FILES_WASM", &files_wasm),
+        define("LAB_SAMPLE", sample),
+    ];
+    let made = bundle(tools, "web/lab/worker.ts", &borrowed(&flags), false, assets)?;
+    let worker = made.get("worker").context("esbuild made no worker.js")?;
+    flags.push(define("LAB_WORKER", worker));
+    let made = bundle(tools, "web/lab/lab.ts", &borrowed(&flags), false, assets)?;
+    let script = made.get("lab").cloned().context("esbuild made no lab.js")?;
+    let made = bundle(tools, "web/lab/lab.css", &[], false, assets)?;
+    let css = made
+        .get("lab")
+        .cloned()
+        .context("esbuild made no lab.css")?;
+    Ok((css, script))
+}
+
+/// The style sheet of the figures: scripts carry it, and a shadow root names it while none has run.
+/// Returns the bundled file.
+pub(super) fn add_look(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<PathBuf> {
+    let made = bundle(tools, "web/src/figure.css", &[], fast, assets)?;
+    let path = made.get("figure").context("esbuild made no figure.css")?;
+    assets.figure_css = Some(path.clone());
+    let name = path.trim_start_matches("assets/");
+    Ok(tools.work.join("bundle/figure").join(name))
+}
+
+fn borrowed(flags: &[String]) -> Vec<&str> {
+    flags.iter().map(String::as_str).collect()
+}
+
+#[derive(Deserialize)]
+struct Report {
+    outputs: BTreeMap<PathBuf, Output>,
+}
+
+#[derive(Deserialize)]
+struct Output {
+    #[serde(rename = "entryPoint")]
+    entry: Option<PathBuf>,
+}
+
+/// Bundles one entry into `assets`. Returns name of the entry → path.
+fn bundle(
+    tools: &Tools,
+    entry: &str,
+    flags: &[&str],
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<BTreeMap<String, String>> {
+    let stem = Path::new(entry)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let folder = tools.work.join("bundle").join(&stem);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder)?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let report = tools.work.join(format!("{stem}.json"));
+    let mut command = Command::new(tools.modules.join(".bin/esbuild"));
+    command
+        .arg(entry)
+        .args([
+            "--bundle",
+            "--target=es2022,chrome107,firefox104,safari16",
+            "--log-level=warning",
+            // What is imported for what it does must not be left out.
+            "--log-override:ignored-bare-import=error",
+        ])
+        .args([
+            "--entry-names=[name]-[hash]",
+            "--chunk-names=[name]-[hash]",
+            "--legal-comments=none",
+        ])
+        .arg(format!("--outdir={}", folder.display()))
+        .arg(format!("--metafile={}", report.display()))
+        .args(flags);
+    if !fast {
+        command.arg("--minify");
+    }
+    tools.run(&mut command)?;
+    let report: Report = serde_json::from_slice(&read(&report)?)?;
+    let mut entries = BTreeMap::new();
+    for (path, output) in report.outputs {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let to = format!("assets/{name}");
+        assets
+            .files
+            .insert(to.clone(), read(&tools.project.join(&path))?);
+        if output
+            .entry
+            .is_some_and(|from| from.file_stem() == Path::new(entry).file_stem())
+        {
+            entries.insert(stem.clone(), to);
+        }
+    }
+    Ok(entries)
+}

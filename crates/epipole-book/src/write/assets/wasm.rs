@@ -1,0 +1,180 @@
+//! The figures as WebAssembly: cargo and wasm-bindgen (as a library).
+//!
+//! Two modules of the same crate: the figures, which every page with a figure loads, and their long
+//! computations, which a worker loads when a figure asks for one.
+
+use super::likeness;
+use crate::tools::{Tools, read, target_folder};
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use wasm_bindgen_cli_support::Bindgen;
+
+/// A module and the script that loads it.
+pub(crate) struct Module {
+    /// The module as readers download it.
+    pub(super) wasm: Vec<u8>,
+    /// The generated script.
+    pub(super) glue: PathBuf,
+}
+
+/// What the elements load.
+pub(crate) struct Modules {
+    /// What a page calls; the elements import its script as `epipole-web`.
+    pub(super) figures: Module,
+    /// What a worker calls; it imports the script as `epipole-jobs`.
+    pub(super) jobs: Module,
+}
+
+/// Builds the modules of the book.
+pub(super) fn make(tools: &Tools) -> Result<Modules> {
+    Ok(Modules {
+        figures: build(tools, "epipole-web", "figures")?,
+        jobs: build(tools, "epipole-web", "jobs")?,
+    })
+}
+
+/// A setting of cargo: what the compiler is told of every crate. Cargo joins it to what `.cargo/config.toml` says.
+///
+/// By it the paths of this machine stay out of the modules, where panics name the file that they come from: the same
+/// source gives the same bytes wherever it is built.
+fn for_every_crate(project: &Path, more: &[&str]) -> String {
+    let home = std::env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    let packages = home.map(|home| (home.join("registry").join("src"), "registry"));
+    let flags: Vec<String> = packages
+        .into_iter()
+        .chain([(project.to_path_buf(), "epipole")])
+        .map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()))
+        .chain(more.iter().map(|&flag| flag.to_owned()))
+        .map(|flag| format!("{flag:?}"))
+        .collect();
+    format!(
+        "target.wasm32-unknown-unknown.rustflags=[{}]",
+        flags.join(", ")
+    )
+}
+
+/// The profile of cargo for a module: what a page draws with is small, what a worker computes with is fast.
+fn profile(feature: &str) -> &'static str {
+    match feature == "jobs" || feature.ends_with("-worker") {
+        true => "web-worker",
+        false => "web",
+    }
+}
+
+/// How a module is compiled beyond its profile.
+#[derive(Default)]
+struct Way {
+    /// Arguments of `cargo rustc`.
+    of_cargo: &'static [&'static str],
+    /// Arguments of the compiler for every crate.
+    of_every_crate: &'static [&'static str],
+    /// Its arguments where the module is linked.
+    of_linking: &'static [&'static str],
+}
+
+/// How the module of a feature is compiled.
+///
+/// Cargo leaves link-time optimization out where a library is an rlib as well as a cdylib, so the figures and their
+/// computations are asked for as a cdylib alone. The whole is optimized once more then, in which nalgebra's small
+/// functions, compiled for size, go into the loops that call them. Computations are compiled for speed; limits for
+/// inlining and unrolling, in every crate, since most of both is done before the whole is linked, give back what makes
+/// the module large and hardly faster.
+fn way(package: &str, feature: &str) -> Way {
+    const AS_ONE: &[&str] = &["--crate-type", "cdylib"];
+    match (package, feature) {
+        ("epipole-web", "jobs") => Way {
+            of_cargo: AS_ONE,
+            of_every_crate: &[
+                "-C",
+                "llvm-args=-inline-threshold=25",
+                "-C",
+                "llvm-args=-unroll-threshold=120",
+            ],
+            of_linking: &[
+                "-C",
+                "llvm-args=-unroll-runtime=false",
+                "-C",
+                "llvm-args=-force-vector-interleave=1",
+            ],
+        },
+        ("epipole-web", "figures") => Way {
+            of_cargo: AS_ONE,
+            ..Way::default()
+        },
+        _ => Way::default(),
+    }
+}
+
+/// Builds one module: a package with one of its features.
+pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
+    let target = target_folder(&tools.project);
+    let profile = profile(feature);
+    let way = way(package, feature);
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["rustc", "--package", package, "--lib"])
+        .args(way.of_cargo)
+        .args(["--no-default-features", "--features", feature])
+        .args([
+            "--target",
+            "wasm32-unknown-unknown",
+            "--profile",
+            profile,
+            "--quiet",
+        ])
+        .arg("--config")
+        .arg(for_every_crate(&tools.project, way.of_every_crate))
+        .arg("--")
+        .args(way.of_linking)
+        .current_dir(&tools.project)
+        .stdout(Stdio::null())
+        .status()
+        .context("cargo cannot be started")?;
+    anyhow::ensure!(
+        status.success(),
+        "{package} does not build for the browser (is the target there? \
+         `rustup target add wasm32-unknown-unknown`)"
+    );
+    let file = format!(
+        "wasm32-unknown-unknown/{profile}/{}.wasm",
+        package.replace('-', "_")
+    );
+    let built = target.join(file);
+    let folder = tools.work.join("bindgen");
+    let name = match package {
+        "epipole-web" => format!("epipole_{feature}"),
+        other => format!("{other}_{feature}").replace('-', "_"),
+    };
+    Bindgen::new()
+        .input_path(&built)
+        .out_name(&name)
+        .web(true)?
+        .omit_default_module_path(true)
+        .remove_name_section(true)
+        .remove_producers_section(true)
+        .generate(&folder)
+        .context("wasm-bindgen failed")?;
+    let path = folder.join(format!("{name}_bg.wasm"));
+    let wasm = likeness::ordered(&read(&path)?)?;
+    std::fs::write(&path, &wasm).with_context(|| format!("cannot write {}", path.display()))?;
+    Ok(Module {
+        wasm,
+        glue: folder.join(format!("{name}.js")),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_of_this_machine_are_named_anew() {
+        let setting = for_every_crate(Path::new("/a place/epipole"), &["-C"]);
+        assert!(setting.starts_with("target.wasm32-unknown-unknown.rustflags=["));
+        assert!(setting.contains("\"--remap-path-prefix=/a place/epipole=epipole\""));
+        assert!(setting.contains("registry"));
+        assert!(setting.ends_with(", \"-C\"]"));
+    }
+}

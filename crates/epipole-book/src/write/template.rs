@@ -1,0 +1,241 @@
+//! A page around its content: `web/theme/index.hbs` and what it may use.
+
+use super::assets::Assets;
+use super::policy::CONTENT_SECURITY_POLICY;
+use crate::html::path_to_root;
+use crate::parse::book::Entry;
+use crate::render::links::LAB_FOLDER;
+use crate::render::page::Page;
+use anyhow::{Context, Result};
+use handlebars::Handlebars;
+use mdbook_driver::config::Config;
+use serde::Serialize;
+use std::path::Path;
+
+/// The template and what is the same on all pages.
+pub(crate) struct Template<'a> {
+    handlebars: Handlebars<'static>,
+    book_title: String,
+    description: String,
+    language: String,
+    assets: &'a Assets,
+    search: &'a str,
+    live: bool,
+}
+
+#[derive(Serialize)]
+struct Data<'a> {
+    language: &'a str,
+    /// `Chapter · Book`, or the book alone on its first page.
+    title: String,
+    book_title: &'a str,
+    description: &'a str,
+    /// From this page to the folder of the site: empty or `../`s.
+    root: &'a str,
+    policy: &'a str,
+    content: &'a str,
+    page_class: &'a str,
+    assets: &'a Assets,
+    has_figures: bool,
+    /// Titles of works are in italics everywhere on their page, so nothing should move when those come.
+    has_references: bool,
+    search: &'a str,
+    live: bool,
+    #[serde(flatten)]
+    nav: &'a Nav,
+}
+
+/// Where a page stands in the book.
+#[derive(Serialize, Default)]
+pub(crate) struct Nav {
+    entries: Vec<NavEntry>,
+    previous: Option<NavLink>,
+    next: Option<NavLink>,
+}
+
+#[derive(Serialize, Default)]
+struct NavEntry {
+    part: Option<String>,
+    separator: bool,
+    chapter: bool,
+    number: Option<String>,
+    title: String,
+    path: Option<String>,
+    current: bool,
+    sections: Vec<NavSection>,
+}
+
+#[derive(Serialize)]
+struct NavSection {
+    id: String,
+    html: String,
+}
+
+#[derive(Serialize)]
+struct NavLink {
+    number: Option<String>,
+    title: String,
+    path: String,
+}
+
+impl Nav {
+    /// The place of `pages[index]`; beyond the last page, a place outside the book.
+    pub(crate) fn new(entries: &[Entry], pages: &[Page], index: usize) -> Nav {
+        let current = pages.get(index);
+        let link = |page: &Page| NavLink {
+            number: page.number.clone(),
+            title: page.title.clone(),
+            path: page.path.clone(),
+        };
+        let entries = entries
+            .iter()
+            .map(|entry| match entry {
+                Entry::Part(title) => NavEntry {
+                    part: Some(title.clone()),
+                    ..NavEntry::default()
+                },
+                Entry::Separator => NavEntry {
+                    separator: true,
+                    ..NavEntry::default()
+                },
+                Entry::Chapter {
+                    number,
+                    title,
+                    path,
+                } => {
+                    let page = current.filter(|page| path.as_ref() == Some(&page.path));
+                    let sections = page.map(sections).unwrap_or_default();
+                    NavEntry {
+                        chapter: true,
+                        number: number.clone(),
+                        title: title.clone(),
+                        path: path.clone(),
+                        current: page.is_some(),
+                        sections,
+                        ..NavEntry::default()
+                    }
+                }
+            })
+            .collect();
+        Nav {
+            entries,
+            previous: index
+                .checked_sub(1)
+                .and_then(|before| pages.get(before))
+                .map(link),
+            next: pages.get(index + 1).map(link),
+        }
+    }
+}
+
+fn sections(page: &Page) -> Vec<NavSection> {
+    let second = page.headings.iter().filter(|heading| heading.level == 2);
+    second
+        .map(|heading| NavSection {
+            id: heading.id.clone(),
+            html: heading.html.clone(),
+        })
+        .collect()
+}
+
+impl<'a> Template<'a> {
+    pub(crate) fn load(
+        file: &Path,
+        config: &Config,
+        assets: &'a Assets,
+        search: &'a str,
+        live: bool,
+    ) -> Result<Template<'a>> {
+        let source = std::fs::read_to_string(file)
+            .with_context(|| format!("{} cannot be read", file.display()))?;
+        let mut handlebars = Handlebars::new();
+        handlebars.set_strict_mode(true);
+        handlebars
+            .register_template_string("page", source)
+            .with_context(|| format!("{} is not a template", file.display()))?;
+        Ok(Template {
+            handlebars,
+            book_title: config
+                .book
+                .title
+                .clone()
+                .unwrap_or_else(|| "Book".to_owned()),
+            description: config.book.description.clone().unwrap_or_default(),
+            language: config
+                .book
+                .language
+                .clone()
+                .unwrap_or_else(|| "en".to_owned()),
+            assets,
+            search,
+            live,
+        })
+    }
+
+    /// The HTML of a page.
+    pub(crate) fn page(&self, page: &Page, nav: &Nav) -> Result<String> {
+        let title = if page.path == "index.html" {
+            self.book_title.clone()
+        } else {
+            format!("{} · {}", page.title, self.book_title)
+        };
+        let description = if page.description.is_empty() {
+            &self.description
+        } else {
+            &page.description
+        };
+        let root = path_to_root(&page.path);
+        let class = if page.number.is_some() {
+            "chapter"
+        } else {
+            "plain"
+        };
+        let data = Data {
+            language: &self.language,
+            title,
+            book_title: &self.book_title,
+            description,
+            root: &root,
+            policy: CONTENT_SECURITY_POLICY,
+            content: &page.html,
+            page_class: class,
+            assets: self.assets,
+            has_figures: !page.figures.is_empty() && self.assets.elements.is_some(),
+            has_references: page.has_references,
+            search: self.search,
+            live: self.live,
+            nav,
+        };
+        let html = self.handlebars.render("page", &data);
+        html.with_context(|| format!("the page {} cannot be made", page.path))
+    }
+
+    /// What a server shows for an address that does not exist. Its links are relative to the
+    /// folder of the site.
+    pub(crate) fn not_found(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
+        let page = Page {
+            path: "404.html".to_owned(),
+            title: "Page not found".to_owned(),
+            html: "<h1>There is no such page</h1>\n<p>The address may have changed. The contents \
+                   and the search lead to every chapter.</p>\n"
+                .to_owned(),
+            ..Page::default()
+        };
+        self.page(&page, &Nav::new(entries, pages, pages.len() + 1))
+    }
+
+    /// What stands where the Lab will be until it is built: building it takes minutes, and the book links to it.
+    pub(crate) fn without_lab(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
+        let page = Page {
+            path: format!("{LAB_FOLDER}/index.html"),
+            title: "The Lab".to_owned(),
+            html: "<h1>The Lab</h1>\n<p>The Lab takes your own photographs all the way to a measured cloud of points. \
+                   It is not part of this copy of the book: whoever builds the book adds it with <code>make \
+                   lab</code>, which takes some minutes. The <a href=\"../index.html\">book</a> works \
+                   without it.</p>\n"
+                .to_owned(),
+            ..Page::default()
+        };
+        self.page(&page, &Nav::new(entries, pages, pages.len() + 1))
+    }
+}
