@@ -226,7 +226,7 @@ mod tests {
                     for [a, b] in [[corner(0.0), corner(1.0)], [corner(1.0), corner(2.0)]] {
                         let slope = (b.x - a.x) / (b.y - a.y);
                         // Far enough from both ends for windows of 5 pixels on either side.
-                        let (top, bottom) = (a.y.min(b.y) + 12.0, a.y.max(b.y) - 12.0);
+                        let (top, bottom) = (a.y.min(b.y) + 8.0, a.y.max(b.y) - 8.0);
                         for v in top.ceil() as u32..bottom.floor() as u32 {
                             let truth = a.x + slope * (f64::from(v) - a.y);
                             let middle = truth.round() as u32;
