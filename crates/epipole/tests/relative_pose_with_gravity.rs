@@ -86,10 +86,8 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
             &s.p2,
-            &s.k,
-            &s.k,
-            g1,
-            g2,
+            [&s.k, &s.k],
+            [g1, g2],
             &options,
             &mut (),
         )
@@ -141,10 +139,8 @@ fn exact_matches_give_the_truth() {
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
             &s.p2,
-            &s.k,
-            &s.k,
-            g1,
-            g2,
+            [&s.k, &s.k],
+            [g1, g2],
             &options,
             &mut (),
         )
@@ -165,10 +161,8 @@ fn bad_input_is_refused() {
         estimate_relative_pose_with_gravity(
             &s.p1[..n],
             &s.p2[..m],
-            &s.k,
-            &s.k,
-            gravity,
-            &s.gravity[1],
+            [&s.k, &s.k],
+            [gravity, &s.gravity[1]],
             &options,
             &mut (),
         )
@@ -201,10 +195,8 @@ fn bad_input_is_refused() {
     let turn = estimate_relative_pose_with_gravity(
         &s.p1,
         &turned,
-        &s.k,
-        &s.k,
-        &down,
-        &s.gravity[1],
+        [&s.k, &s.k],
+        [&down, &s.gravity[1]],
         &options,
         &mut (),
     );

@@ -277,8 +277,8 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
         }
     }
-    let mut lenses = vec![Lens::from(lens(LensKind::Fisheye)); 6];
-    lenses[5] = brown.into();
+    let mut lenses = vec![lens(LensKind::Fisheye); 6];
+    lenses[5] = brown;
     let options = SfmOptions {
         lenses,
         ..SfmOptions::default()
@@ -369,7 +369,7 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
-        wrong.lenses = vec![lens(kind).into()];
+        wrong.lenses = vec![lens(kind)];
         let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
         if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut ()) {

@@ -3,7 +3,7 @@
 //! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is intrinsics and a rigid transform.
 //! Camera frame: x right, y down, z forward.
 
-mod camera;
+mod calibrated;
 mod distortion;
 mod division;
 mod fisheye;
@@ -20,7 +20,7 @@ mod rational;
 mod rigid;
 mod unbend;
 
-pub use camera::Camera;
+pub use calibrated::Camera;
 pub use distortion::Distortion;
 pub use division::Division;
 pub use fisheye::Fisheye;

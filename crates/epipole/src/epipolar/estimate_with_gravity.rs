@@ -164,7 +164,7 @@ impl Estimator for GravityEstimator {
 /// let gravity1 = Vector3::new(0.1, 1.0, 0.2);
 /// let gravity2 = cam2_from_cam1.rotation * gravity1;
 /// let options = RansacOptions::default();
-/// let report = estimate_relative_pose_with_gravity(&p1, &p2, &k, &k, &gravity1, &gravity2, &options, &mut ())?;
+/// let report = estimate_relative_pose_with_gravity(&p1, &p2, [&k, &k], [&gravity1, &gravity2], &options, &mut ())?;
 /// let found = report.model.cam2_from_cam1();
 /// assert!(report.num_inliers >= 20);
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
@@ -174,10 +174,8 @@ impl Estimator for GravityEstimator {
 pub fn estimate_relative_pose_with_gravity(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
-    gravity1: &Vector3<f64>,
-    gravity2: &Vector3<f64>,
+    [k1, k2]: [&Intrinsics; 2],
+    [gravity1, gravity2]: [&Vector3<f64>; 2],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RelativePose>> {
