@@ -29,31 +29,6 @@ pub(crate) fn imports(source: &Path) -> BTreeMap<String, BTreeSet<String>> {
     imports.collect()
 }
 
-/// Groups of files that import each other, directly or by way of others.
-pub(crate) fn circles(imports: &BTreeMap<String, BTreeSet<String>>) -> Vec<Vec<&String>> {
-    let reached = |from: &String| {
-        let mut found: BTreeSet<&String> = BTreeSet::new();
-        let mut open: Vec<&String> = imports[from].iter().collect();
-        while let Some(next) = open.pop() {
-            if found.insert(next) {
-                open.extend(&imports[next]);
-            }
-        }
-        found
-    };
-    let reached: BTreeMap<&String, _> = imports.keys().map(|from| (from, reached(from))).collect();
-    let circle = |from: &&String| {
-        let others = reached[*from].iter().copied();
-        let circle = others.filter(|other| reached[*other].contains(*from));
-        circle.collect::<Vec<_>>()
-    };
-    let circles: BTreeSet<Vec<&String>> = imports.keys().map(|from| circle(&from)).collect();
-    circles
-        .into_iter()
-        .filter(|circle| !circle.is_empty())
-        .collect()
-}
-
 /// All paths of a file's code, lists in braces taken apart.
 fn paths(code: &str) -> Vec<String> {
     let mut paths = Vec::new();

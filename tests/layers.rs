@@ -338,16 +338,6 @@ fn stages_of_the_builder_run_one_way() {
 }
 
 #[test]
-fn no_circle_of_files_in_the_builder() {
-    let imports = imports::imports(&root().join("crates/epipole-book/src"));
-    let circles = imports::circles(&imports);
-    assert!(
-        circles.is_empty(),
-        "files that import each other: {circles:#?}"
-    );
-}
-
-#[test]
 fn only_the_canvas_names_the_rasterizer() {
     let source = root().join("crates/epipole-canvas/src");
     for file in files_below(&source, &["rs"]) {

@@ -1,7 +1,7 @@
 //! The loop at a threshold that the data themselves give.
 
 use super::noise::{Background, noise_scale_px};
-use super::run::run_to_end;
+use super::to_end::run_to_end;
 use super::{Estimator, Ransac, RansacOptions, RansacReport, log10_false_alarms};
 use crate::progress::{Monitor, Part};
 use crate::{Error, Result};

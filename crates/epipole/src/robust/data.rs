@@ -1,7 +1,17 @@
 //! The data of a robust problem.
 
-use super::{MatchSet, Support, Unique, chance_near_line, chance_near_point};
+use super::{MatchSet, Unique, chance_near_line, chance_near_point};
 use nalgebra::Point2;
+
+/// Support of a model among the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    /// `Σ min(1, e²/T²)` over the data: 0 if all fit exactly. An incomplete sum, larger than the
+    /// limit, if the scoring was broken off.
+    pub cost: f64,
+    /// Number of data within the threshold, among those looked at.
+    pub num_inliers: usize,
+}
 
 /// The data of a robust problem, addressed by index `0..len()`.
 ///

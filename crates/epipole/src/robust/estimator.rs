@@ -1,17 +1,7 @@
 //! The interface between a robust problem and the loop.
 
-use super::Data;
+use super::{Data, Support};
 use crate::math::random::Random;
-
-/// Support of a model among the data.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Support {
-    /// `Σ min(1, e²/T²)` over the data: 0 if all fit exactly. An incomplete sum, larger than the
-    /// limit, if the scoring was broken off.
-    pub cost: f64,
-    /// Number of data within the threshold, among those looked at.
-    pub num_inliers: usize,
-}
 
 /// Description of a robust problem.
 #[derive(Debug, Clone, Copy)]

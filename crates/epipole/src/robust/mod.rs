@@ -26,14 +26,15 @@ mod run;
 mod sampler;
 mod similarity;
 mod step;
+mod to_end;
 mod unique;
 
 pub use budget::{num_trials_with_replacement, num_trials_without_replacement};
 pub use chance::log10_false_alarms;
 pub(crate) use chance::{chance_near_line, chance_near_point};
-pub use data::Data;
+pub use data::{Data, Support};
 pub use engine::Ransac;
-pub use estimator::{Estimator, Evidence, Problem, Support};
+pub use estimator::{Estimator, Evidence, Problem};
 pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;
