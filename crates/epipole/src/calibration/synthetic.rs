@@ -267,7 +267,8 @@ mod tests {
                 }
             }
             assert!((area - PI * radius_px * radius_px).abs() < 0.01, "{area}");
-            assert!((moment / area).norm() < 1e-4, "{moment}");
+            // A gray value tells how much of its pixel is covered, not where in it: the centroid is known to 1/1000 px.
+            assert!((moment / area).norm() < 1e-3, "{}", moment / area);
         }
     }
 }
