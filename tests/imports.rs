@@ -111,14 +111,3 @@ fn paths_are_taken_apart() {
     assert_eq!(absolute("super::f", "a::b"), "a::f");
     assert_eq!(absolute("super::f", "a"), "f");
 }
-
-#[test]
-fn circles_are_found() {
-    let of = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
-    let imports = BTreeMap::from([
-        ("a".to_owned(), of(&["b"])),
-        ("b".to_owned(), of(&["c"])),
-        ("c".to_owned(), of(&["b"])),
-    ]);
-    assert_eq!(circles(&imports), [["b", "c"]]);
-}
