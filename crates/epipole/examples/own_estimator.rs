@@ -23,8 +23,7 @@ impl Circles {
 
 #[rustfmt::skip]
 impl Estimator for Circles {
-    /// Center and radius, pixels.
-    type Model = (Point2<f64>, f64);
+    type Model = (Point2<f64>, f64); // center and radius, pixels
     fn problem(&self) -> Problem<'_> {
         Problem { name: "a circle from points", sample_size: 3, max_models: 1, codimension: 1, data: Data::Other(self.0.len()) }
     }
