@@ -96,7 +96,11 @@ fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize
     const OTHERS: usize = 2;
     /// Fewer lie on some line in any case.
     const LEAST: usize = 5;
-    let options = ransac.within(2.0 * ransac.max_error_px);
+    // Where all but two lie on a line, nearly every sample finds it.
+    let options = RansacOptions {
+        max_iterations: ransac.max_iterations.min(1000),
+        ..ransac.within(2.0 * ransac.max_error_px)
+    };
     // Where all are the same there is no line, and nothing to say that was not said.
     let lines = LineEstimator::new(pixels).ok()?;
     let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
