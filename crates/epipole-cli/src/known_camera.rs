@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::lens;
 use crate::photo::{Photo, SizeArguments};
 use clap::Args;
-use epipole::camera::{Camera, Intrinsics, Observation};
+use epipole::camera::Camera;
 use nalgebra::Point2;
 use std::path::{Path, PathBuf};
 
@@ -116,72 +116,35 @@ impl CameraFile {
     }
 }
 
-/// What a photograph shows at some pixels; `None` where its lens bends no ray to.
+/// The cameras of two photographs with their lenses. Warns of a guessed focal length.
 ///
-/// * `k`: of the photograph
-pub(crate) fn seen_rays(
-    photo: &Photo,
-    k: &Intrinsics,
-    pixels: impl Iterator<Item = Point2<f64>>,
-) -> Vec<Option<Observation>> {
-    let camera = photo.camera(*k);
-    pixels.map(|pixel| camera.observe(&pixel).ok()).collect()
+/// # Errors
+/// As [`PairArguments::or_guess`].
+pub(crate) fn known_cameras(
+    arguments: &PairArguments,
+    context: &Context,
+    photos: &[Photo; 2],
+) -> Result<[Camera; 2], Failure> {
+    let ([k1, k2], guess) = arguments.or_guess(photos)?;
+    if let Some(sentence) = guess {
+        context.warn(&sentence);
+    }
+    Ok([photos[0].camera(k1), photos[1].camera(k2)])
 }
 
-/// The matches that the lenses of both photographs see.
-pub(crate) struct SeenMatches {
-    pub(crate) rays: [Vec<Observation>; 2],
-    /// Of each match, whether they do.
-    pub(crate) is_seen: Vec<bool>,
-}
-
-impl SeenMatches {
-    /// With the intrinsics of both photographs. Tells how many matches are left out.
-    ///
-    /// * `pixels`: of the matches, in both photographs
-    ///
-    /// # Errors
-    /// As [`PairArguments::or_guess`].
-    pub(crate) fn of(
-        camera: &PairArguments,
-        context: &Context,
-        photos: &[Photo; 2],
-        pixels: [&[Point2<f64>]; 2],
-    ) -> Result<(Self, [Intrinsics; 2]), Failure> {
-        let (intrinsics, guess) = camera.or_guess(photos)?;
-        if let Some(sentence) = guess {
-            context.warn(&sentence);
-        }
-        let side = |n: usize| seen_rays(&photos[n], &intrinsics[n], pixels[n].iter().copied());
-        let (seen1, seen2) = (side(0), side(1));
-        let mut seen = Self {
-            rays: [Vec::new(), Vec::new()],
-            is_seen: Vec::new(),
-        };
-        for pair in seen1.into_iter().zip(seen2) {
-            if let (Some(ray1), Some(ray2)) = pair {
-                seen.rays[0].push(ray1);
-                seen.rays[1].push(ray2);
-            }
-            seen.is_seen.push(matches!(pair, (Some(_), Some(_))));
-        }
-        let num_unseen = seen.is_seen.iter().filter(|is| !**is).count();
-        if num_unseen > 0 {
-            context.warn(&format!(
-                "{num_unseen} of {} matches are left out: the lens of --camera bends no ray to where they are",
-                seen.is_seen.len()
-            ));
-        }
-        Ok((seen, intrinsics))
-    }
-
-    pub(crate) fn pairs(&self) -> impl Iterator<Item = (&Observation, &Observation)> {
-        self.rays[0].iter().zip(&self.rays[1])
-    }
-
-    /// * `mask`: of the matches that are seen
-    pub(crate) fn inliers(&self, mask: &[bool]) -> Vec<[Observation; 2]> {
-        let kept = self.pairs().zip(mask).filter(|(_, is)| **is);
-        kept.map(|((a, b), _)| [*a, *b]).collect()
+/// Warns of matches with a pixel that its lens bends no ray to.
+pub(crate) fn warn_of_unseen(
+    cameras: [&Camera; 2],
+    pixels: [&[Point2<f64>]; 2],
+    context: &Context,
+) {
+    let is_seen = |n: usize, i: usize| cameras[n].observe(&pixels[n][i]).is_ok();
+    let num_matches = pixels[0].len();
+    let seen = (0..num_matches).filter(|&i| is_seen(0, i) && is_seen(1, i));
+    let num_unseen = num_matches - seen.count();
+    if num_unseen > 0 {
+        context.warn(&format!(
+            "{num_unseen} of {num_matches} matches are left out: the lens of --camera bends no ray to where they are"
+        ));
     }
 }

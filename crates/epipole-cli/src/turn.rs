@@ -1,7 +1,7 @@
 //! Cameras that only turned, or hardly moved: E and F mean nothing then, though they fit.
 
 use crate::failure::Failure;
-use epipole::camera::Intrinsics;
+use epipole::camera::{Camera, Intrinsics};
 use epipole::robust::{LineEstimator, RansacOptions};
 use epipole::two_view::{
     Degeneracy, ExplainingTurn, TwoViewOptions, find_degeneracy, find_explaining_turn,
@@ -15,11 +15,11 @@ use nalgebra::Point2;
 pub(crate) fn find_turn(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    [k1, k2]: &[Intrinsics; 2],
+    cameras: [&Camera; 2],
     inliers: &[bool],
     ransac: &RansacOptions,
 ) -> epipole::Result<Option<ExplainingTurn>> {
-    find_explaining_turn(pixels1, pixels2, k1, k2, inliers, &judging(ransac))
+    find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging(ransac))
 }
 
 /// What there is to warn of.

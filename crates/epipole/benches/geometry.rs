@@ -4,6 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use epipole::absolute_pose::pose_p3p;
+use epipole::camera::Camera;
 use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point};
 use epipole::homography::homography_4point;
 use epipole::robust::RansacOptions;
@@ -94,10 +95,26 @@ fn robust(c: &mut Criterion) {
         b.iter(|| estimate_fundamental(&s.pixels1, &s.pixels2, &options(), &mut ()))
     });
     group.bench_function("E 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_relative_pose(&s.pixels1, &s.pixels2, &k, &k, &options(), &mut ()))
+        b.iter(|| {
+            estimate_relative_pose(
+                &s.pixels1,
+                &s.pixels2,
+                [&Camera::pinhole(k, 640, 480); 2],
+                &options(),
+                &mut (),
+            )
+        })
     });
     group.bench_function("P3P 1000, 40 % outliers", |b| {
-        b.iter(|| estimate_absolute_pose(&s.points, &s.pixels2, &k, &options(), &mut ()))
+        b.iter(|| {
+            estimate_absolute_pose(
+                &s.points,
+                &s.pixels2,
+                &Camera::pinhole(k, 640, 480),
+                &options(),
+                &mut (),
+            )
+        })
     });
     let plane = world(3, 1000, 0.4, PLANE);
     group.bench_function("H 1000, 40 % outliers", |b| {

@@ -28,7 +28,9 @@ pub(crate) fn run() -> Result<(), Error> {
         pixels.push(k.project(&(truth * p))?);
     }
     pixels[3].x += 40.0;
-    let found = estimate_absolute_pose(&sheet, &pixels, &k, &RansacOptions::default(), &mut ())?;
+    let camera = Camera::pinhole(k, 640, 480);
+    let found =
+        estimate_absolute_pose(&sheet, &pixels, &camera, &RansacOptions::default(), &mut ())?;
     println!("{} of 8 marks agree", found.num_inliers);
     let cam_from_sheet = found.model;
     // The box is 5 cm high; z points into the table.

@@ -12,7 +12,7 @@
 mod clock;
 
 use clock::now;
-use epipole::camera::Intrinsics;
+use epipole::camera::{Camera, Intrinsics};
 use epipole::robust::{RansacOptions, RansacReport};
 use epipole::{estimate_fundamental, estimate_homography, estimate_relative_pose};
 use nalgebra::{Matrix3, Point2};
@@ -62,10 +62,12 @@ fn fit(p: &Problem) -> epipole::Result<RansacReport<Vec<f64>>> {
         1 => {
             let [fu, fv, cu, cv] = p.intrinsics;
             let k = Intrinsics::new(fu, fv, cu, cv)?;
-            estimate_relative_pose(a, b, &k, &k, options, &mut ())?.map(|pose| {
-                let m = pose.cam2_from_cam1().to_matrix();
-                (0..12).map(|i| m[(i / 4, i % 4)]).collect()
-            })
+            estimate_relative_pose(a, b, [&Camera::pinhole(k, 640, 480); 2], options, &mut ())?.map(
+                |pose| {
+                    let m = pose.cam2_from_cam1().to_matrix();
+                    (0..12).map(|i| m[(i / 4, i % 4)]).collect()
+                },
+            )
         }
         _ => estimate_homography(a, b, options, &mut ())?.map(rows_of),
     })

@@ -9,7 +9,7 @@
 mod timing;
 
 use epipole::absolute_pose::pose_p3p;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{essential_5point, fundamental_7point, fundamental_8point};
 use epipole::homography::homography_4point;
 use epipole::robust::RansacOptions;
@@ -80,16 +80,30 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let (ms, found) = time(|| estimate_fundamental(&p.pixels1, &p.pixels2, &options, &mut ()));
         print("F RANSAC", index, ms, &flat(&found?.model));
-        let (ms, found) =
-            time(|| estimate_relative_pose(&p.pixels1, &p.pixels2, &k, &k, &options, &mut ()));
+        let (ms, found) = time(|| {
+            estimate_relative_pose(
+                &p.pixels1,
+                &p.pixels2,
+                [&Camera::pinhole(k, 640, 480); 2],
+                &options,
+                &mut (),
+            )
+        });
         print(
             "E RANSAC",
             index,
             ms,
             &rows_of(&found?.model.cam2_from_cam1()),
         );
-        let (ms, found) =
-            time(|| estimate_absolute_pose(&p.points, &p.pixels2, &k, &options, &mut ()));
+        let (ms, found) = time(|| {
+            estimate_absolute_pose(
+                &p.points,
+                &p.pixels2,
+                &Camera::pinhole(k, 640, 480),
+                &options,
+                &mut (),
+            )
+        });
         print("P3P RANSAC", index, ms, &rows_of(&found?.model));
     }
     for index in 0.. {

@@ -19,6 +19,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         let (camera, first) = photograph(&RigidTransform::identity())?;
         (gray(&first), gray(&photograph(&step)?.1), camera.intrinsics)
     };
+    let camera = Camera::pinhole(k, left.width(), left.height());
     let sift = SiftOptions::default();
     let (left, right) = (
         detect_sift(&left, &sift, &mut ())?,
@@ -34,7 +35,8 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         })
         .unzip();
     let options = TwoViewOptions::default();
-    let found = estimate_two_view_calibrated(&pixels1, &pixels2, &k, &k, &options, &mut ())?;
+    let cameras = [&camera; 2];
+    let found = estimate_two_view_calibrated(&pixels1, &pixels2, cameras, &options, &mut ())?;
     let count = found.num_inliers;
     println!("{count} of {}: {:?}", matches.len(), found.configuration);
     let motion = found.cam2_from_cam1.ok_or("the motion cannot be told")?;

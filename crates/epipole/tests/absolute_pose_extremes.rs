@@ -5,7 +5,7 @@
 use epipole::absolute_pose::{
     estimate_absolute_pose, pose_dlt, refine_absolute_pose, reprojection_error_px,
 };
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::robust::RansacOptions;
@@ -96,9 +96,14 @@ fn refinement_does_not_depend_on_where_the_origin_is() {
             let truth = scene.truth(shift, 1.0);
             let start = RigidTransform::new(Vector3::new(0.02, -0.01, 0.03), turn) * truth;
             let loss = RobustLoss::Trivial;
-            let found =
-                refine_absolute_pose(&start, &points, &scene.pixels, &scene.intrinsics, loss)
-                    .unwrap();
+            let found = refine_absolute_pose(
+                &start,
+                &points,
+                &scene.pixels,
+                &Camera::pinhole(scene.intrinsics, 640, 480),
+                loss,
+            )
+            .unwrap();
             // A least squares estimate fits better than the truth, by six squares of the noise on average.
             let cost = scene.cost(&found, &points);
             assert!(cost < scene.cost(&truth, &points), "{shift}: {cost}");
@@ -133,8 +138,14 @@ fn robust_estimation_does_not_depend_on_where_the_origin_is() {
             };
             let found = |shift: &Vector3<f64>| {
                 let points = scene.points(shift, 1.0);
-                estimate_absolute_pose(&points, &scene.pixels, &scene.intrinsics, &options, &mut ())
-                    .unwrap()
+                estimate_absolute_pose(
+                    &points,
+                    &scene.pixels,
+                    &Camera::pinhole(scene.intrinsics, 640, 480),
+                    &options,
+                    &mut (),
+                )
+                .unwrap()
             };
             let near = found(&Vector3::zeros());
             let shift = Vector3::new(5e5, 5e6, 1.5e6);
@@ -177,7 +188,14 @@ fn refinement_does_not_depend_on_the_unit_of_length() {
         start.translation.vector *= scale;
         let points = scene.points(&zero, scale);
         let loss = RobustLoss::Cauchy { width: 1.0 };
-        refine_absolute_pose(&start, &points, &scene.pixels, &scene.intrinsics, loss).unwrap()
+        refine_absolute_pose(
+            &start,
+            &points,
+            &scene.pixels,
+            &Camera::pinhole(scene.intrinsics, 640, 480),
+            loss,
+        )
+        .unwrap()
     };
     let expected = refined(1.0);
     for scale in [1e-15, 1e-10, 1e-3, 1e3, 1e10, 1e15] {

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::absolute_pose::{estimate_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     RelativePose, essential_5point, essential_8point, essential_from_motion, refine_relative_pose,
 };
@@ -224,7 +224,7 @@ proptest! {
         prop_assert!(pose_error(&order, &before, 5.0) < 1e-7);
 
         let refine = |start: &RigidTransform, points: &[Point3<f64>], pixels: &[Point2<f64>]| {
-            refine_absolute_pose(start, points, pixels, &k, TRIVIAL).unwrap()
+            refine_absolute_pose(start, points, pixels, &Camera::pinhole(k, 640, 480), TRIVIAL).unwrap()
         };
         let start = before;
         let before = refine(&start, &points, &pixels);
@@ -234,12 +234,9 @@ proptest! {
         prop_assert!(pose_error(&order, &before, 5.0) < 1e-7);
 
         let options = RansacOptions { max_error_px: 4.0, seed, ..RansacOptions::default() };
-        let before = estimate_absolute_pose(&points, &pixels, &k, &options, &mut ()).unwrap();
-        let after = estimate_absolute_pose(&moved, &pixels, &k, &options, &mut ()).unwrap();
-        let order = estimate_absolute_pose(
-            &rotated(&points, places), &rotated(&pixels, places), &k, &options,
-            &mut (),
-        ).unwrap();
+        let before = estimate_absolute_pose(&points, &pixels, &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();
+        let after = estimate_absolute_pose(&moved, &pixels, &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();
+        let order = estimate_absolute_pose(&rotated(&points, places), &rotated(&pixels, places), &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();
         prop_assert_eq!(after.num_inliers, before.num_inliers);
         prop_assert_eq!(order.num_inliers, before.num_inliers);
         prop_assert!(pose_error(&after.model, &change.pose(&before.model), length) < 1e-6);
@@ -315,18 +312,13 @@ proptest! {
             prop_assert!(apart(&nearest(&order, &best).unwrap(), &best) < 1e-4);
         }
 
-        let pose = |motion: &RigidTransform, k1: &Intrinsics, k2: &Intrinsics| {
-            RelativePose::from_motion(motion, k1, k2).unwrap()
-        };
-        let start = pose(&motion, &k1, &k2);
-        let refined = refine_relative_pose(&start, &p1, &p2, &k1, &k2, TRIVIAL).unwrap();
-        let back = refine_relative_pose(
-            &pose(&motion.inverse(), &k2, &k1), &p2, &p1, &k2, &k1, TRIVIAL,
-        ).unwrap();
+        let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 640, 480));
+        let start = RelativePose::from_motion(&motion).unwrap();
+        let refined = refine_relative_pose(&start, &p1, &p2, [&one, &two], TRIVIAL).unwrap();
+        let start_back = RelativePose::from_motion(&motion.inverse()).unwrap();
+        let back = refine_relative_pose(&start_back, &p2, &p1, [&two, &one], TRIVIAL).unwrap();
         prop_assert!(apart(&back.essential().transpose(), &refined.essential()) < 1e-5);
-        let order = refine_relative_pose(
-            &start, &rotated(&p1, places), &rotated(&p2, places), &k1, &k2, TRIVIAL,
-        ).unwrap();
+        let order = refine_relative_pose(&start, &rotated(&p1, places), &rotated(&p2, places), [&one, &two], TRIVIAL).unwrap();
         prop_assert!(apart(&order.essential(), &refined.essential()) < 1e-7);
     }
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, RansacReport};
@@ -105,8 +105,14 @@ fn a_found_focal_length_is_better_than_a_guess() {
             let f = factor * scene.k.fu_px();
             let k = Intrinsics::new(f, f, 500.0, 400.0).unwrap();
             let options = RansacOptions::default();
-            let report =
-                estimate_relative_pose(&scene.p1, &scene.p2, &k, &k, &options, &mut ()).unwrap();
+            let report = estimate_relative_pose(
+                &scene.p1,
+                &scene.p2,
+                [&Camera::pinhole(k, 640, 480); 2],
+                &options,
+                &mut (),
+            )
+            .unwrap();
             scene.error_deg(&report.model.cam2_from_cam1())
         };
         known.push(with(1.0));

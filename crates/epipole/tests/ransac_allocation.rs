@@ -8,6 +8,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use epipole::absolute_pose::AbsolutePoseEstimator;
+use epipole::camera::Camera;
 use epipole::epipolar::{EssentialEstimator, FundamentalEstimator};
 use epipole::homography::HomographyEstimator;
 use epipole::robust::{
@@ -102,17 +103,18 @@ fn check_run<E: Estimator>(name: &str, estimator: E, options: RansacOptions) {
 fn no_step_allocates() {
     let world = matches(0);
     let (p1, k) = (&world.pixels1, world.camera1.intrinsics);
+    let camera = Camera::pinhole(k, 640, 480);
     let set = || MatchSet::new(p1, &world.pixels2).unwrap();
     check("line", || LineEstimator::new(p1).unwrap());
     check("similarity", || SimilarityEstimator::new(set()));
     check("homography", || HomographyEstimator::new(set()).unwrap());
     check("fundamental", || FundamentalEstimator::new(set()).unwrap());
     check("essential", || {
-        EssentialEstimator::new(set(), k, k).unwrap()
+        EssentialEstimator::new(p1, &world.pixels2, [&camera; 2]).unwrap()
     });
     check("rotation", || RotationEstimator::new(set(), k, k).unwrap());
     check("absolute pose", || {
-        AbsolutePoseEstimator::new(&world.points, p1, k).unwrap()
+        AbsolutePoseEstimator::new(&world.points, p1, &camera).unwrap()
     });
 }
 

@@ -5,7 +5,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use epipole::camera::Intrinsics;
+use epipole::camera::{Camera, Intrinsics};
 use epipole::epipolar::{fundamental_8point, sampson_px, symmetric_epipolar_px};
 use epipole::homography::transfer_error_px;
 use epipole::robust::RansacOptions;
@@ -219,8 +219,14 @@ fn fountain_relative_pose() {
     let magsac_deg = [0.31, 0.40];
     let t = Vector3::new(6.440001437217612, 0.1140717518472, 1.3006062294314402).normalize();
     for seed in 0..SEEDS {
-        let report =
-            estimate_relative_pose(&m.p1, &m.p2, &k, &k, &options(1.0, seed), &mut ()).unwrap();
+        let report = estimate_relative_pose(
+            &m.p1,
+            &m.p2,
+            [&Camera::pinhole(k, 640, 480); 2],
+            &options(1.0, seed),
+            &mut (),
+        )
+        .unwrap();
         let turn = (report.model.rotation.transpose() * rotation).trace();
         let rotation_deg = libm::acos(((turn - 1.0) / 2.0).clamp(-1.0, 1.0)).to_degrees();
         let direction_deg =

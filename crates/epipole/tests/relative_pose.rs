@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{RelativePose, refine_relative_pose};
 use epipole::estimate_relative_pose;
 use epipole::math::random::Random;
@@ -83,7 +83,14 @@ impl Scene {
             seed,
             ..RansacOptions::default()
         };
-        estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, &options, &mut ()).unwrap()
+        estimate_relative_pose(
+            &self.p1,
+            &self.p2,
+            [&Camera::pinhole(self.k, 640, 480); 2],
+            &options,
+            &mut (),
+        )
+        .unwrap()
     }
 
     /// What least squares makes of the right matches alone, from the pose given on.
@@ -93,7 +100,14 @@ impl Scene {
             kept.map(|(pixel, _)| *pixel).collect()
         };
         let (p1, p2) = (only(&self.p1), only(&self.p2));
-        refine_relative_pose(start, &p1, &p2, &self.k, &self.k, RobustLoss::Trivial).unwrap()
+        refine_relative_pose(
+            start,
+            &p1,
+            &p2,
+            [&Camera::pinhole(self.k, 640, 480); 2],
+            RobustLoss::Trivial,
+        )
+        .unwrap()
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
     RelativePose, estimate_relative_pose, estimate_relative_pose_with_gravity,
 };
@@ -86,7 +86,7 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
             &s.p2,
-            [&s.k, &s.k],
+            [&Camera::pinhole(s.k, 640, 480); 2],
             [g1, g2],
             &options,
             &mut (),
@@ -97,7 +97,14 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
         // What it makes of gravity is what it was given.
         let kept = report.model.rotation * g1;
         assert!(kept.angle(g2) < 1e-6, "{}", kept.angle(g2));
-        let free = estimate_relative_pose(&s.p1, &s.p2, &s.k, &s.k, &options, &mut ()).unwrap();
+        let free = estimate_relative_pose(
+            &s.p1,
+            &s.p2,
+            [&Camera::pinhole(s.k, 640, 480); 2],
+            &options,
+            &mut (),
+        )
+        .unwrap();
         without.push(error(&s, &free.model));
     }
     for list in [&mut with, &mut without] {
@@ -139,7 +146,7 @@ fn exact_matches_give_the_truth() {
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
             &s.p2,
-            [&s.k, &s.k],
+            [&Camera::pinhole(s.k, 640, 480); 2],
             [g1, g2],
             &options,
             &mut (),
@@ -161,7 +168,7 @@ fn bad_input_is_refused() {
         estimate_relative_pose_with_gravity(
             &s.p1[..n],
             &s.p2[..m],
-            [&s.k, &s.k],
+            [&Camera::pinhole(s.k, 640, 480); 2],
             [gravity, &s.gravity[1]],
             &options,
             &mut (),
@@ -195,12 +202,12 @@ fn bad_input_is_refused() {
     let turn = estimate_relative_pose_with_gravity(
         &s.p1,
         &turned,
-        [&s.k, &s.k],
+        [&Camera::pinhole(s.k, 640, 480); 2],
         [&down, &s.gravity[1]],
         &options,
         &mut (),
     );
     if let Ok(report) = turn {
-        assert!(report.model.fundamental.iter().all(|x| x.is_finite()));
+        assert!(report.model.rotation.iter().all(|x| x.is_finite()));
     }
 }

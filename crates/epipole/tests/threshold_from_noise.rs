@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{decompose_essential, select_pose};
 use epipole::math::random::Random;
 use epipole::progress::{Monitor, Status};
@@ -103,8 +103,14 @@ impl Scene {
     }
 
     fn essential(&self, options: &RansacOptions) -> Outcome {
-        let report =
-            estimate_relative_pose(&self.p1, &self.p2, &self.k, &self.k, options, &mut ()).unwrap();
+        let report = estimate_relative_pose(
+            &self.p1,
+            &self.p2,
+            [&Camera::pinhole(self.k, 640, 480); 2],
+            options,
+            &mut (),
+        )
+        .unwrap();
         let error_deg = self.pose_error_deg(&report.model.cam2_from_cam1());
         (error_deg, report.max_error_px)
     }
@@ -287,9 +293,14 @@ fn two_views_share_the_threshold_of_the_fundamental_matrix() {
         ] {
             for seed in 0..5 {
                 let s = scene(seed, 0.4, noise_px, planar);
-                let report =
-                    estimate_two_view_calibrated(&s.p1, &s.p2, &s.k, &s.k, &options, &mut ())
-                        .unwrap();
+                let report = estimate_two_view_calibrated(
+                    &s.p1,
+                    &s.p2,
+                    [&Camera::pinhole(s.k, 640, 480); 2],
+                    &options,
+                    &mut (),
+                )
+                .unwrap();
                 let ratio = report.max_error_px / (IN_ONE * noise_px);
                 assert!((0.6..1.4).contains(&ratio), "{planar} {seed}: {ratio}");
                 assert_eq!(report.configuration, expected, "{noise_px} {seed}");

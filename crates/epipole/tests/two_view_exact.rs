@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     decompose_essential, essential_5point, essential_8point, essential_from_fundamental,
     essential_from_motion, estimate_essential, sampson_sq, select_pose,
@@ -100,7 +100,17 @@ fn a_hundred_pairs_with_known_intrinsics() {
             ransac: options(seed),
             ..TwoViewOptions::default()
         };
-        let report = estimate_two_view_calibrated(p1, p2, &k1, &k2, &choice, &mut ()).unwrap();
+        let report = estimate_two_view_calibrated(
+            p1,
+            p2,
+            [
+                &Camera::pinhole(k1, 640, 480),
+                &Camera::pinhole(k2, 640, 480),
+            ],
+            &choice,
+            &mut (),
+        )
+        .unwrap();
         check_general(&report, seed);
         pair.check(&report.cam2_from_cam1.unwrap(), 1e-6);
         let median = report.median_triangulation_angle_rad.unwrap();
@@ -213,7 +223,17 @@ fn essential_matrices_of_few_and_of_many_matches() {
             let pair = Pair::new(&mut Random::new(1000 + seed), num_matches);
             let [p1, p2] = &pair.pixels;
             let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
-            let report = estimate_essential(p1, p2, &k1, &k2, &options(seed), &mut ()).unwrap();
+            let report = estimate_essential(
+                p1,
+                p2,
+                [
+                    &Camera::pinhole(k1, 640, 480),
+                    &Camera::pinhole(k2, 640, 480),
+                ],
+                &options(seed),
+                &mut (),
+            )
+            .unwrap();
             let truth = essential_from_motion(&pair.motion()).unwrap();
             let error = same_up_to_sign(&report.model, &truth);
             assert!(error < 1e-4, "{num_matches} matches, {seed}: {error}");
@@ -255,9 +275,15 @@ fn repeated_matches_do_not_change_what_is_seen() {
                 estimate_two_view(p1, p2, &choice, &mut ())
                     .unwrap()
                     .configuration,
-                estimate_two_view_calibrated(p1, p2, &k, &k, &choice, &mut ())
-                    .unwrap()
-                    .configuration,
+                estimate_two_view_calibrated(
+                    p1,
+                    p2,
+                    [&Camera::pinhole(k, 640, 480); 2],
+                    &choice,
+                    &mut (),
+                )
+                .unwrap()
+                .configuration,
             ]
         };
         let once = see(&p1, &p2);
@@ -300,8 +326,7 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
     let error = estimate_two_view_calibrated(
         &p1[..1],
         &p2[..1],
-        &k,
-        &k,
+        [&Camera::pinhole(k, 640, 480); 2],
         &TwoViewOptions::default(),
         &mut (),
     );

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::math::random::Random;
 use epipole::progress::{Monitor, Stage, Status};
 use epipole::two_view::{TwoViewOptions, estimate_two_view, estimate_two_view_calibrated};
@@ -37,7 +37,13 @@ fn shares_rise_and_the_work_can_be_canceled_at_any_report() {
     let (p1, p2) = matches(&k);
     let options = TwoViewOptions::default();
     let run = |calibrated: bool, monitor: &mut dyn Monitor| match calibrated {
-        true => estimate_two_view_calibrated(&p1, &p2, &k, &k, &options, monitor),
+        true => estimate_two_view_calibrated(
+            &p1,
+            &p2,
+            [&Camera::pinhole(k, 640, 480); 2],
+            &options,
+            monitor,
+        ),
         false => estimate_two_view(&p1, &p2, &options, monitor),
     };
     for calibrated in [false, true] {
@@ -78,6 +84,12 @@ fn bad_input_is_refused_before_anything_is_drawn() {
         matches!(short, Err(Error::SizeMismatch { .. })),
         "{short:?}"
     );
-    let few = estimate_two_view_calibrated(&p1[..1], &p2[..1], &k, &k, &options, &mut never);
+    let few = estimate_two_view_calibrated(
+        &p1[..1],
+        &p2[..1],
+        [&Camera::pinhole(k, 640, 480); 2],
+        &options,
+        &mut never,
+    );
     assert!(matches!(few, Err(Error::TooFew { .. })), "{few:?}");
 }

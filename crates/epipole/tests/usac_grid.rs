@@ -8,7 +8,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::sampson_px;
 use epipole::homography::transfer_error_px;
 use epipole::math::random::Random;
@@ -187,8 +187,14 @@ fn essential_matrices() {
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
                 let k = &scene.cameras[0].intrinsics;
-                let report = estimate_relative_pose(p1, p2, k, k, options, &mut ())?;
-                let f = report.model.fundamental;
+                let report = estimate_relative_pose(
+                    p1,
+                    p2,
+                    [&Camera::pinhole(*k, 640, 480); 2],
+                    options,
+                    &mut (),
+                )?;
+                let f = report.model.fundamental(k, k)?;
                 let errors = p1.iter().zip(p2).map(|(a, b)| sampson_px(&f, a, b));
                 Ok((report.inliers, errors.collect()))
             };
@@ -239,8 +245,13 @@ fn absolute_poses() {
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let pixels = &scene.pixels[1];
                 let intrinsics = scene.cameras[1].intrinsics;
-                let report =
-                    estimate_absolute_pose(&scene.points, pixels, &intrinsics, options, &mut ())?;
+                let report = estimate_absolute_pose(
+                    &scene.points,
+                    pixels,
+                    &Camera::pinhole(intrinsics, 640, 480),
+                    options,
+                    &mut (),
+                )?;
                 let camera = PosedCamera {
                     intrinsics,
                     cam_from_world: report.model,

@@ -9,7 +9,7 @@ use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::rows;
 use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
 use clap::{Args, ValueEnum};
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
     FundamentalEstimator, GravityEstimator, estimate_relative_pose, sampson_px,
 };
@@ -229,23 +229,27 @@ fn fit(
                 .k
                 .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
+            // A list of pixels does not tell the size of the images, and no estimator asks for it.
+            let cameras = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
+            let cameras = cameras.each_ref();
             let found = match (&arguments.gravity, &arguments.gravity2) {
                 (Some(down1), Some(down2)) => {
-                    let estimator = GravityEstimator::new(set()?, k1, k2, down1, down2)?;
-                    robust.run(estimator, context).map_err(|failure| {
+                    let gravity = [down1, down2];
+                    let estimator = GravityEstimator::new(pixels1, pixels2, cameras, gravity)?;
+                    let found = robust.run(estimator, context).map_err(|failure| {
                         if_unmoved(failure, pixels1, pixels2, &robust.options(context))
-                    })?
+                    })?;
+                    found.map(|(pose, _)| pose)
                 }
                 _ => robust.watched(context, |options, monitor| {
-                    estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
+                    estimate_relative_pose(pixels1, pixels2, cameras, options, monitor)
                 })?,
             };
             let pose = found.model;
-            let errors = pairs()
-                .map(|(a, b)| sampson_px(&pose.fundamental, a, b))
-                .collect();
+            let f = pose.fundamental(&k1, &k2)?;
+            let errors = pairs().map(|(a, b)| sampson_px(&f, a, b)).collect();
             let ransac = robust.options(context).within(found.max_error_px);
-            let turn = find_turn(pixels1, pixels2, &[k1, k2], &found.inliers, &ransac)?;
+            let turn = find_turn(pixels1, pixels2, cameras, &found.inliers, &ransac)?;
             if let (Some(turn), false) = (&turn, found.could_be_chance()) {
                 context.warn(&turn::sentence(turn));
             }

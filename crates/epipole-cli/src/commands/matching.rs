@@ -4,7 +4,7 @@ use crate::camera::{self, CameraArguments};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, rows};
-use crate::known_camera::{CameraFile, seen_rays};
+use crate::known_camera::CameraFile;
 use crate::photo::{Size, SizeArguments};
 use crate::report::Report;
 use crate::{files, picture};
@@ -75,9 +75,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
                 context.warn(&sentence);
             }
             let pixels = found.keypoints.iter().map(|keypoint| keypoint.point());
-            let rays = seen_rays(photo, &k, pixels).into_iter();
-            let rays: Vec<Option<[f64; 3]>> = rays
-                .map(|seen| seen.map(|seen| seen.ray().into()))
+            let camera = photo.camera(k);
+            let rays: Vec<Option<[f64; 3]>> = pixels
+                .map(|pixel| camera.observe(&pixel).ok().map(|seen| seen.ray().into()))
                 .collect();
             nums_seen.push(rays.iter().flatten().count().to_string());
             report = report.field(name, rays);

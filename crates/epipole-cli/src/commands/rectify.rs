@@ -1,13 +1,12 @@
 //! `epipole rectify`: two photographs turned so that matches share a row.
 
-mod lenses;
 mod rig;
 
 use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, matched_pixels};
-use crate::known_camera::CameraFile;
+use crate::known_camera::{CameraFile, known_cameras, warn_of_unseen};
 use crate::matrices::{positive, row_major, share, size};
 use crate::photo::{Photo, SizeArguments, check_same_size};
 use crate::report::Report;
@@ -147,10 +146,7 @@ fn by_matches(
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run_best_first(&found1, &found2)?;
     let [pixels1, pixels2] = matched_pixels(&matches, &found1, &found2);
-    let found = match arguments.known.is_given() {
-        true => lenses::rectify(arguments, context, &photos, [&pixels1, &pixels2])?,
-        false => rectify(arguments, context, &photos, &pixels1, &pixels2)?,
-    };
+    let found = rectify(arguments, context, &photos, &pixels1, &pixels2)?;
     Ok((photos, found, Some(matches.len())))
 }
 
@@ -162,18 +158,26 @@ fn rectify(
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
     let (width, height) = photos[0].color.dimensions();
-    if let Some([k1, k2]) = arguments.camera.given(photos)? {
+    let cameras = if arguments.known.is_given() {
+        let cameras = known_cameras(&arguments.camera, context, photos)?;
+        warn_of_unseen(cameras.each_ref(), [pixels1, pixels2], context);
+        Some(cameras)
+    } else {
+        let given = arguments.camera.given(photos)?;
+        given.map(|[k1, k2]| [photos[0].camera(k1), photos[1].camera(k2)])
+    };
+    if let Some(cameras) = cameras {
+        let both = cameras.each_ref();
         let report = arguments.robust.watched(context, |options, monitor| {
-            estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
+            estimate_relative_pose(pixels1, pixels2, both, options, monitor)
         })?;
         let ransac = (arguments.robust.options(context)).within(report.max_error_px);
-        if let Some(turn) = find_turn(pixels1, pixels2, &[k1, k2], &report.inliers, &ransac)? {
+        if let Some(turn) = find_turn(pixels1, pixels2, both, &report.inliers, &ransac)? {
             context.warn(&turn::sentence(&turn));
         }
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
-        let cameras = [photos[0].camera(k1), photos[1].camera(k2)];
         let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, &arguments.shape())?;
         return Ok(Found {
             homographies: rectification.homographies,

@@ -1,7 +1,7 @@
 //! `epipole two-view`: the geometry of two photographs.
 
+mod errors;
 mod focal;
-mod rays;
 mod search;
 
 use self::search::estimate;
@@ -125,10 +125,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
     }
-    let found = match arguments.known.is_given() {
-        true => rays::estimate(arguments, context, &photos, [&pixels1, &pixels2])?,
-        false => estimate(arguments, context, &photos, &pixels1, &pixels2)?,
-    };
+    let found = estimate(arguments, context, &photos, [&pixels1, &pixels2])?;
 
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
     let of_inliers = found

@@ -2,6 +2,7 @@
 
 use super::convert::{intrinsics, sentence};
 use super::{Calibrated, PairOptions, Progress, Shows, Told, TwoViews, ViewModel, ask};
+use epipole::camera::Camera;
 use epipole::progress::Status;
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
@@ -41,7 +42,9 @@ pub(super) fn two_views(
     };
     how.check().map_err(sentence)?;
     let mut monitor = |status: Status| progress(Told::Share(status.share, ""));
-    let found = estimate_two_view_calibrated(&first, &second, &k1, &k2, &how, &mut monitor);
+    // No estimator asks for the size of the images.
+    let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
+    let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut monitor);
     if found == Err(epipole::Error::Canceled) {
         return Err("stopped".to_owned());
     }

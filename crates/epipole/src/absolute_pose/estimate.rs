@@ -1,44 +1,61 @@
 //! The pose of a camera from points of which many are wrongly matched.
 
 use super::p3p::solve;
-use super::refine::{Pose, PoseProblem, refine, rigid};
-use crate::camera::{Intrinsics, RigidTransform};
+use super::point_errors::{LensPoints, PinholePoints, Pose};
+use super::refine::{PoseProblem, refine, rigid};
+use crate::camera::{Camera, Intrinsics, Observation, RigidTransform};
 use crate::optim::{LmOptions, RobustLoss, Subset};
 use crate::progress::Monitor;
 use crate::robust::{
-    Data, Estimator, FARTHEST_PX, Problem, RansacOptions, RansacReport, Unique, ransac,
+    Data, Estimator, FARTHEST_PX, Problem, RansacOptions, RansacReport, Support, Unique, ransac,
 };
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// Camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is three points; the error is the reprojection error in pixels, infinite behind the camera;
+/// A sample is three points; the error is the reprojection error in pixels, infinite behind the camera, and through
+/// other lenses than pinholes linear about the ray of the pixel ([`Observation::offset_px`]);
 /// refinement minimizes its truncated square. Equal data count once.
 #[derive(Debug, Clone)]
 pub struct AbsolutePoseEstimator {
     points: Vec<Point3<f64>>,
     pixels: Vec<Point2<f64>>,
     rays: Vec<Vector3<f64>>,
-    intrinsics: Intrinsics,
+    sight: Sight,
     unique: Unique,
+}
+
+/// What the errors are computed from.
+#[derive(Debug, Clone)]
+enum Sight {
+    Pinhole(Intrinsics),
+    AnyLens(Vec<Observation>),
 }
 
 impl AbsolutePoseEstimator {
     /// Prepares the estimation.
     ///
     /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
+    /// * `camera`: of any lens
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN,
     /// [`Error::TooFew`] for fewer than 4 different data: three have up to four poses. A point at infinity,
-    /// and a pixel there or beyond 10⁹, is left out.
+    /// and a pixel there, beyond 10⁹ or that the lens bends no ray to, is left out.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
-        intrinsics: Intrinsics,
+        camera: &Camera,
     ) -> Result<Self> {
-        let unique = usable(points_in_world, pixels)?;
+        let observed: Option<Vec<_>> = (!camera.is_pinhole()).then(|| {
+            pixels
+                .iter()
+                .map(|pixel| camera.observe(pixel).ok())
+                .collect()
+        });
+        let is_seen = |i: usize| observed.as_ref().is_none_or(|seen| seen[i].is_some());
+        let unique = usable(points_in_world, pixels, is_seen)?;
         if unique.len() < 4 {
             return Err(Error::TooFew {
                 what: "a camera pose from points",
@@ -47,28 +64,62 @@ impl AbsolutePoseEstimator {
             });
         }
         let kept = unique.first_occurrences();
+        let k = camera.intrinsics;
+        let (sight, rays) = match observed {
+            None => {
+                let rays = kept.iter().map(|&i| k.ray(&pixels[i]).normalize());
+                (Sight::Pinhole(k), rays.collect())
+            }
+            Some(seen) => {
+                let seen: Vec<Observation> = kept.iter().filter_map(|&i| seen[i]).collect();
+                let rays = seen.iter().map(Observation::ray).collect();
+                (Sight::AnyLens(seen), rays)
+            }
+        };
         Ok(Self {
             points: kept.iter().map(|&i| points_in_world[i]).collect(),
             pixels: kept.iter().map(|&i| pixels[i]).collect(),
-            rays: kept
-                .iter()
-                .map(|&i| intrinsics.ray(&pixels[i]).normalize())
-                .collect(),
-            intrinsics,
+            rays,
+            sight,
             unique,
         })
     }
 
-    fn refined(&self, pose: &Pose, used: Subset<'_>, loss: RobustLoss) -> Option<Pose> {
-        let options = LmOptions::few_steps(4);
-        let problem = PoseProblem {
-            points: &self.points,
+    fn pinhole<'a>(&'a self, intrinsics: &'a Intrinsics) -> PinholePoints<'a> {
+        PinholePoints {
             pixels: &self.pixels,
-            used,
-            intrinsics: &self.intrinsics,
-            loss,
-        };
-        refine(&problem, *pose, &options)
+            intrinsics,
+        }
+    }
+
+    fn refined(&self, pose: &Pose, used: Subset<'_>, loss: RobustLoss) -> Option<Pose> {
+        let (points, options) = (&self.points, LmOptions::few_steps(4));
+        match &self.sight {
+            Sight::Pinhole(k) => {
+                let errors = self.pinhole(k);
+                let problem = PoseProblem {
+                    points,
+                    errors,
+                    used,
+                    loss,
+                };
+                refine(&problem, *pose, &options)
+            }
+            Sight::AnyLens(seen) => {
+                let errors = LensPoints { seen };
+                let problem = PoseProblem {
+                    points,
+                    errors,
+                    used,
+                    loss,
+                };
+                refine(&problem, *pose, &options)
+            }
+        }
+    }
+
+    fn in_cam(&self, (rotation, t): &Pose, index: usize) -> Vector3<f64> {
+        rotation * self.points[index].coords + t
     }
 }
 
@@ -76,7 +127,11 @@ impl AbsolutePoseEstimator {
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN.
-pub(super) fn usable(points_in_world: &[Point3<f64>], pixels: &[Point2<f64>]) -> Result<Unique> {
+pub(super) fn usable(
+    points_in_world: &[Point3<f64>],
+    pixels: &[Point2<f64>],
+    is_seen: impl Fn(usize) -> bool,
+) -> Result<Unique> {
     if points_in_world.len() != pixels.len() {
         return Err(Error::SizeMismatch {
             what: "the list of points and that of their pixels",
@@ -96,7 +151,7 @@ pub(super) fn usable(points_in_world: &[Point3<f64>], pixels: &[Point2<f64>]) ->
         let (x, p) = (&points_in_world[i], &pixels[i]);
         let values = [x.x, x.y, x.z, p.x, p.y];
         let usable = values.iter().all(|x| x.is_finite()) && p.coords.amax() <= FARTHEST_PX;
-        usable.then_some(values)
+        (usable && is_seen(i)).then_some(values)
     }))
 }
 
@@ -125,16 +180,26 @@ impl Estimator for AbsolutePoseEstimator {
         models.extend_from_slice(&solutions[..count]);
     }
 
-    fn error_sq(&self, (rotation, t): &Self::Model, index: usize) -> f64 {
-        let x = rotation * self.points[index].coords + t;
-        let k = &self.intrinsics;
-        let center = k.principal_point();
-        let du = k.fu_px() * x.x / x.z + center.x - self.pixels[index].x;
-        let dv = k.fv_px() * x.y / x.z + center.y - self.pixels[index].y;
-        if x.z > 0.0 {
-            du * du + dv * dv
-        } else {
-            f64::INFINITY
+    fn error_sq(&self, pose: &Self::Model, index: usize) -> f64 {
+        let x = self.in_cam(pose, index);
+        match &self.sight {
+            Sight::Pinhole(k) => self.pinhole(k).error_sq(&x, index),
+            Sight::AnyLens(seen) => seen[index].error_sq(&x),
+        }
+    }
+
+    fn support(&self, pose: &Pose, max_error_px: f64, cost_limit: f64) -> Support {
+        let data = self.problem().data;
+        match &self.sight {
+            Sight::Pinhole(k) => {
+                let errors = self.pinhole(k);
+                let error_sq = |i| errors.error_sq(&self.in_cam(pose, i), i);
+                data.support(error_sq, max_error_px, cost_limit)
+            }
+            Sight::AnyLens(_) => {
+                let error_sq = |i| self.error_sq(pose, i);
+                data.support(error_sq, max_error_px, cost_limit)
+            }
         }
     }
 
@@ -153,6 +218,7 @@ impl Estimator for AbsolutePoseEstimator {
 /// The pose `cam_from_world` that most points agree on.
 ///
 /// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
+/// * `camera`: of any lens
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
 /// # Errors
@@ -164,22 +230,22 @@ impl Estimator for AbsolutePoseEstimator {
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::absolute_pose::estimate_absolute_pose;
-/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point3, Vector3};
-/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let camera = Camera::pinhole(Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, 640, 480);
 /// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.2, 0.3));
 /// let (mut points, mut pixels) = (Vec::new(), Vec::new());
 /// for i in 0..40 {
 ///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, f64::from(i * i % 7) - 2.0);
 ///     points.push(x);
-///     pixels.push(k.project(&(cam_from_world * x))?);
+///     pixels.push(camera.project(&(cam_from_world * x))?);
 /// }
 /// // Every fourth pixel belongs to something else.
 /// for pixel in pixels.iter_mut().step_by(4) {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
-/// let report = estimate_absolute_pose(&points, &pixels, &k, &RansacOptions::default(), &mut ())?;
+/// let report = estimate_absolute_pose(&points, &pixels, &camera, &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// assert!(report.model.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
 /// assert!((report.model.translation.vector - cam_from_world.translation.vector).norm() < 1e-6);
@@ -188,11 +254,11 @@ impl Estimator for AbsolutePoseEstimator {
 pub fn estimate_absolute_pose(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],
-    intrinsics: &Intrinsics,
+    camera: &Camera,
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RigidTransform>> {
-    let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, *intrinsics)?;
+    let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, camera)?;
     let report = ransac(estimator, options, monitor)?;
     // One of the inliers, of which there are three at least, stays where it is seen.
     let inlier = report.inliers.iter().position(|&inlier| inlier);

@@ -2,6 +2,7 @@
 
 use super::estimate::usable;
 use super::p4pf::{AbsolutePoseWithFocal, MAX_SOLUTIONS, PoseFocal, solve};
+use super::point_errors::PinholePoints;
 use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
 use crate::camera::{Intrinsics, plausible_focals_px};
@@ -66,7 +67,7 @@ impl AbsolutePoseFocalEstimator {
                 what: "the principal point",
             });
         }
-        let unique = usable(points_in_world, pixels)?;
+        let unique = usable(points_in_world, pixels, |_| true)?;
         if unique.len() < 5 {
             return Err(Error::TooFew {
                 what: NAME,
@@ -87,17 +88,27 @@ impl AbsolutePoseFocalEstimator {
         })
     }
 
-    fn reprojection<'a>(&'a self, used: Subset<'a>, loss: RobustLoss) -> PoseProblem<'a> {
+    fn reprojection<'a>(
+        &'a self,
+        used: Subset<'a>,
+        loss: RobustLoss,
+    ) -> PoseProblem<'a, PinholePoints<'a>> {
         PoseProblem {
             points: &self.points,
-            pixels: &self.pixels,
+            errors: PinholePoints {
+                pixels: &self.pixels,
+                intrinsics: &self.centered,
+            },
             used,
-            intrinsics: &self.centered,
             loss,
         }
     }
 
-    fn refined(&self, model: &PoseFocal, problem: &PoseProblem<'_>) -> Option<PoseFocal> {
+    fn refined(
+        &self,
+        model: &PoseFocal,
+        problem: &PoseProblem<'_, PinholePoints<'_>>,
+    ) -> Option<PoseFocal> {
         let options = LmOptions::few_steps(4);
         refine_with_focal(problem, model, &options).filter(|found| self.is_usable(found.2))
     }

@@ -2,8 +2,8 @@
 
 use super::dlt::pose_dlt;
 use super::p3p::pose_p3p;
-use super::refine::{refine_absolute_pose, reprojection_error_px};
-use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use super::refine::refine_absolute_pose;
+use crate::camera::{Camera, RigidTransform};
 use crate::optim::RobustLoss;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -21,6 +21,7 @@ const STARTS: usize = 4;
 /// left out: [`estimate_absolute_pose`](super::estimate_absolute_pose) is for matches of which some are wrong.
 ///
 /// * `points_in_world`, `pixels`: points and where they are seen, at least 4
+/// * `camera`: of any lens
 ///
 /// Returns `cam_from_world`. Four points that lie far apart give starts, three at a time, by [`pose_p3p`], and six or
 /// more one by [`pose_dlt`]; the best of them are refined, and the best of those is returned. A small or distant plane
@@ -29,7 +30,7 @@ const STARTS: usize = 4;
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different length,
 /// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on one line, or no pose has
-/// them all in front of the camera.
+/// them all in front of the camera; as [`Camera::unproject`] for a pixel that the lens bends no ray to.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose estimation from a planar
 /// target" (the two minima).
@@ -37,14 +38,14 @@ const STARTS: usize = 4;
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::absolute_pose::fit_absolute_pose;
-/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
 /// use nalgebra::{Point3, Vector3};
-/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let camera = Camera::pinhole(Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, 640, 480);
 /// let cam_from_world = RigidTransform::new(Vector3::new(0.1, -0.2, 6.0), Vector3::new(0.1, 0.4, 0.3));
 /// // A board: z = 0.
 /// let points: Vec<_> = (0..12).map(|i| Point3::new(f64::from(i % 4), f64::from(i / 4), 0.0)).collect();
-/// let pixels: Vec<_> = points.iter().map(|x| k.project(&(cam_from_world * x))).collect::<Result<_, _>>()?;
-/// let found = fit_absolute_pose(&points, &pixels, &k)?;
+/// let pixels: Vec<_> = points.iter().map(|x| camera.project(&(cam_from_world * x))).collect::<Result<_, _>>()?;
+/// let found = fit_absolute_pose(&points, &pixels, &camera)?;
 /// assert!(found.rotation.angle_to(&cam_from_world.rotation) < 1e-7);
 /// assert!((found.translation.vector - cam_from_world.translation.vector).norm() < 1e-7);
 /// # Ok(()) }
@@ -53,7 +54,7 @@ const STARTS: usize = 4;
 pub fn fit_absolute_pose(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],
-    intrinsics: &Intrinsics,
+    camera: &Camera,
 ) -> Result<RigidTransform> {
     if points_in_world.len() != pixels.len() {
         return Err(Error::SizeMismatch {
@@ -69,30 +70,26 @@ pub fn fit_absolute_pose(
             got: pixels.len(),
         });
     }
-    let rays: Vec<Vector3<f64>> = pixels.iter().map(|p| intrinsics.ray(p)).collect();
     let finite = |x: &f64| x.is_finite();
     if !points_in_world.iter().all(|p| p.iter().all(finite))
-        || !rays.iter().all(|r| r.iter().all(finite))
+        || !pixels.iter().all(|p| p.iter().all(finite))
     {
         return Err(Error::NotFinite {
             what: "a point or its pixel",
         });
     }
+    let rays: Result<Vec<Vector3<f64>>> = pixels.iter().map(|p| camera.ray(p)).collect();
+    let rays = rays?;
     let four = far_apart(points_in_world).ok_or(Error::Degenerate {
         what: WHAT,
         why: "all points are on one line",
     })?;
     let cost = |pose: &RigidTransform| -> f64 {
-        let camera = PosedCamera {
-            intrinsics: *intrinsics,
-            cam_from_world: *pose,
+        let error_sq = |(x, pixel): (&Point3<f64>, &Point2<f64>)| {
+            let seen = camera.project(&(pose * x));
+            seen.map_or(f64::INFINITY, |seen| (seen - pixel).norm_squared())
         };
-        (points_in_world.iter().zip(pixels))
-            .map(|(x, p)| {
-                let error_px = reprojection_error_px(&camera, x, p);
-                error_px * error_px
-            })
-            .sum()
+        points_in_world.iter().zip(pixels).map(error_sq).sum()
     };
     let mut starts: Vec<(f64, RigidTransform)> = Vec::new();
     for left_out in 0..4 {
@@ -108,17 +105,14 @@ pub fn fit_absolute_pose(
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     starts.truncate(STARTS);
     if pixels.len() >= 6 {
-        let linear = pose_dlt(points_in_world, pixels, intrinsics).into_iter();
+        let straight: Result<Vec<_>> = pixels.iter().map(|p| camera.pinhole_pixel(p)).collect();
+        let linear =
+            straight.and_then(|pixels| pose_dlt(points_in_world, &pixels, &camera.intrinsics));
         starts.extend(linear.map(|pose| (cost(&pose), pose)));
     }
     let refined = starts.iter().flat_map(|(at_start, start)| {
-        let found = refine_absolute_pose(
-            start,
-            points_in_world,
-            pixels,
-            intrinsics,
-            RobustLoss::Trivial,
-        );
+        let found =
+            refine_absolute_pose(start, points_in_world, pixels, camera, RobustLoss::Trivial);
         let found = found.ok().map(|pose| (cost(&pose), pose));
         [found, Some((*at_start, *start))].into_iter().flatten()
     });
@@ -159,7 +153,9 @@ fn far_apart(points: &[Point3<f64>]) -> Option<[usize; 4]> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::reprojection_error_px;
     use super::*;
+    use crate::camera::{Intrinsics, PosedCamera};
     use crate::math::random::Random;
     use nalgebra::UnitQuaternion;
 
@@ -169,8 +165,9 @@ mod tests {
         pixels: Vec<Point2<f64>>,
     }
 
-    fn camera() -> Intrinsics {
-        Intrinsics::new(700.0, 710.0, 320.0, 240.0).unwrap()
+    fn camera() -> Camera {
+        let k = Intrinsics::new(700.0, 710.0, 320.0, 240.0).unwrap();
+        Camera::pinhole(k, 640, 480)
     }
 
     /// Points within ±2, six away, or on z = 0.
@@ -201,7 +198,7 @@ mod tests {
 
     fn cost(pose: &RigidTransform, scene: &Scene) -> f64 {
         let camera = PosedCamera {
-            intrinsics: camera(),
+            intrinsics: camera().intrinsics,
             cam_from_world: *pose,
         };
         (scene.points.iter().zip(&scene.pixels))

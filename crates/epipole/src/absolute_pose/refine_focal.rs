@@ -1,7 +1,8 @@
 //! Nonlinear refinement of a camera pose together with the focal length.
 
-use super::local_problem::{LocalPose, LocalProblem};
+use super::local_pose::{LocalPose, Pivot};
 use super::p4pf::PoseFocal;
+use super::point_errors::{PinholePoints, PointErrors};
 use super::refine::PoseProblem;
 use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
@@ -9,21 +10,29 @@ use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
 
 /// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics have.
 struct FocalProblem<'a> {
-    problem: &'a PoseProblem<'a>,
-    local: LocalProblem<'a>,
+    problem: &'a PoseProblem<'a, PinholePoints<'a>>,
+    pivot: Pivot,
 }
 
 impl<'a> FocalProblem<'a> {
-    fn new(problem: &'a PoseProblem<'a>, (rotation, t, _): &PoseFocal) -> Self {
+    fn new(problem: &'a PoseProblem<'a, PinholePoints<'a>>, (rotation, t, _): &PoseFocal) -> Self {
         Self {
             problem,
-            local: LocalProblem::new(problem, &(*rotation, *t)),
+            pivot: problem.pivot(&(*rotation, *t)),
+        }
+    }
+
+    /// The same pixels by a camera with other intrinsics.
+    fn seen_by<'b>(&'b self, intrinsics: &'b Intrinsics) -> PinholePoints<'b> {
+        PinholePoints {
+            intrinsics,
+            ..self.problem.errors
         }
     }
 
     /// The intrinsics with another focal length, if there is such a camera.
     fn camera(&self, focal_px: f64) -> Option<Intrinsics> {
-        let center = self.problem.intrinsics.principal_point();
+        let center = self.problem.errors.intrinsics.principal_point();
         Intrinsics::new(focal_px, focal_px, center.x, center.y).ok()
     }
 
@@ -34,10 +43,11 @@ impl<'a> FocalProblem<'a> {
         k: &Intrinsics,
         index: usize,
     ) -> Option<(Vector2<f64>, SMatrix<f64, 2, 7>)> {
-        let (residual, places) = self.local.residual(pose, k, index)?;
-        let seen = self.problem.pixels[index].coords + residual;
+        let [x, from_pivot] = self.pivot.places(pose, &self.problem.points[index].coords);
+        let (residual, by_point) = self.seen_by(k).linearized(&x, index)?;
+        let seen = self.problem.errors.pixels[index].coords + residual;
         let mut jacobian = SMatrix::<f64, 2, 7>::zeros();
-        let by_pose = self.local.jacobian(k, &places);
+        let by_pose = self.pivot.jacobian(&by_point, &from_pivot);
         jacobian.fixed_view_mut::<2, 6>(0, 0).copy_from(&by_pose);
         jacobian.set_column(6, &(seen - k.principal_point().coords));
         Some((residual, jacobian))
@@ -68,8 +78,9 @@ impl FixedProblem<7> for FocalProblem<'_> {
         };
         let mut total = 0.0;
         for (index, root) in self.problem.used.iter() {
-            match self.local.residual(pose, &k, index) {
-                Some((residual, _)) => {
+            let [x, _] = self.pivot.places(pose, &self.problem.points[index].coords);
+            match self.seen_by(&k).residual(&x, index) {
+                Some(residual) => {
                     total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
                 }
                 None => return f64::INFINITY,
@@ -84,7 +95,7 @@ impl FixedProblem<7> for FocalProblem<'_> {
         delta: &SVector<f64, 7>,
     ) -> (LocalPose, f64) {
         let moved = self
-            .local
+            .pivot
             .moved(pose, &delta.fixed_rows::<6>(0).into_owned());
         (moved, focal_px * libm::exp(delta[6]))
     }
@@ -92,25 +103,25 @@ impl FixedProblem<7> for FocalProblem<'_> {
 
 /// Refines a pose with its focal length; of the intrinsics of the problem only the principal point counts.
 pub(super) fn refine_with_focal(
-    problem: &PoseProblem<'_>,
+    problem: &PoseProblem<'_, PinholePoints<'_>>,
     start: &PoseFocal,
     options: &LmOptions,
 ) -> Option<PoseFocal> {
     let focal = FocalProblem::new(problem, start);
-    let mut model = (focal.local.about_pivot(&(start.0, start.1)), start.2);
+    let mut model = (focal.pivot.local(&(start.0, start.1)), start.2);
     minimize_fixed(&focal, &mut model, options).ok()?;
-    let (rotation, t) = focal.local.in_world(&model.0)?;
+    let (rotation, t) = focal.pivot.in_world(&model.0)?;
     (model.1 > 0.0 && model.1.is_finite()).then_some((rotation, t, model.1))
 }
 
 /// The standard deviation of the focal length, as a share of it: that of the errors, and how they depend on all
 /// seven parameters. `None` if they do not determine it.
 pub(super) fn relative_focal_deviation(
-    problem: &PoseProblem<'_>,
+    problem: &PoseProblem<'_, PinholePoints<'_>>,
     model: &PoseFocal,
 ) -> Option<f64> {
     let focal = FocalProblem::new(problem, model);
-    let at = (focal.local.about_pivot(&(model.0, model.1)), model.2);
+    let at = (focal.pivot.local(&(model.0, model.1)), model.2);
     let mut normal = NormalEquations::new();
     focal.accumulate(&at, &mut normal);
     let free = (2 * problem.used.indices.len())
@@ -136,9 +147,11 @@ pub(super) fn polish_sample(
     };
     let problem = PoseProblem {
         points,
-        pixels: &about.map(Point2::from),
+        errors: PinholePoints {
+            pixels: &about.map(Point2::from),
+            intrinsics: &Intrinsics::new(1.0, 1.0, 0.0, 0.0).ok()?,
+        },
         used: Subset::alike(&[0, 1, 2, 3]),
-        intrinsics: &Intrinsics::new(1.0, 1.0, 0.0, 0.0).ok()?,
         loss: RobustLoss::Trivial,
     };
     refine_with_focal(&problem, start, &options)
@@ -160,15 +173,17 @@ mod tests {
             let (truth, rays, points) = problem::<8>(&mut random);
             let pose_problem = PoseProblem {
                 points: &points,
-                pixels: &rays.map(|r| k.project(&r.into()).unwrap()),
+                errors: PinholePoints {
+                    pixels: &rays.map(|r| k.project(&r.into()).unwrap()),
+                    intrinsics: &k,
+                },
                 used: Subset::alike(&[0, 1, 2, 3, 4, 5, 6, 7]),
-                intrinsics: &k,
                 loss: RobustLoss::Trivial,
             };
             let rotation = truth.rotation.to_rotation_matrix().into_inner();
             let start = (rotation, truth.translation.vector, 620.0);
             let focal = FocalProblem::new(&pose_problem, &start);
-            let model = (focal.local.about_pivot(&(start.0, start.1)), start.2);
+            let model = (focal.pivot.local(&(start.0, start.1)), start.2);
             let at = |(pose, focal_px): &(LocalPose, f64), i: usize| {
                 let camera = focal.camera(*focal_px).unwrap();
                 focal.linearized(pose, &camera, i).unwrap()

@@ -39,6 +39,11 @@ impl Camera {
         }
     }
 
+    /// Whether its images are those of a pinhole camera: no distortion.
+    pub fn is_pinhole(&self) -> bool {
+        self.lens.is_none()
+    }
+
     /// The pixel where a point of the camera frame is seen.
     ///
     /// # Errors
@@ -79,9 +84,7 @@ impl Camera {
         self.lens.ray(&self.intrinsics.ray(pixel).xy().into())
     }
 
-    /// A pixel with its ray and its derivative by the ray, as
-    /// [`estimate_relative_pose_of_rays`](crate::epipolar::estimate_relative_pose_of_rays) and
-    /// [`estimate_absolute_pose_of_rays`](crate::absolute_pose::estimate_absolute_pose_of_rays) take it.
+    /// A pixel with its ray and its derivative by the ray.
     ///
     /// # Errors
     /// As [`Lens::ray`]; [`Error::Degenerate`] also at the very fold of the lens.
@@ -116,8 +119,8 @@ impl Camera {
 
     /// The pixel where a camera with the same K and no distortion would see what this one sees at `pixel`.
     ///
-    /// Functions that take [`Intrinsics`], for a pose, a motion or a triangulation, take such pixels of any lens,
-    /// together with [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
+    /// Functions that take [`Intrinsics`], such as a triangulation, take such pixels of any lens, together with
+    /// [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
     /// photograph: where the lens squeezes the margin, they count for more there.
     ///
     /// # Errors
@@ -185,9 +188,14 @@ mod tests {
                 })
                 .unzip();
             let options = RansacOptions::default();
-            let found =
-                estimate_absolute_pose(&points, &straight, &camera.intrinsics, &options, &mut ())
-                    .unwrap();
+            let found = estimate_absolute_pose(
+                &points,
+                &straight,
+                &Camera::pinhole(camera.intrinsics, 640, 480),
+                &options,
+                &mut (),
+            )
+            .unwrap();
             assert_eq!(found.num_inliers, 40, "{kind:?}");
             let off = found.model.to_matrix() - pose.to_matrix();
             assert!(off.norm() < 1e-8, "{kind:?} {off}");

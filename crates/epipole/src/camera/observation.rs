@@ -11,6 +11,7 @@ pub struct Observation {
     pixel: Point2<f64>,
     ray: Vector3<f64>,
     px_by_ray: Matrix2x3<f64>,
+    ray_by_px: Matrix3x2<f64>,
 }
 
 impl Observation {
@@ -35,13 +36,19 @@ impl Observation {
     /// ```
     pub fn new(pixel: Point2<f64>, ray: Vector3<f64>, px_by_ray: Matrix2x3<f64>) -> Option<Self> {
         let ray = ray / ray.norm();
-        let seen = Self {
-            pixel,
-            ray,
-            px_by_ray,
-        };
+        let transposed = px_by_ray.transpose();
+        let ray_by_px = transposed * (px_by_ray * transposed).try_inverse()?;
         let numbers = pixel.iter().chain(ray.iter()).chain(px_by_ray.iter());
-        (numbers.copied().all(f64::is_finite) && seen.ray_by_px().is_some()).then_some(seen)
+        let is_finite = |x: &f64| x.is_finite();
+        numbers
+            .chain(ray_by_px.iter())
+            .all(is_finite)
+            .then_some(Self {
+                pixel,
+                ray,
+                px_by_ray,
+                ray_by_px,
+            })
     }
 
     /// Where it is seen.
@@ -54,12 +61,9 @@ impl Observation {
         self.ray
     }
 
-    /// How the ray, its length kept, moves with the pixel; `None` at a fold.
-    pub fn ray_by_px(&self) -> Option<Matrix3x2<f64>> {
-        let transposed = self.px_by_ray.transpose();
-        let inverse = (self.px_by_ray * transposed).try_inverse()?;
-        let by_px = transposed * inverse;
-        by_px.iter().all(|x| x.is_finite()).then_some(by_px)
+    /// The derivative of the ray, its length kept, by the pixel, 1/pixels.
+    pub fn ray_by_px(&self) -> Matrix3x2<f64> {
+        self.ray_by_px
     }
 
     /// How far from the pixel a point of the camera frame is seen, pixels, as well as
@@ -118,7 +122,7 @@ mod tests {
                 let [up, down] = [point + step, point - step].map(|x| seen.offset_px(&x).unwrap());
                 assert!((by_point.column(axis) - (up - down) / 2e-6).norm() < 1e-5);
             }
-            let there_and_back = by_ray * seen.ray_by_px().unwrap();
+            let there_and_back = by_ray * seen.ray_by_px();
             assert!((there_and_back - nalgebra::Matrix2::identity()).norm() < 1e-9);
         }
     }

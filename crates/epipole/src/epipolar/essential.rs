@@ -208,22 +208,26 @@ pub fn select_pose(
             what: "a motion or a matched pixel",
         });
     }
+    let rays = pixels1.iter().zip(pixels2);
+    Ok(most_in_front(
+        motions,
+        rays.map(|(p1, p2)| [k1.ray(p1), k2.ray(p2)]),
+    ))
+}
+
+/// Body of [`select_pose`], from rays of any length.
+pub(super) fn most_in_front(
+    motions: &[RigidTransform],
+    rays: impl Iterator<Item = [Vector3<f64>; 2]> + Clone,
+) -> SelectedPose {
     let (mut best, mut best_count, mut second) = (0, 0, 0);
     for (place, motion) in motions.iter().enumerate() {
         let rotation = motion.rotation.to_rotation_matrix().into_inner();
-        let count = pixels1
-            .iter()
-            .zip(pixels2)
-            .filter(|(p1, p2)| {
-                let (d1, d2) = signed_depths(
-                    &rotation,
-                    &motion.translation.vector,
-                    &k1.ray(p1),
-                    &k2.ray(p2),
-                );
-                d1 > 0.0 && d2 > 0.0
-            })
-            .count();
+        let in_front = |[x1, x2]: &[Vector3<f64>; 2]| {
+            let (d1, d2) = signed_depths(&rotation, &motion.translation.vector, x1, x2);
+            d1 > 0.0 && d2 > 0.0
+        };
+        let count = rays.clone().filter(in_front).count();
         if place == 0 || count > best_count {
             if place > 0 {
                 second = best_count;
@@ -233,11 +237,11 @@ pub fn select_pose(
             second = second.max(count);
         }
     }
-    Ok(SelectedPose {
+    SelectedPose {
         cam2_from_cam1: motions[best],
         num_in_front: best_count,
         second_num_in_front: second,
-    })
+    }
 }
 
 /// Numbers with the signs of the depths, along both rays, of the point where the rays pass each
@@ -340,10 +344,11 @@ mod tests {
             let result = select_pose(&[motion], &[p1], &[p2], &k, &k);
             assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
         }
-        // A lens for which F is beyond the range of numbers.
+        // A camera for which F is beyond the range of numbers.
         let absurd = Intrinsics::new(1e-300, 1e-300, 1e300, 0.0).unwrap();
-        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &absurd, &k);
-        assert!(matches!(pose, Err(Error::NotFinite { .. })));
+        let pose = RelativePose::from((Matrix3::identity(), Vector3::x()));
+        let refused = pose.fundamental(&absurd, &k);
+        assert!(matches!(refused, Err(Error::NotFinite { .. })));
         // A pure rotation leaves the direction open.
         let mut random = Random::new(3);
         let rays: Vec<_> = (0..20)

@@ -1,86 +1,97 @@
 //! The relative pose of calibrated cameras, as RANSAC asks for it.
 
-use super::coordinates::{CommonFrame, Coordinates};
+use super::RelativePose;
 use super::estimate_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
-use super::in_front::{self, Lenses};
+use super::lens_matches::LensMatches;
 use super::other_motion::other_motion_of_plane;
-use super::plane_recovery::PlaneRecovery;
-use super::refine_pose::{Pose, RaysInFrame, refine_pose_in_frame};
-use super::{RelativePose, sampson};
+use super::pinhole_matches::PinholeMatches;
+use super::refine_pose::Steps;
+use super::sight::Sight;
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::Intrinsics;
+use crate::camera::{Camera, Observation};
 use crate::math::random::Random;
-use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::{Data, Estimator, Evidence, MatchSet, Problem, Support};
-use nalgebra::{Matrix3, Vector3};
+use crate::robust::{Data, Estimator, Evidence, MatchSet, ObservedMatches, Problem, Support};
+use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is five matches, and of its solutions only those that put the five points in front of
-/// both cameras are looked at. The error is the Sampson error in pixels; refinement
+/// both cameras are looked at. The error is the Sampson error in pixels, through other lenses than pinholes
+/// the [tangent Sampson error](super::tangent_sampson_px); refinement
 /// minimizes it, truncated, over rotation and direction. A match that is behind a camera supports no
 /// pose, however near to its line; one that could be infinitely far away, up to an error within the
-/// threshold, is not behind. Where a plane holds most of the inliers, the other motion that it allows
-/// is tried, too. Equal matches count once.
+/// threshold, is not behind. Where a plane holds most of the inliers of pinhole cameras, the other motion that it
+/// allows is tried, too. Equal matches count once.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem";
 /// Longuet-Higgins 1986, "The reconstruction of a plane surface from two perspective projections".
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct EssentialEstimator {
     matches: MatchSet,
-    pixels: Coordinates,
-    in_frame: Coordinates,
-    /// As `in_frame`, without what is behind a camera of the pose in hand.
-    in_front: Coordinates,
-    factors: Vec<f64>,
-    frame: CommonFrame,
-    recovery: PlaneRecovery,
-    lenses: Lenses,
-    rays_in_frame: RaysInFrame,
     rays: Vec<[Vector3<f64>; 2]>,
-    k1: Intrinsics,
-    k2: Intrinsics,
+    sight: Box<dyn Sight>,
+    steps: Steps,
 }
 
+const NAME: &str = "an essential matrix from matches";
+
 impl EssentialEstimator {
-    /// Prepares the estimation; `k1` and `k2` are the intrinsics of images 1 and 2.
+    /// Prepares the estimation; a match with a pixel that its lens bends no ray to is left out.
+    ///
+    /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 5 different matches, [`Error::Degenerate`] if all pixels
-    /// of an image lie on one line, or are equal.
-    pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
-        matches.at_least(5, "an essential matrix from matches")?;
-        refuse_collinear(&matches, "an essential matrix from matches")?;
-        let pixels = Coordinates::voting(&matches);
-        let frame = CommonFrame::new(&matches);
-        let rays = (0..matches.len())
-            .map(|i| {
+    /// As [`MatchSet::new`]; [`Error::TooFew`] for fewer than 5 different matches, [`Error::Degenerate`] if all pixels
+    /// of an image of a pinhole camera lie on one line, or are equal.
+    pub fn new(
+        pixels1: &[Point2<f64>],
+        pixels2: &[Point2<f64>],
+        cameras: [&Camera; 2],
+    ) -> Result<Self> {
+        if cameras.iter().all(|camera| camera.is_pinhole()) {
+            let matches = MatchSet::new(pixels1, pixels2)?;
+            matches.at_least(5, NAME)?;
+            refuse_collinear(&matches, NAME)?;
+            let [k1, k2] = cameras.map(|camera| camera.intrinsics);
+            let ray = |i| {
                 let (p1, p2) = matches.pair(i);
                 [k1.ray(&p1).normalize(), k2.ray(&p2).normalize()]
-            })
-            .collect();
-        let in_frame = pixels.mapped(&frame);
-        let mut in_front = in_frame.clone();
-        let factors = vec![1.0; matches.len()];
-        // Takes the memory that the loop needs.
-        in_front.weigh_as(&in_frame, &factors);
-        Ok(Self {
-            in_frame,
-            in_front,
-            factors,
-            recovery: PlaneRecovery::new(matches.len()),
-            lenses: Lenses::new(&k1, &k2),
-            rays_in_frame: RaysInFrame::new(&frame, &k1, &k2),
+            };
+            let rays = (0..matches.len()).map(ray).collect();
+            let sight = PinholeMatches::new(&matches, k1, k2);
+            Ok(Self::of(matches, rays, Box::new(sight)))
+        } else {
+            let observed = ObservedMatches::new(pixels1, pixels2, cameras)?;
+            observed.matches.at_least(5, NAME)?;
+            let sight = LensMatches::new(&observed);
+            let [seen1, seen2] = &observed.seen;
+            let both = seen1.iter().zip(seen2);
+            let rays = both.map(|(one, two)| [one, two].map(Observation::ray));
+            let rays = rays.collect();
+            Ok(Self::of(observed.matches, rays, Box::new(sight)))
+        }
+    }
+
+    fn of(matches: MatchSet, rays: Vec<[Vector3<f64>; 2]>, sight: Box<dyn Sight>) -> Self {
+        Self {
             matches,
-            pixels,
-            frame,
             rays,
-            k1,
-            k2,
-        })
+            sight,
+            steps: Steps::Free,
+        }
+    }
+
+    /// The same for cameras that know where gravity points, which refinement keeps.
+    ///
+    /// * `gravity2`: a unit vector in the frame of camera 2
+    pub(super) fn upright(self, gravity2: Vector3<f64>) -> Self {
+        Self {
+            steps: Steps::AboutGravity(gravity2),
+            ..self
+        }
     }
 
     /// The rays of a sample of matches; `None` if two of them share a pixel.
@@ -92,78 +103,31 @@ impl EssentialEstimator {
         (!self.matches.have_shared_pixel(sample)).then(|| [0, 1].map(rays))
     }
 
-    pub(super) fn pose(&self, rotation: Matrix3<f64>, direction: Vector3<f64>) -> RelativePose {
-        RelativePose::new(rotation, direction, &self.k1, &self.k2)
+    /// A pose with the matrix that measures its errors.
+    pub(super) fn candidate(&self, pose: RelativePose) -> (RelativePose, Matrix3<f64>) {
+        self.sight.candidate(pose)
     }
 
-    /// As [`Estimator::refine`] has it, by some refinement in the frame of the coordinates.
-    pub(super) fn refined_by(
-        &mut self,
-        model: &RelativePose,
-        inliers: &[usize],
-        max_error_px: f64,
-        by: impl FnOnce(&Coordinates, &RaysInFrame, RobustLoss) -> Option<Pose>,
-    ) -> Option<RelativePose> {
-        let loss = RobustLoss::Truncated {
-            width: max_error_px * self.frame.scale,
-        };
-        let judge = self.lenses.judge(model, max_error_px);
-        let near = sampson::support(
-            &self.pixels,
-            &model.fundamental,
-            max_error_px,
-            f64::INFINITY,
-        );
-        let few_behind = inliers.len() as f64 >= FEW_BEHIND * near.num_inliers as f64;
-        let coordinates = if few_behind && in_front::mark(&self.pixels, &judge, &mut self.factors) {
-            self.in_front.weigh_as(&self.in_frame, &self.factors);
-            &self.in_front
-        } else {
-            &self.in_frame
-        };
-        let (rotation, direction) = by(coordinates, &self.rays_in_frame, loss)?;
-        let pose = RelativePose::new(rotation, direction, &self.k1, &self.k2);
-        if few_behind {
-            return Some(pose);
-        }
-        let back = RelativePose {
-            direction: -pose.direction,
-            ..pose
-        };
-        let num_inliers = |pose: &RelativePose| {
-            let judge = self.lenses.judge(pose, max_error_px);
-            in_front::support(&self.pixels, &judge, max_error_px, f64::INFINITY).num_inliers
-        };
-        Some(if num_inliers(&back) > num_inliers(&pose) {
-            back
-        } else {
-            pose
-        })
-    }
-
-    /// As [`Estimator::polish`] has it, by some refinement in the frame of the coordinates.
-    pub(super) fn polished_by(
-        &self,
-        near: &[usize],
-        weights: &[f64],
-        by: impl FnOnce(&Coordinates, &RaysInFrame) -> Option<Pose>,
-    ) -> Option<RelativePose> {
-        let near = self.in_frame.weighted(near, weights);
-        let (rotation, direction) = by(&near, &self.rays_in_frame)?;
-        Some(self.pose(rotation, direction))
+    /// The rays of some of the matches given.
+    ///
+    /// * `mask`: for each match given, whether it is one of them
+    pub(super) fn rays_among<'a>(
+        &'a self,
+        mask: &'a [bool],
+    ) -> impl Iterator<Item = [Vector3<f64>; 2]> + Clone + 'a {
+        let places = self.matches.unique().places().iter();
+        let kept = places.zip(mask).filter(|(_, is)| **is);
+        kept.filter_map(|(place, _)| place.map(|place| self.rays[place]))
     }
 }
 
-/// Where fewer of the matches near to their lines than this share are in front of both cameras, it is
-/// the pose that is wrong rather than they: refinement heeds them all.
-const FEW_BEHIND: f64 = 0.8;
-
 impl Estimator for EssentialEstimator {
-    type Model = RelativePose;
+    /// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of the rays of others.
+    type Model = (RelativePose, Matrix3<f64>);
 
     fn problem(&self) -> Problem<'_> {
         Problem {
-            name: "an essential matrix from matches",
+            name: NAME,
             sample_size: 5,
             max_models: 10,
             codimension: 1,
@@ -171,99 +135,77 @@ impl Estimator for EssentialEstimator {
         }
     }
 
-    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
         let Some([rays1, rays2]) = self.rays_of(sample) else {
             return;
         };
         let mut solutions = [Matrix3::zeros(); 10];
         let count = solve(&rays1, &rays2, &mut solutions);
         for essential in &solutions[..count] {
-            if let Some((rotation, direction)) = pose_in_front(essential, &rays1, &rays2) {
-                models.push(self.pose(rotation, direction));
+            if let Some(pose) = pose_in_front(essential, &rays1, &rays2) {
+                models.push(self.candidate(pose.into()));
             }
         }
     }
 
-    /// Of the line alone: whether a match is behind a camera depends on the threshold.
-    fn error_sq(&self, pose: &RelativePose, index: usize) -> f64 {
-        let (x1, x2) = self.matches.pair(index);
-        super::sampson_sq(&pose.fundamental, &x1, &x2)
+    fn error_sq(&self, model: &Self::Model, index: usize) -> f64 {
+        self.sight.error_sq(model, index)
     }
 
     fn refine(
         &mut self,
-        model: &RelativePose,
+        model: &Self::Model,
         inliers: &[usize],
         max_error_px: f64,
-    ) -> Option<RelativePose> {
-        self.refined_by(model, inliers, max_error_px, |near, rays, loss| {
-            refine_pose_in_frame(near, rays, model, loss, &LmOptions::few_steps(2))
-        })
+    ) -> Option<Self::Model> {
+        self.sight.refine(model, inliers, max_error_px, &self.steps)
     }
 
     fn polish(
         &mut self,
-        model: &RelativePose,
+        model: &Self::Model,
         near: &[usize],
         weights: &[f64],
-    ) -> Option<RelativePose> {
-        self.polished_by(near, weights, |near, rays| {
-            refine_pose_in_frame(
-                near,
-                rays,
-                model,
-                RobustLoss::Trivial,
-                &LmOptions::few_steps(4),
-            )
-        })
+    ) -> Option<Self::Model> {
+        self.sight.polish(model, near, weights, &self.steps)
     }
 
     fn alternative(
         &mut self,
-        model: &RelativePose,
+        model: &Self::Model,
         evidence: Evidence<'_>,
         max_error_px: f64,
         random: &mut Random,
-    ) -> Option<RelativePose> {
+    ) -> Option<Self::Model> {
         let Evidence::Inliers(inliers) = evidence else {
             return None;
         };
-        let f = self.frame.fundamental_to_frame(&model.fundamental);
-        let max_error = max_error_px * self.frame.scale;
         let plane = self
-            .recovery
-            .dominant_plane(&self.in_frame, &f, inliers, max_error, random)?;
-        let plane = self.rays_in_frame.homography_of_rays(&plane)?;
-        let (rotation, direction) =
-            other_motion_of_plane(&model.rotation, &model.direction, &plane)?;
-        let cost = |pose: &RelativePose| self.support(pose, max_error_px, f64::INFINITY).cost;
-        let there = RelativePose::new(rotation, direction, &self.k1, &self.k2);
-        let back = RelativePose {
-            direction: -direction,
-            ..there
-        };
+            .sight
+            .dominant_plane(model, inliers, max_error_px, random)?;
+        let there = other_motion_of_plane(&model.0.rotation, &model.0.direction, &plane)?;
+        let there = self.candidate(there.into());
+        let back = (there.0.back(), there.1);
+        let cost = |model| self.support(model, max_error_px, f64::INFINITY).cost;
         let known = cost(model);
-        let mut pose = if cost(&back) < cost(&there) {
-            back
-        } else {
-            there
+        let mut found = match cost(&back) < cost(&there) {
+            true => back,
+            false => there,
         };
         let mut near = Vec::new();
         for reach_px in [2.0 * max_error_px, max_error_px, max_error_px] {
-            self.inliers(&pose, reach_px, &mut near);
-            pose = self.refine(&pose, &near, reach_px)?;
+            self.inliers(&found, reach_px, &mut near);
+            found = self.refine(&found, &near, reach_px)?;
         }
-        let cost = self.support(&pose, max_error_px, f64::INFINITY).cost;
-        (cost < known).then_some(pose)
+        let cost = self.support(&found, max_error_px, f64::INFINITY).cost;
+        (cost < known).then_some(found)
     }
 
-    fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {
-        let judge = self.lenses.judge(pose, max_error_px);
-        in_front::support(&self.pixels, &judge, max_error_px, cost_limit)
+    fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
+        self.sight.support(model, max_error_px, cost_limit)
     }
 
-    fn inliers(&self, pose: &RelativePose, max_error_px: f64, inliers: &mut Vec<usize>) {
-        let judge = self.lenses.judge(pose, max_error_px);
-        in_front::inliers(&self.pixels, &judge, max_error_px, inliers);
+    fn inliers(&self, model: &Self::Model, max_error_px: f64, inliers: &mut Vec<usize>) {
+        self.sight.inliers(model, max_error_px, inliers);
     }
 }

@@ -22,8 +22,10 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// The motion between two cameras that share a focal length, up to the length of the translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseWithFocal {
-    /// The motion, and F of the pixels.
+    /// The motion.
     pub pose: RelativePose,
+    /// F of the pixels, unit Frobenius norm.
+    pub fundamental: Matrix3<f64>,
     /// The focal length of both cameras, pixels.
     pub focal_px: f64,
     /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it, there and at other
@@ -43,14 +45,16 @@ impl PoseWithFocal {
     }
 
     pub(super) fn new(
-        (rotation, direction): (Matrix3<f64>, Vector3<f64>),
+        pose: (Matrix3<f64>, Vector3<f64>),
         focal_px: f64,
         centers: &[Point2<f64>; 2],
     ) -> Option<Self> {
         let camera = |c: &Point2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y).ok();
         let (k1, k2) = (camera(&centers[0])?, camera(&centers[1])?);
+        let pose = RelativePose::from(pose);
         Some(Self {
-            pose: RelativePose::new(rotation, direction, &k1, &k2),
+            fundamental: pose.fundamental_or_zeros(&k1, &k2),
+            pose,
             focal_px,
             focal_std_px: None,
         })
@@ -195,7 +199,7 @@ impl Estimator for FocalEstimator {
 
     fn error_sq(&self, model: &PoseWithFocal, index: usize) -> f64 {
         let (x1, x2) = self.matches.pair(index);
-        super::sampson_sq(&model.pose.fundamental, &x1, &x2)
+        super::sampson_sq(&model.fundamental, &x1, &x2)
     }
 
     fn refine(
@@ -234,16 +238,11 @@ impl Estimator for FocalEstimator {
     }
 
     fn support(&self, model: &PoseWithFocal, max_error_px: f64, cost_limit: f64) -> Support {
-        sampson::support(
-            &self.pixels,
-            &model.pose.fundamental,
-            max_error_px,
-            cost_limit,
-        )
+        sampson::support(&self.pixels, &model.fundamental, max_error_px, cost_limit)
     }
 
     fn inliers(&self, model: &PoseWithFocal, max_error_px: f64, inliers: &mut Vec<usize>) {
-        sampson::inliers(&self.pixels, &model.pose.fundamental, max_error_px, inliers);
+        sampson::inliers(&self.pixels, &model.fundamental, max_error_px, inliers);
     }
 }
 
@@ -307,6 +306,7 @@ pub fn estimate_relative_pose_and_focal(
     let (inliers1, inliers2) = (inliers_of(pixels1), inliers_of(pixels2));
     let motions = decompose_essential(&report.model.pose.essential())?;
     let chosen = select_pose(&motions, &inliers1, &inliers2, &k1, &k2)?;
-    report.model.pose = RelativePose::from_motion(&chosen.cam2_from_cam1, &k1, &k2)?;
+    report.model.pose = RelativePose::from_motion(&chosen.cam2_from_cam1)?;
+    report.model.fundamental = report.model.pose.fundamental(&k1, &k2)?;
     Ok(report)
 }

@@ -2,14 +2,12 @@
 
 use super::RelativePose;
 use super::essential_estimator::EssentialEstimator;
-use super::refine_gravity::refine_upright_in_frame;
 use super::three_point::{MAX_SOLUTIONS, Upright, solve};
-use crate::camera::Intrinsics;
-use crate::optim::{LmOptions, RobustLoss};
+use crate::camera::Camera;
 use crate::progress::Monitor;
-use crate::robust::{Estimator, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac};
+use crate::robust::{Estimator, Problem, RansacOptions, RansacReport, Support, ransac};
 use crate::{Error, Result};
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Relative poses of calibrated cameras that know the direction of gravity from matches, for
 /// [`Ransac`](crate::robust::Ransac).
@@ -19,7 +17,7 @@ use nalgebra::{Point2, Vector3};
 /// it is and finds the turn about it and the direction of the translation. Equal matches count once.
 ///
 /// Source: as [`relative_pose_3point`](super::relative_pose_3point).
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct GravityEstimator {
     /// The same problem without gravity.
     free: EssentialEstimator,
@@ -29,7 +27,8 @@ pub struct GravityEstimator {
 impl GravityEstimator {
     /// Prepares the estimation.
     ///
-    /// * `k1`, `k2`: intrinsics of images 1 and 2
+    /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
+    /// * `cameras`: the two cameras, of any lens
     /// * `gravity1`, `gravity2`: the same direction of the world, down or up, in the frames of both cameras, of any
     ///   length
     ///
@@ -37,25 +36,26 @@ impl GravityEstimator {
     /// [`Error::TooFew`] for fewer than 5 different matches, as fewer fit many motions well,
     /// [`Error::Degenerate`] for a gravity without direction, and as [`EssentialEstimator::new`].
     pub fn new(
-        matches: MatchSet,
-        k1: Intrinsics,
-        k2: Intrinsics,
-        gravity1: &Vector3<f64>,
-        gravity2: &Vector3<f64>,
+        pixels1: &[Point2<f64>],
+        pixels2: &[Point2<f64>],
+        cameras: [&Camera; 2],
+        [gravity1, gravity2]: [&Vector3<f64>; 2],
     ) -> Result<Self> {
         let upright = Upright::new(gravity1, gravity2).ok_or(Error::Degenerate {
             what: "a relative pose with gravity",
             why: "gravity has no direction in one of the cameras",
         })?;
+        let free = EssentialEstimator::new(pixels1, pixels2, cameras)?;
         Ok(Self {
-            free: EssentialEstimator::new(matches, k1, k2)?,
+            free: free.upright(upright.gravity2),
             upright,
         })
     }
 }
 
 impl Estimator for GravityEstimator {
-    type Model = RelativePose;
+    /// As of [`EssentialEstimator`].
+    type Model = (RelativePose, Matrix3<f64>);
 
     fn problem(&self) -> Problem<'_> {
         Problem {
@@ -67,59 +67,42 @@ impl Estimator for GravityEstimator {
         }
     }
 
-    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<RelativePose>) {
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
         let Some([rays1, rays2]) = self.free.rays_of(sample) else {
             return;
         };
         let solutions = solve(&rays1, &rays2, &self.upright);
-        models.extend(
-            (solutions.iter()).map(|(rotation, direction)| self.free.pose(*rotation, *direction)),
-        );
+        models.extend((solutions.iter()).map(|pose| self.free.candidate((*pose).into())));
     }
 
-    fn error_sq(&self, pose: &RelativePose, index: usize) -> f64 {
-        self.free.error_sq(pose, index)
+    fn error_sq(&self, model: &Self::Model, index: usize) -> f64 {
+        self.free.error_sq(model, index)
     }
 
     fn refine(
         &mut self,
-        model: &RelativePose,
+        model: &Self::Model,
         inliers: &[usize],
         max_error_px: f64,
-    ) -> Option<RelativePose> {
-        let gravity2 = self.upright.gravity2;
-        self.free
-            .refined_by(model, inliers, max_error_px, |near, rays, loss| {
-                refine_upright_in_frame(
-                    near,
-                    rays,
-                    model,
-                    &gravity2,
-                    loss,
-                    &LmOptions::few_steps(2),
-                )
-            })
+    ) -> Option<Self::Model> {
+        self.free.refine(model, inliers, max_error_px)
     }
 
     fn polish(
         &mut self,
-        model: &RelativePose,
+        model: &Self::Model,
         near: &[usize],
         weights: &[f64],
-    ) -> Option<RelativePose> {
-        let gravity2 = self.upright.gravity2;
-        self.free.polished_by(near, weights, |near, rays| {
-            let loss = RobustLoss::Trivial;
-            refine_upright_in_frame(near, rays, model, &gravity2, loss, &LmOptions::few_steps(4))
-        })
+    ) -> Option<Self::Model> {
+        self.free.polish(model, near, weights)
     }
 
-    fn support(&self, pose: &RelativePose, max_error_px: f64, cost_limit: f64) -> Support {
-        self.free.support(pose, max_error_px, cost_limit)
+    fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
+        self.free.support(model, max_error_px, cost_limit)
     }
 
-    fn inliers(&self, pose: &RelativePose, max_error_px: f64, inliers: &mut Vec<usize>) {
-        self.free.inliers(pose, max_error_px, inliers);
+    fn inliers(&self, model: &Self::Model, max_error_px: f64, inliers: &mut Vec<usize>) {
+        self.free.inliers(model, max_error_px, inliers);
     }
 }
 
@@ -129,9 +112,8 @@ impl Estimator for GravityEstimator {
 /// 440 samples find three right ones with 99.9 %, and 7000 five.
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `k1`, `k2`: intrinsics of the two cameras
-/// * `gravity1`, `gravity2`: the same direction of the world, down or up, in the frames of both cameras, of any
-///   length: from accelerometers, or from vanishing points of verticals
+/// * `cameras`: the two cameras, of any lens
+/// * `gravity`: the same direction of the world, down or up, in the frames of both cameras, of any length: from accelerometers, or from vanishing points of verticals
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels
 ///
 /// Gravity is taken for exact. Where it is off by half a degree, as a phone's is, the threshold should let pass what that does to
@@ -139,23 +121,23 @@ impl Estimator for GravityEstimator {
 /// camera hardly moved, the direction means nothing.
 ///
 /// # Errors
-/// As [`MatchSet::new`], [`GravityEstimator::new`] and [`ransac`].
+/// As [`GravityEstimator::new`] and [`ransac`].
 ///
 /// Source: as [`GravityEstimator`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
 /// use epipole::epipolar::estimate_relative_pose_with_gravity;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::{Point2, Point3, Vector3};
-/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
+/// let camera = Camera::pinhole(Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, 640, 480);
 /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
 /// let (mut p1, mut p2) = (Vec::new(), Vec::new());
 /// for i in 0..40 {
 ///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
-///     p1.push(k.project(&x)?);
-///     p2.push(k.project(&(cam2_from_cam1 * x))?);
+///     p1.push(camera.project(&x)?);
+///     p2.push(camera.project(&(cam2_from_cam1 * x))?);
 /// }
 /// // Every second match is wrong.
 /// for i in (0..40).step_by(2) {
@@ -164,7 +146,8 @@ impl Estimator for GravityEstimator {
 /// let gravity1 = Vector3::new(0.1, 1.0, 0.2);
 /// let gravity2 = cam2_from_cam1.rotation * gravity1;
 /// let options = RansacOptions::default();
-/// let report = estimate_relative_pose_with_gravity(&p1, &p2, [&k, &k], [&gravity1, &gravity2], &options, &mut ())?;
+/// let gravity = [&gravity1, &gravity2];
+/// let report = estimate_relative_pose_with_gravity(&p1, &p2, [&camera; 2], gravity, &options, &mut ())?;
 /// let found = report.model.cam2_from_cam1();
 /// assert!(report.num_inliers >= 20);
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
@@ -174,12 +157,11 @@ impl Estimator for GravityEstimator {
 pub fn estimate_relative_pose_with_gravity(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    [k1, k2]: [&Intrinsics; 2],
-    [gravity1, gravity2]: [&Vector3<f64>; 2],
+    cameras: [&Camera; 2],
+    gravity: [&Vector3<f64>; 2],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<RelativePose>> {
-    let matches = MatchSet::new(pixels1, pixels2)?;
-    let estimator = GravityEstimator::new(matches, *k1, *k2, gravity1, gravity2)?;
-    ransac(estimator, options, monitor)
+    let estimator = GravityEstimator::new(pixels1, pixels2, cameras, gravity)?;
+    Ok(ransac(estimator, options, monitor)?.map(|(pose, _)| pose))
 }

@@ -7,7 +7,7 @@ use super::five_point;
 use super::in_front::{self, Lenses};
 use super::refine::refine_in_frame;
 use super::refine_focal::refine_pose_and_focal_in_frame;
-use super::refine_pose::{Pose, RaysInFrame, refine_pose_in_frame};
+use super::refine_pose::{ErrorsInFrame, Pose, RaysInFrame, Steps, refine_pose};
 use super::{RelativePose, project_to_essential};
 use crate::camera::Intrinsics;
 use crate::math::order::at_rank;
@@ -68,7 +68,7 @@ impl<'a> FocalProfile<'a> {
             width: max_error_px * of.frame.scale,
         };
         let options = LmOptions::few_steps(10);
-        let fundamental = (of.frame).fundamental_within(&model.pose.fundamental, |f| {
+        let fundamental = (of.frame).fundamental_within(&model.fundamental, |f| {
             refine_in_frame(&of.in_frame, f, loss, &options)
         })?;
         let errors_sq = |most_px: f64| -> Vec<f64> {
@@ -193,8 +193,9 @@ impl<'a> FocalProfile<'a> {
             .flat_map(|rotation| [(rotation, direction), (rotation, -direction)]);
         motions
             .map(|pose| {
-                let judged = RelativePose::new(pose.0, pose.1, &k1, &k2);
-                let judge = lenses.judge(&judged, self.max_error_px);
+                let judged = RelativePose::from(pose);
+                let fundamental = judged.fundamental_or_zeros(&k1, &k2);
+                let judge = lenses.judge(&(judged, fundamental), self.max_error_px);
                 let support =
                     in_front::support(&self.of.pixels, &judge, self.width_px, f64::INFINITY);
                 Fit {
@@ -211,16 +212,13 @@ impl<'a> FocalProfile<'a> {
         let [k1, k2] = self.intrinsics(focal_px)?;
         let rays = RaysInFrame::new(&self.of.frame, &k1, &k2);
         let refined = |coordinates: &Coordinates, pose: &Pose, width_px: f64, steps: usize| {
-            let start = RelativePose::new(pose.0, pose.1, &k1, &k2);
             let width = width_px * self.of.frame.scale;
-            let loss = RobustLoss::Truncated { width };
-            refine_pose_in_frame(
+            let errors = ErrorsInFrame {
                 coordinates,
-                &rays,
-                &start,
-                loss,
-                &LmOptions::few_steps(steps),
-            )
+                rays: &rays,
+                loss: RobustLoss::Truncated { width },
+            };
+            refine_pose(&errors, *pose, &Steps::Free, &LmOptions::few_steps(steps))
         };
         let all = &self.of.in_frame;
         let fits = starts.iter().filter_map(|start| {
@@ -232,8 +230,7 @@ impl<'a> FocalProfile<'a> {
 
     /// The motion and the focal length near to a start.
     fn refined(&self, start: Pose, focal_px: f64) -> Option<Fit> {
-        let [k1, k2] = self.intrinsics(focal_px)?;
-        let start = RelativePose::new(start.0, start.1, &k1, &k2);
+        let start = RelativePose::from(start);
         let width = self.width_px * self.of.frame.scale;
         let (pose, focal_px) = refine_pose_and_focal_in_frame(
             &self.of.in_frame,

@@ -1,9 +1,9 @@
 //! Matches judged by a relative pose: near to their epipolar lines, and in front of both cameras.
 
-use super::RelativePose;
 use super::coordinates::{Coordinates, LANES, Lanes, entries};
 use super::judge::{self, LaneErrors};
 use super::sampson::Sampson;
+use super::sight::Candidate;
 use crate::camera::Intrinsics;
 use crate::math::simd::dispatched;
 use crate::robust::Support;
@@ -28,11 +28,11 @@ impl Lenses {
         }
     }
 
-    /// A pose, ready to judge matches by a threshold.
-    pub(crate) fn judge(&self, pose: &RelativePose, max_error_px: f64) -> PoseJudge {
+    /// A pose and its F, ready to judge matches by a threshold.
+    pub(crate) fn judge(&self, (pose, fundamental): &Candidate, max_error_px: f64) -> PoseJudge {
         let margin_rad = max_error_px * self.pixel_rad;
         PoseJudge {
-            sampson: Sampson(entries(&pose.fundamental)),
+            sampson: Sampson(entries(fundamental)),
             turned1: entries(&(pose.rotation * self.inverse1)),
             ray2: entries(&self.inverse2),
             direction: [pose.direction.x, pose.direction.y, pose.direction.z],

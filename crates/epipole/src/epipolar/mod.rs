@@ -12,7 +12,6 @@ mod essential;
 mod essential_estimator;
 mod estimate_essential;
 mod estimate_fundamental;
-mod estimate_of_rays;
 mod estimate_pose_and_focal;
 mod estimate_with_gravity;
 mod five_point;
@@ -21,17 +20,20 @@ mod focal_profile;
 mod from_cameras;
 mod in_front;
 pub(crate) mod judge;
+mod lens_matches;
 mod lines;
 mod normalize;
 mod other_motion;
+mod pinhole_matches;
 mod plane_recovery;
 mod refine;
 mod refine_focal;
-mod refine_gravity;
 mod refine_pose;
+mod refine_relative_pose;
 mod relative_pose;
 mod sampson;
 mod seven_point;
+mod sight;
 mod six_point;
 mod three_point;
 
@@ -47,7 +49,6 @@ pub use essential::{SelectedPose, decompose_essential, project_to_essential, sel
 pub use essential_estimator::EssentialEstimator;
 pub use estimate_essential::{estimate_essential, estimate_relative_pose};
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
-pub use estimate_of_rays::{estimate_relative_pose_of_rays, sampson_px_of_rays};
 pub use estimate_pose_and_focal::{
     FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
 };
@@ -59,11 +60,12 @@ pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
     fundamental_from_essential,
 };
+pub use lens_matches::tangent_sampson_px;
 pub use lines::{epipolar_line1, epipolar_line2};
 pub use normalize::Normalization;
 pub use refine::refine_fundamental;
 pub(crate) use refine::scaled as scaled_loss;
-pub use refine_pose::refine_relative_pose;
+pub use refine_relative_pose::refine_relative_pose;
 pub use relative_pose::RelativePose;
 pub use seven_point::{epipolar_row, fundamental_7point};
 pub use six_point::{EssentialWithFocal, essential_6point};

@@ -214,7 +214,7 @@ mod tests {
         sampson_sq,
     };
     use super::*;
-    use crate::camera::Intrinsics;
+    use crate::camera::{Camera, Intrinsics};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector};
@@ -302,7 +302,8 @@ mod tests {
     fn each_failure_has_its_own_sentence() {
         let (f, p1, p2) = noisy_matches(&mut Random::new(4), 0.5);
         let k = Intrinsics::centered(700.0, 640, 480).unwrap();
-        let pose = RelativePose::checked(Matrix3::identity(), Vector3::x(), &k, &k).unwrap();
+        let camera = Camera::pinhole(k, 640, 480);
+        let pose = RelativePose::from((Matrix3::identity(), Vector3::x()));
         for width in [0.0, -1.0, f64::NAN] {
             for loss in [
                 RobustLoss::Huber { width },
@@ -313,7 +314,8 @@ mod tests {
                 let refined = refine_fundamental(&f, &p1, &p2, loss).unwrap_err();
                 // Equal as sentences, since NaN does not equal itself.
                 assert_eq!(refined.to_string(), refused.to_string());
-                let refined = refine_relative_pose(&pose, &p1, &p2, &k, &k, loss).unwrap_err();
+                let refined =
+                    refine_relative_pose(&pose, &p1, &p2, [&camera; 2], loss).unwrap_err();
                 assert_eq!(refined.to_string(), refused.to_string());
             }
         }
@@ -330,7 +332,7 @@ mod tests {
             direction: Vector3::from_element(f64::NAN),
             ..pose
         };
-        let refined = refine_relative_pose(&nowhere, &p1, &p2, &k, &k, loss);
+        let refined = refine_relative_pose(&nowhere, &p1, &p2, [&camera; 2], loss);
         assert!(
             matches!(refined, Err(Error::NotFinite { .. })),
             "{refined:?}"

@@ -1,77 +1,24 @@
 //! Nonlinear refinement of a relative pose: the Sampson error by Levenberg–Marquardt.
 
-use super::RelativePose;
 use super::coordinates::{CommonFrame, Coordinates};
-use super::refine::{NO_ERROR_AT_THE_START, flatten, project, scaled};
-use super::sampson::{cost, linearize};
-#[cfg(doc)]
-use crate::Error;
-use crate::Result;
+use super::refine::{flatten, project};
+use super::sampson::{EntrySums, cost, linearize};
 use crate::camera::{Intrinsics, cross_matrix};
 use crate::math::nearest_orthogonal;
 use crate::math::svd3::perpendicular;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-use crate::robust::MatchSet;
-use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
-/// The relative pose near `pose` that minimizes `½ Σ ρ(e²)` over the matches, where e is the Sampson
-/// error in pixels.
-///
-/// The rotation and the direction of the translation, five parameters, are refined.
-///
-/// # Errors
-/// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
-/// match, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
-/// counts.
-///
-/// Source: Hartley & Zisserman 2004, §11.4.3, with `E = [t]ₓR` instead of F.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::{RelativePose, refine_relative_pose};
-/// use epipole::optim::RobustLoss;
-/// use nalgebra::{Point3, Vector3};
-/// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
-/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
-/// for i in 0..20 {
-///     let x = Point3::new(f64::from(i * 7 % 5) - 2.0, f64::from(i * 3 % 4) - 1.5, 5.0 + f64::from(i * i % 7));
-///     p1.push(k.project(&x)?);
-///     p2.push(k.project(&(cam2_from_cam1 * x))?);
-/// }
-/// // A start that is off by 0.05 rad and looks straight to the side.
-/// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.0, 0.05, 0.0));
-/// let start = RelativePose::from_motion(&start, &k, &k)?;
-/// let refined = refine_relative_pose(&start, &p1, &p2, &k, &k, RobustLoss::Trivial)?.cam2_from_cam1();
-/// assert!(refined.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-6);
-/// assert!((refined.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-6);
-/// # Ok(()) }
-/// ```
-pub fn refine_relative_pose(
-    pose: &RelativePose,
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
-    loss: RobustLoss,
-) -> Result<RelativePose> {
-    let matches = MatchSet::of_all(pixels1, pixels2)?;
-    matches.at_least(5, "a refined relative pose")?;
-    loss.check()?;
-    let frame = CommonFrame::new(&matches);
-    let coordinates = Coordinates::pixels(&matches).mapped(&frame);
-    let rays = RaysInFrame::new(&frame, k1, k2);
-    let (rotation, direction) = refine_pose_in_frame(
-        &coordinates,
-        &rays,
-        pose,
-        scaled(loss, frame.scale),
-        &LmOptions::default(),
-    )
-    .ok_or(NO_ERROR_AT_THE_START)?;
-    RelativePose::checked(rotation, direction, k1, k2)
+/// Sampson errors of some matches, as functions of a matrix.
+pub(super) trait SampsonErrors {
+    /// The matrix that measures the errors of a motion; linear in its essential matrix.
+    fn matrix(&self, essential: &Matrix3<f64>) -> Matrix3<f64>;
+
+    /// The errors and their derivatives by the entries of the matrix.
+    fn linearize(&self, matrix: &Matrix3<f64>) -> EntrySums;
+
+    /// `½ Σ ρ(e²)`.
+    fn cost(&self, matrix: &Matrix3<f64>) -> f64;
 }
 
 /// How rays become coordinates of the common frame: `F = A2ᵀ E A1`.
@@ -90,12 +37,29 @@ impl RaysInFrame {
     }
 
     /// A homography of the frame as one of rays.
-    pub(crate) fn homography_of_rays(&self, in_frame: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    pub(super) fn ray_homography(&self, in_frame: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         Some(self.a2t.transpose() * in_frame * self.a1.try_inverse()?)
     }
+}
 
-    pub(crate) fn fundamental(&self, essential: &Matrix3<f64>) -> Matrix3<f64> {
-        self.a2t * essential * self.a1
+/// The errors of pinhole cameras, in the common frame.
+pub(super) struct ErrorsInFrame<'a> {
+    pub(super) coordinates: &'a Coordinates,
+    pub(super) rays: &'a RaysInFrame,
+    pub(super) loss: RobustLoss,
+}
+
+impl SampsonErrors for ErrorsInFrame<'_> {
+    fn matrix(&self, essential: &Matrix3<f64>) -> Matrix3<f64> {
+        self.rays.a2t * essential * self.rays.a1
+    }
+
+    fn linearize(&self, fundamental: &Matrix3<f64>) -> EntrySums {
+        linearize(self.coordinates, fundamental, &self.loss)
+    }
+
+    fn cost(&self, fundamental: &Matrix3<f64>) -> f64 {
+        cost(self.coordinates, fundamental, &self.loss)
     }
 }
 
@@ -125,36 +89,67 @@ pub(crate) fn essential_derivatives(
     ]
 }
 
-struct PoseProblem<'a> {
-    coordinates: &'a Coordinates,
-    rays: &'a RaysInFrame,
-    loss: RobustLoss,
+/// The directions in which refinement moves a pose.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Steps {
+    /// All five.
+    Free,
+    /// Turns about gravity, a unit vector in the frame of camera 2, and the direction.
+    AboutGravity(Vector3<f64>),
 }
 
-impl PoseProblem<'_> {
-    fn fundamental(&self, (rotation, direction): &Pose) -> Matrix3<f64> {
-        self.rays.fundamental(&(cross_matrix(direction) * rotation))
+impl Steps {
+    fn about_gravity(g: &Vector3<f64>) -> SMatrix<f64, 5, 3> {
+        #[rustfmt::skip]
+        let steps = SMatrix::<f64, 5, 3>::new(
+            g.x, 0.0, 0.0,
+            g.y, 0.0, 0.0,
+            g.z, 0.0, 0.0,
+            0.0, 1.0, 0.0,
+            0.0, 0.0, 1.0,
+        );
+        steps
     }
 }
 
-impl FixedProblem<5> for PoseProblem<'_> {
+/// A pose that moves along N directions, the columns of `steps`.
+struct PoseProblem<'a, E, const N: usize> {
+    errors: &'a E,
+    steps: SMatrix<f64, 5, N>,
+}
+
+impl<E: SampsonErrors, const N: usize> PoseProblem<'_, E, N> {
+    fn matrix(&self, (rotation, direction): &Pose) -> Matrix3<f64> {
+        self.errors.matrix(&(cross_matrix(direction) * rotation))
+    }
+
+    /// The derivatives of the matrix's entries.
+    fn derivatives(&self, (rotation, direction): &Pose) -> SMatrix<f64, 9, N> {
+        let mut free = SMatrix::<f64, 9, 5>::zeros();
+        for (i, essential) in essential_derivatives(rotation, direction)
+            .iter()
+            .enumerate()
+        {
+            free.set_column(i, &flatten(&self.errors.matrix(essential)));
+        }
+        free * self.steps
+    }
+}
+
+impl<E: SampsonErrors, const N: usize> FixedProblem<N> for PoseProblem<'_, E, N> {
     type Parameters = Pose;
 
-    fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<5>) {
-        let sums = linearize(self.coordinates, &self.fundamental(pose), &self.loss);
-        let mut d = SMatrix::<f64, 9, 5>::zeros();
-        for (i, essential) in essential_derivatives(&pose.0, &pose.1).iter().enumerate() {
-            d.set_column(i, &flatten(&self.rays.fundamental(essential)));
-        }
-        project(&sums, &d, normal);
+    fn accumulate(&self, pose: &Pose, normal: &mut NormalEquations<N>) {
+        let sums = self.errors.linearize(&self.matrix(pose));
+        project(&sums, &self.derivatives(pose), normal);
     }
 
     fn cost(&self, pose: &Pose) -> f64 {
-        cost(self.coordinates, &self.fundamental(pose), &self.loss)
+        self.errors.cost(&self.matrix(pose))
     }
 
-    fn plus(&self, pose: &Pose, delta: &SVector<f64, 5>) -> Pose {
-        moved_pose(pose, delta)
+    fn plus(&self, pose: &Pose, delta: &SVector<f64, N>) -> Pose {
+        moved_pose(pose, &(self.steps * delta))
     }
 }
 
@@ -168,21 +163,27 @@ pub(super) fn moved_pose((rotation, direction): &Pose, delta: &SVector<f64, 5>) 
     )
 }
 
-/// Refines a relative pose in the frame of the coordinates.
-pub(crate) fn refine_pose_in_frame(
-    coordinates: &Coordinates,
-    rays: &RaysInFrame,
-    start: &RelativePose,
-    loss: RobustLoss,
+/// The pose near a start that minimizes the errors; `None` if their sum is not finite there.
+pub(super) fn refine_pose(
+    errors: &impl SampsonErrors,
+    start: Pose,
+    steps: &Steps,
     options: &LmOptions,
 ) -> Option<Pose> {
-    let mut pose = (start.rotation, start.direction);
-    let problem = PoseProblem {
-        coordinates,
-        rays,
-        loss,
-    };
-    minimize_fixed(&problem, &mut pose, options).ok()?;
+    match steps {
+        Steps::Free => minimized(errors, start, SMatrix::<f64, 5, 5>::identity(), options),
+        Steps::AboutGravity(g) => minimized(errors, start, Steps::about_gravity(g), options),
+    }
+}
+
+fn minimized<const N: usize>(
+    errors: &impl SampsonErrors,
+    start: Pose,
+    steps: SMatrix<f64, 5, N>,
+    options: &LmOptions,
+) -> Option<Pose> {
+    let mut pose = start;
+    minimize_fixed(&PoseProblem { errors, steps }, &mut pose, options).ok()?;
     orthogonal(&pose)
 }
 
@@ -200,35 +201,51 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
-    use nalgebra::{DMatrix, DVector};
+    use crate::robust::MatchSet;
+    use nalgebra::{DMatrix, DVector, Point2};
+
+    fn check_derivatives<const N: usize>(
+        errors: &ErrorsInFrame<'_>,
+        steps: SMatrix<f64, 5, N>,
+        pose: &Pose,
+    ) -> Pose {
+        let problem = PoseProblem { errors, steps };
+        let at = |delta: &DVector<f64>| {
+            let delta = SVector::<f64, N>::from_column_slice(delta.as_slice());
+            let f = problem.matrix(&problem.plus(pose, &delta));
+            DVector::from_column_slice(flatten(&f).as_slice())
+        };
+        let analytic = DMatrix::from_column_slice(9, N, problem.derivatives(pose).as_slice());
+        assert!(check_jacobian(&analytic, &at, 1e-6) < 1e-6 * (1.0 + analytic.amax()));
+        problem.plus(pose, &SVector::from_fn(|i, _| 0.3 - 0.2 * i as f64))
+    }
 
     #[test]
-    fn pose_derivatives_agree_with_differences() {
+    fn derivatives_agree_with_differences_and_gravity_stays() {
         let mut random = Random::new(2);
         for _ in 0..20 {
+            let mut pixels = || -> Vec<_> {
+                (0..20)
+                    .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
+                    .collect()
+            };
+            let matches = MatchSet::new(&pixels(), &pixels()).unwrap();
+            let frame = CommonFrame::new(&matches);
+            let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
+            let errors = ErrorsInFrame {
+                coordinates: &Coordinates::pixels(&matches).mapped(&frame),
+                rays: &RaysInFrame::new(&frame, &k, &k),
+                loss: RobustLoss::Trivial,
+            };
             let axis = Vector3::from_fn(|_, _| random.normal());
             let rotation = Rotation3::from_scaled_axis(axis).into_inner();
             let direction = Vector3::from_fn(|_, _| random.normal()).normalize();
-            let (coordinates, rays) = (
-                Coordinates::pixels(&MatchSet::new(&[], &[]).unwrap()),
-                RaysInFrame {
-                    a1: Matrix3::identity(),
-                    a2t: Matrix3::identity(),
-                },
-            );
-            let problem = PoseProblem {
-                coordinates: &coordinates,
-                rays: &rays,
-                loss: RobustLoss::Trivial,
-            };
-            let at = |delta: &DVector<f64>| {
-                let delta = SVector::<f64, 5>::from_column_slice(delta.as_slice());
-                let e = problem.fundamental(&problem.plus(&(rotation, direction), &delta));
-                DVector::from_column_slice(flatten(&e).as_slice())
-            };
-            let columns = essential_derivatives(&rotation, &direction).map(|e| flatten(&e));
-            let analytic = DMatrix::from_fn(9, 5, |i, j| columns[j][i]);
-            assert!(check_jacobian(&analytic, &at, 1e-6) < 1e-6);
+            let pose = (rotation, direction);
+            check_derivatives(&errors, SMatrix::<f64, 5, 5>::identity(), &pose);
+            let gravity2 = Vector3::from_fn(|_, _| random.normal()).normalize();
+            let moved = check_derivatives(&errors, Steps::about_gravity(&gravity2), &pose);
+            let gravity1 = rotation.transpose() * gravity2;
+            assert!((moved.0 * gravity1 - gravity2).norm() < 1e-12);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Where the second camera is, up to the length of the step, and F with it.
+//! The motion between two cameras, up to the length of the step.
 
 use super::from_cameras::NO_BASELINE;
 use super::{essential_from_motion, fundamental_from_essential};
@@ -14,16 +14,41 @@ pub struct RelativePose {
     pub rotation: Matrix3<f64>,
     /// t of `cam2_from_cam1`, of length 1.
     pub direction: Vector3<f64>,
-    /// The fundamental matrix of the pixels, unit Frobenius norm.
-    pub fundamental: Matrix3<f64>,
 }
 
 impl RelativePose {
-    /// The pose of a motion between cameras with intrinsics `k1` and `k2`; the length of t is dropped.
+    /// The pose of a motion; the length of t is dropped.
     ///
     /// # Errors
-    /// As [`essential_from_motion`] and [`fundamental_from_essential`]; a motion without a step has no
-    /// direction.
+    /// As [`essential_from_motion`]; a motion without a step has no direction.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), epipole::Error> {
+    /// use epipole::camera::RigidTransform;
+    /// use epipole::epipolar::RelativePose;
+    /// use nalgebra::Vector3;
+    /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-3.0, 0.0, 4.0), Vector3::new(0.0, 0.1, 0.0));
+    /// let pose = RelativePose::from_motion(&cam2_from_cam1)?;
+    /// assert!((pose.direction - Vector3::new(-0.6, 0.0, 0.8)).norm() < 1e-12);
+    /// # Ok(()) }
+    /// ```
+    pub fn from_motion(cam2_from_cam1: &RigidTransform) -> Result<Self> {
+        essential_from_motion(cam2_from_cam1)?;
+        Ok(Self {
+            rotation: cam2_from_cam1.rotation.to_rotation_matrix().into_inner(),
+            direction: unit(&cam2_from_cam1.translation.vector).ok_or(NO_BASELINE)?,
+        })
+    }
+
+    /// `[t]ₓ R` with unit Frobenius norm.
+    pub fn essential(&self) -> Matrix3<f64> {
+        cross_matrix(&self.direction) * self.rotation * core::f64::consts::FRAC_1_SQRT_2
+    }
+
+    /// F of the pixels of pinhole cameras with intrinsics `k1` and `k2`, unit Frobenius norm.
+    ///
+    /// # Errors
+    /// As [`fundamental_from_essential`].
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -32,62 +57,29 @@ impl RelativePose {
     /// use nalgebra::{Point3, Vector3};
     /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
     /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-3.0, 0.0, 4.0), Vector3::new(0.0, 0.1, 0.0));
-    /// let pose = RelativePose::from_motion(&cam2_from_cam1, &k, &k)?;
-    /// assert!((pose.direction - Vector3::new(-0.6, 0.0, 0.8)).norm() < 1e-12);
+    /// let f = RelativePose::from_motion(&cam2_from_cam1)?.fundamental(&k, &k)?;
     /// let x = Point3::new(1.0, -0.5, 6.0);
     /// let (p1, p2) = (k.project(&x)?, k.project(&(cam2_from_cam1 * x))?);
-    /// assert!(sampson_px(&pose.fundamental, &p1, &p2) < 1e-9);
+    /// assert!(sampson_px(&f, &p1, &p2) < 1e-9);
     /// # Ok(()) }
     /// ```
-    pub fn from_motion(
-        cam2_from_cam1: &RigidTransform,
-        k1: &Intrinsics,
-        k2: &Intrinsics,
-    ) -> Result<Self> {
-        let essential = essential_from_motion(cam2_from_cam1)?;
-        Ok(Self {
-            rotation: cam2_from_cam1.rotation.to_rotation_matrix().into_inner(),
-            direction: unit(&cam2_from_cam1.translation.vector).ok_or(NO_BASELINE)?,
-            fundamental: fundamental_from_essential(&essential, k1, k2)?,
-        })
+    pub fn fundamental(&self, k1: &Intrinsics, k2: &Intrinsics) -> Result<Matrix3<f64>> {
+        let essential = cross_matrix(&self.direction) * self.rotation;
+        fundamental_from_essential(&essential, k1, k2)
     }
 
-    /// A pose with its fundamental matrix, for cameras with intrinsics `k1` and `k2`.
-    ///
-    /// # Errors
-    /// As [`fundamental_from_essential`].
-    pub(crate) fn checked(
-        rotation: Matrix3<f64>,
-        direction: Vector3<f64>,
-        k1: &Intrinsics,
-        k2: &Intrinsics,
-    ) -> Result<Self> {
-        let essential = cross_matrix(&direction) * rotation;
-        Ok(Self {
-            rotation,
-            direction,
-            fundamental: fundamental_from_essential(&essential, k1, k2)?,
-        })
+    /// F of a candidate that is yet to be judged: zeros, which no match fits, where there is none.
+    pub(crate) fn fundamental_or_zeros(&self, k1: &Intrinsics, k2: &Intrinsics) -> Matrix3<f64> {
+        self.fundamental(k1, k2)
+            .unwrap_or_else(|_| Matrix3::zeros())
     }
 
-    /// [`checked`](Self::checked) for a candidate that is yet to be judged: without a fundamental
-    /// matrix it keeps zeros in its place, which no match fits, so it is never the answer.
-    pub(crate) fn new(
-        rotation: Matrix3<f64>,
-        direction: Vector3<f64>,
-        k1: &Intrinsics,
-        k2: &Intrinsics,
-    ) -> Self {
-        Self::checked(rotation, direction, k1, k2).unwrap_or(Self {
-            rotation,
-            direction,
-            fundamental: Matrix3::zeros(),
-        })
-    }
-
-    /// `[t]ₓ R` with unit Frobenius norm.
-    pub fn essential(&self) -> Matrix3<f64> {
-        cross_matrix(&self.direction) * self.rotation * core::f64::consts::FRAC_1_SQRT_2
+    /// The same rotation with a step the other way.
+    pub(super) fn back(self) -> Self {
+        Self {
+            direction: -self.direction,
+            ..self
+        }
     }
 
     /// R and t as a transform; t has length 1.
@@ -97,5 +89,15 @@ impl RelativePose {
             Translation3::from(self.direction),
             UnitQuaternion::from_rotation_matrix(&rotation),
         )
+    }
+}
+
+impl From<(Matrix3<f64>, Vector3<f64>)> for RelativePose {
+    /// From R and a t of length 1.
+    fn from((rotation, direction): (Matrix3<f64>, Vector3<f64>)) -> Self {
+        Self {
+            rotation,
+            direction,
+        }
     }
 }

@@ -5,7 +5,7 @@
 
 mod decompose;
 mod estimate;
-mod estimate_of_rays;
+mod estimate_calibrated;
 mod four_point;
 mod linear;
 mod refine;
@@ -16,7 +16,7 @@ mod sums_both;
 
 pub use decompose::{PlaneMotion, decompose_homography, homography_from_motion};
 pub use estimate::{HomographyEstimator, estimate_homography};
-pub use estimate_of_rays::estimate_homography_of_rays;
+pub use estimate_calibrated::estimate_homography_calibrated;
 pub use four_point::homography_4point;
 pub use linear::{fit_homography, transfer, transfer_error_px, transfer_error_sq};
 pub use refine::refine_homography;

@@ -60,6 +60,15 @@ impl MatchSet {
     /// # Ok(()) }
     /// ```
     pub fn new(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Self> {
+        Self::of_usable(pixels1, pixels2, |_| true)
+    }
+
+    /// As [`new`](Self::new), without the matches that are not usable.
+    pub(super) fn of_usable(
+        pixels1: &[Point2<f64>],
+        pixels2: &[Point2<f64>],
+        is_usable: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
         if pixels1.len() != pixels2.len() {
             return Err(Error::SizeMismatch {
                 what: "the two lists of matching pixels",
@@ -74,10 +83,8 @@ impl MatchSet {
         }
         let unique = Unique::of_usable(pixels1.len(), |i| {
             let values = [pixels1[i].x, pixels1[i].y, pixels2[i].x, pixels2[i].y];
-            values
-                .iter()
-                .all(|x| x.abs() <= FARTHEST_PX)
-                .then_some(values)
+            let is_near = values.iter().all(|x| x.abs() <= FARTHEST_PX);
+            (is_near && is_usable(i)).then_some(values)
         });
         let gather = |coordinate: &dyn Fn(usize) -> f64| {
             unique

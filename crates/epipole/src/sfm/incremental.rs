@@ -197,8 +197,7 @@ impl IncrementalReconstruction {
         build_tracks(&counts, &input.pairs)?;
         let builder = Builder::new(images, intrinsics, options);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
-        let (views, intrinsics) = (&builder.views, &builder.intrinsics);
-        let verified = verify_pairs(&input.pairs, views, intrinsics, options, &mut part)?;
+        let verified = verify_pairs(&input.pairs, &builder.views, options, &mut part)?;
         Self::grown_from(builder, verified, VERIFIED)
     }
 

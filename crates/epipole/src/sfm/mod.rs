@@ -35,7 +35,6 @@ mod two_view_reconstruction;
 mod two_view_start;
 mod union_find;
 mod unregistered;
-mod verify_rays;
 mod views;
 
 pub use alignment::{

@@ -251,8 +251,7 @@ impl Odometry {
         build_tracks(&counts, &input.pairs)?;
         let mut builder = Builder::new(images, intrinsics, &options.sfm);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
-        let (views, intrinsics) = (&builder.views, &builder.intrinsics);
-        let verified = verify_pairs(&input.pairs, views, intrinsics, &options.sfm, &mut part)?;
+        let verified = verify_pairs(&input.pairs, &builder.views, &options.sfm, &mut part)?;
         let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
         builder.join_tracks(&surviving)?;
         builder.rig = rig;

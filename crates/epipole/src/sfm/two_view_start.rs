@@ -3,16 +3,17 @@
 use super::options::{SfmOptions, lenses, pair_ransac};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
-use super::verify_rays::verify_rays;
 use super::views::Views;
-use crate::camera::{Intrinsics, Lens, RigidTransform};
+use crate::camera::{Camera, Intrinsics, Lens, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
 use crate::progress::{Monitor, Stage, report};
-use crate::robust::RansacOptions;
-use crate::two_view::{TwoViewOptions, find_explaining_turn, find_turn_and_focal};
+use crate::robust::{RansacOptions, RansacReport};
+use crate::two_view::{
+    TwoViewOptions, find_explaining_turn, find_plane_through_lenses, find_turn_and_focal,
+};
 use crate::{Error, Result};
-use nalgebra::Point2;
+use nalgebra::{Matrix3, Point2};
 
 /// A pair of images whose matches passed the test of epipolar geometry.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +72,6 @@ pub fn verify_matches(
     let found = verify_pair(
         &here,
         &views,
-        &intrinsics,
         &pair_ransac(options),
         options.min_num_inliers,
     );
@@ -86,11 +86,10 @@ pub fn verify_matches(
 
 /// Tests all pairs; shares are of the pairs, in the one stage [`Stage::PairVerification`].
 ///
-/// * `views`, `intrinsics`: of all images
+/// * `views`: of all images
 pub(super) fn verify_pairs(
     pairs: &[PairMatches],
     views: &Views,
-    intrinsics: &[Intrinsics],
     options: &SfmOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<VerifiedPair>> {
@@ -101,7 +100,7 @@ pub(super) fn verify_pairs(
         let mut found: Vec<Option<VerifiedPair>> = vec![None; group.len()];
         crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
             let needed = options.min_num_inliers;
-            found[0] = verify_pair(&group[n], views, intrinsics, &ransac, needed);
+            found[0] = verify_pair(&group[n], views, &ransac, needed);
         });
         verified.extend(found.into_iter().flatten());
         done += group.len();
@@ -116,88 +115,57 @@ const VERIFIED_AT_ONCE: usize = 8;
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///
-/// * `views`, `intrinsics`: of all images
+/// * `views`: of all images
 pub(super) fn verify_pair(
     pair: &PairMatches,
     views: &Views,
-    intrinsics: &[Intrinsics],
     options: &RansacOptions,
     min_num_inliers: usize,
 ) -> Option<VerifiedPair> {
     let both = [pair.image1, pair.image2];
-    let intrinsics = both.map(|image| &intrinsics[image]);
-    let pixels = match views {
-        Views::Pinhole(pixels) => both.map(|image| &pixels[image][..]),
-        Views::Rays(seen) => {
-            let seen = both.map(|image| &seen[image][..]);
-            return verify_rays(pair, seen, intrinsics, options, min_num_inliers);
-        }
-    };
+    let cameras = both.map(|image| &views.cameras[image]);
     if pair.matches.len() < min_num_inliers.max(5) {
         return None;
     }
-    let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
-    for &(i, j) in &pair.matches {
-        pixels1.push(pixels[0][i as usize]);
-        pixels2.push(pixels[1][j as usize]);
-    }
+    let pixels = both.map(|image| &views.pixels[image][..]);
+    let pixels1: Vec<_> = (pair.matches.iter())
+        .map(|(i, _)| pixels[0][*i as usize])
+        .collect();
+    let pixels2: Vec<_> = (pair.matches.iter())
+        .map(|(_, j)| pixels[1][*j as usize])
+        .collect();
     // Without consensus the two photographs simply do not overlap.
-    let report = estimate_relative_pose(
-        &pixels1,
-        &pixels2,
-        intrinsics[0],
-        intrinsics[1],
-        options,
-        &mut (),
-    )
-    .ok()?;
+    let report = estimate_relative_pose(&pixels1, &pixels2, cameras, options, &mut ()).ok()?;
     if report.num_unique_inliers < min_num_inliers {
         return None;
     }
     let cam2_from_cam1 = report.model.cam2_from_cam1();
+    let inliers = (0..pixels1.len()).filter(|&n| report.inliers[n]);
+    let matches: Vec<_> = inliers.clone().map(|n| pair.matches[n]).collect();
+    let pixels1: Vec<_> = inliers.clone().map(|n| pixels1[n]).collect();
+    let pixels2: Vec<_> = inliers.map(|n| pixels2[n]).collect();
     let mut angles = Vec::new();
-    let mut matches = Vec::new();
-    for (n, _) in report
-        .inliers
-        .iter()
-        .enumerate()
-        .filter(|(_, inlier)| **inlier)
-    {
-        let ray1 = cam2_from_cam1.rotation * intrinsics[0].ray(&pixels1[n]).normalize();
-        let ray2 = intrinsics[1].ray(&pixels2[n]).normalize();
+    for (p1, p2) in pixels1.iter().zip(&pixels2) {
+        let ray1 = cam2_from_cam1.rotation * cameras[0].unproject(p1).ok()?;
+        let ray2 = cameras[1].unproject(p2).ok()?;
         // Head on is as bad as parallel.
         angles.push(libm::acos(ray1.dot(&ray2).abs().min(1.0)));
-        matches.push(pair.matches[n]);
     }
     angles.sort_by(f64::total_cmp);
-    let chosen = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-        let inlier = |n: &usize| report.inliers[*n];
-        (0..pixels.len())
-            .filter(inlier)
-            .map(|n| pixels[n])
-            .collect()
-    };
-    let (pixels1, pixels2) = (chosen(&pixels1), chosen(&pixels2));
-    let few = RansacOptions {
-        max_iterations: 500,
-        ..options.within(report.max_error_px)
-    };
     // The share that makes two views planar makes a pair flat.
     let judging = TwoViewOptions {
-        ransac: few,
+        ransac: RansacOptions {
+            max_iterations: MAX_SAMPLES,
+            ..options.within(report.max_error_px)
+        },
         ..TwoViewOptions::default()
     };
-    let flat = estimate_homography(&pixels1, &pixels2, &few, &mut ()).ok();
-    let flat = flat.filter(|flat| {
-        flat.num_inliers as f64 > judging.max_homography_share * matches.len() as f64
-    });
+    let flat = find_plane(&pixels1, &pixels2, cameras, &judging);
     // What a turn explains has no depth, and by a wrong focal length a turn passes for a plane.
     let only_turned = flat.as_ref().is_some_and(|flat| {
-        let ([k1, k2], inliers) = (intrinsics, &flat.inliers);
-        find_explaining_turn(&pixels1, &pixels2, k1, k2, inliers, &judging)
+        find_explaining_turn(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
             .is_ok_and(|turn| turn.is_some())
-            || find_turn_and_focal(&pixels1, &pixels2, k1, k2, inliers, &judging)
-                .is_ok_and(|turn| turn.is_some())
+            || turned_otherwise([&pixels1, &pixels2], cameras, &flat.inliers, &judging)
     });
     let median_angle_rad = match only_turned {
         true => 0.0,
@@ -209,4 +177,52 @@ pub(super) fn verify_pair(
         median_angle_rad,
         is_flat: flat.is_some(),
     })
+}
+
+/// Maximum number of samples in search of a plane or a turn among inliers.
+const MAX_SAMPLES: usize = 500;
+
+/// The homography that explains nearly all inliers of a motion, if there is one.
+fn find_plane(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    cameras: [&Camera; 2],
+    judging: &TwoViewOptions,
+) -> Option<RansacReport<Matrix3<f64>>> {
+    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+        return find_plane_through_lenses(pixels1, pixels2, cameras, judging);
+    }
+    let flat = estimate_homography(pixels1, pixels2, &judging.ransac, &mut ()).ok();
+    let needed = judging.max_homography_share * pixels1.len() as f64;
+    flat.filter(|flat| flat.num_inliers as f64 > needed)
+}
+
+/// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
+const NARROW: f64 = 0.642_787_609_686_539_3;
+
+/// Whether a turn by another focal length explains what lies on a plane. Of matches seen far to the side nothing is said:
+/// [`find_turn_and_focal`] knows pinhole cameras.
+fn turned_otherwise(
+    pixels: [&[Point2<f64>]; 2],
+    cameras: [&Camera; 2],
+    on_plane: &[bool],
+    judging: &TwoViewOptions,
+) -> bool {
+    let straight = |side: usize| -> Option<Vec<Point2<f64>>> {
+        let camera = cameras[side];
+        if camera.is_pinhole() {
+            return Some(pixels[side].to_vec());
+        }
+        let straight = |pixel| {
+            let is_narrow = camera.unproject(pixel).is_ok_and(|ray| ray.z > NARROW);
+            is_narrow.then(|| camera.pinhole_pixel(pixel).ok())?
+        };
+        pixels[side].iter().map(straight).collect()
+    };
+    let (Some(pixels1), Some(pixels2)) = (straight(0), straight(1)) else {
+        return false;
+    };
+    let [k1, k2] = cameras.map(|camera| &camera.intrinsics);
+    find_turn_and_focal(&pixels1, &pixels2, k1, k2, on_plane, judging)
+        .is_ok_and(|turn| turn.is_some())
 }

@@ -143,7 +143,7 @@ pub fn why_unregistered(
         }
         let verified: Vec<_> = with
             .iter()
-            .filter_map(|pair| verify_pair(pair, &views, &intrinsics, &ransac, needed))
+            .filter_map(|pair| verify_pair(pair, &views, &ransac, needed))
             .collect();
         if verified.is_empty() {
             return WhyUnregistered::NoMotion;

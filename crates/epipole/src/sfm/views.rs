@@ -1,32 +1,50 @@
-//! Keypoints as motions, poses and points are found from them: without what the lens did.
+//! Keypoints and cameras from which motions, poses and points are found.
 
 use super::reconstruction::SfmImage;
 use crate::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, Observation};
 use nalgebra::Point2;
 
-/// The keypoints of all images.
+/// The keypoints of all images with their cameras.
 #[derive(Clone)]
-pub(super) enum Views {
-    /// All lenses are Brown's: as cameras without distortion would show them.
-    Pinhole(Vec<Vec<Point2<f64>>>),
-    /// Some lens is not: rays, which may point anywhere.
-    Rays(Vec<Vec<Option<Observation>>>),
+pub(super) struct Views {
+    /// Pinholes where all lenses are Brown's.
+    pub(super) cameras: Vec<Camera>,
+    /// Keypoints as these cameras see them.
+    pub(super) pixels: Vec<Vec<Point2<f64>>>,
+    /// Rays of all keypoints, where some lens is not Brown's.
+    observed: Option<Vec<Vec<Option<Observation>>>>,
 }
 
 impl Views {
     /// * `intrinsics`, `lenses`: of each image
     pub(super) fn new(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[Lens]) -> Self {
-        match lenses.iter().all(|lens| lens.kind() == LensKind::Brown) {
-            true => Self::Pinhole(undistorted(images, intrinsics, lenses)),
-            false => Self::Rays(observed(images, intrinsics, lenses)),
+        let pinhole =
+            |(image, k): (&SfmImage, &Intrinsics)| Camera::pinhole(*k, image.width, image.height);
+        let cameras = images.iter().zip(intrinsics).map(pinhole);
+        if lenses.iter().all(|lens| lens.kind() == LensKind::Brown) {
+            return Self {
+                cameras: cameras.collect(),
+                pixels: undistorted(images, intrinsics, lenses),
+                observed: None,
+            };
+        }
+        let bent = |(camera, lens): (Camera, &Lens)| Camera {
+            lens: *lens,
+            ..camera
+        };
+        let cameras: Vec<Camera> = cameras.zip(lenses).map(bent).collect();
+        Self {
+            observed: Some(observed(images, &cameras)),
+            cameras,
+            pixels: images.iter().map(|image| image.keypoints.clone()).collect(),
         }
     }
 
     /// How one keypoint was seen; `None` where its lens sees no ray.
     pub(super) fn of(&self, image: usize, keypoint: usize) -> Option<View<'_>> {
-        match self {
-            Self::Pinhole(pixels) => Some(View::Pixel(pixels[image][keypoint])),
-            Self::Rays(seen) => seen[image][keypoint].as_ref().map(View::Ray),
+        match &self.observed {
+            None => Some(View::Pixel(self.pixels[image][keypoint])),
+            Some(seen) => seen[image][keypoint].as_ref().map(View::Ray),
         }
     }
 }
@@ -40,20 +58,11 @@ pub(super) enum View<'a> {
 }
 
 /// The rays of all keypoints. Keypoints beyond what a lens model bends rays to have none.
-fn observed(
-    images: &[SfmImage],
-    intrinsics: &[Intrinsics],
-    lenses: &[Lens],
-) -> Vec<Vec<Option<Observation>>> {
+fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observation>>> {
     let mut seen: Vec<Vec<Option<Observation>>> = vec![Vec::new(); images.len()];
     crate::optim::parallel::for_each_chunk(&mut seen, 1, |index, seen| {
-        let image = &images[index];
-        let camera = Camera {
-            lens: lenses[index],
-            ..Camera::pinhole(intrinsics[index], image.width, image.height)
-        };
-        let observe = |pixel| camera.observe(pixel).ok();
-        seen[0] = image.keypoints.iter().map(observe).collect();
+        let observe = |pixel| cameras[index].observe(pixel).ok();
+        seen[0] = images[index].keypoints.iter().map(observe).collect();
     });
     seen
 }

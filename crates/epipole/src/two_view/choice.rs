@@ -3,12 +3,13 @@
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
 use super::pairs::Pairs;
 use super::search::Searches;
+use super::through_lenses::estimate_through_lenses;
 use super::turn::{ExplainingTurn, homography_of_turn};
 use super::{RotationEstimator, TwoViewOptions};
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::{Intrinsics, RigidTransform};
+use crate::camera::{Camera, RigidTransform};
 #[cfg(doc)]
 use crate::epipolar::estimate_fundamental;
 use crate::epipolar::{FundamentalEstimator, RelativePose, estimate_relative_pose, sampson_px};
@@ -156,14 +157,17 @@ pub fn estimate_two_view(
 
 /// Chooses among E, F and H for two views of known intrinsics, and finds the motion.
 ///
-/// * `k1`, `k2`: intrinsics of the cameras. If they are wrong, F explains more matches than E and
-///   is chosen
+/// * `cameras`: the two cameras, of any lens. If the intrinsics of pinhole cameras are wrong, F explains more matches
+///   than E and is chosen
 ///
 /// A camera that only turned is recognized by a rotation that explains nearly all matches that the best
 /// other model does. Where F is chosen, the motion is still that of E, if enough matches support it: it
 /// is the best that agrees with the intrinsics. For a plane the motion is taken from E or from the
 /// decomposition of H, whichever fits more matches with the points in front of both cameras; often two
 /// motions do equally well.
+///
+/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`] are of rays then,
+/// `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in the pixels of the distorted images.
 ///
 /// # Errors
 /// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if no model
@@ -173,7 +177,7 @@ pub fn estimate_two_view(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
@@ -183,7 +187,8 @@ pub fn estimate_two_view(
 ///     let x = k.matrix() * (turn * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
-/// let report = estimate_two_view_calibrated(&p1, &p2, &k, &k, &TwoViewOptions::default(), &mut ())?;
+/// let camera = Camera::pinhole(k, 640, 480);
+/// let report = estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Panoramic);
 /// assert!((report.cam2_from_cam1.unwrap().rotation.angle() - 0.1).abs() < 1e-6);
 /// # Ok(()) }
@@ -191,19 +196,22 @@ pub fn estimate_two_view(
 pub fn estimate_two_view_calibrated(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
+    cameras: [&Camera; 2],
     options: &TwoViewOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
     options.check()?;
+    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+        return estimate_through_lenses(pixels1, pixels2, cameras, options, monitor);
+    }
+    let [k1, k2] = cameras.map(|camera| &camera.intrinsics);
     let set = MatchSet::new(pixels1, pixels2)?;
     let pairs = Pairs::new(pixels1, pixels2, &set);
     let mut searches = Searches::new(monitor);
     let options = &searches.with_threshold(options, &set);
     let in_two_dimensions = options.in_two_dimensions();
     let essential = searches
-        .run(|monitor| estimate_relative_pose(pixels1, pixels2, k1, k2, &options.ransac, monitor));
+        .run(|monitor| estimate_relative_pose(pixels1, pixels2, cameras, &options.ransac, monitor));
     let fundamental = searches.ransac(FundamentalEstimator::new(set.clone()), &options.ransac);
     let homography = searches.ransac(HomographyEstimator::new(set.clone()), &in_two_dimensions);
     let rotation = searches.ransac(
@@ -257,7 +265,7 @@ pub fn estimate_two_view_calibrated(
         );
         found.cam2_from_cam1 = best.as_ref().map(RelativePose::cam2_from_cam1);
         found.other_cam2_from_cam1 = other.as_ref().map(RelativePose::cam2_from_cam1);
-        found.fundamental = best.map(|pose| pose.fundamental);
+        found.fundamental = best.and_then(|pose| pose.fundamental(k1, k2).ok());
         found.take_homography(&pairs, report, options);
     } else if num_e as f64 >= options.min_essential_share * num_f as f64
         && let Ok(report) = &essential
@@ -265,7 +273,7 @@ pub fn estimate_two_view_calibrated(
         found.model = TwoViewModel::Essential(report.model.essential());
         found.configuration = Configuration::General;
         found.cam2_from_cam1 = Some(report.model.cam2_from_cam1());
-        found.fundamental = Some(report.model.fundamental);
+        found.fundamental = report.model.fundamental(k1, k2).ok();
         found.take(report.inliers.clone(), report, options);
     } else {
         // H needs fewer matches than F: what it lacks, F lacks as well.

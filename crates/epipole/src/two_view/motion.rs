@@ -40,18 +40,21 @@ pub(super) fn planar_motions(
 ) -> [Option<RelativePose>; 2] {
     let max_error_sq = max_error_px * max_error_px;
     let score = |pose: &RelativePose| {
+        let fundamental = pose.fundamental_or_zeros(k1, k2);
         let fits = |(p1, p2): &(&Point2<f64>, &Point2<f64>)| {
             let (d1, d2) = signed_depths(&pose.rotation, &pose.direction, &k1.ray(p1), &k2.ray(p2));
-            sampson_sq(&pose.fundamental, p1, p2) < max_error_sq && d1 > 0.0 && d2 > 0.0
+            sampson_sq(&fundamental, p1, p2) < max_error_sq && d1 > 0.0 && d2 > 0.0
         };
         pairs.different().filter(fits).count()
     };
     let mut motions: Vec<RelativePose> = essential.iter().map(|report| report.model).collect();
     let rays1 = (pairs.among(&homography.inliers)).map(|(p1, _)| k1.ray(p1));
     let decomposed = decompose_homography(&homography.model, k1, k2).unwrap_or_default();
-    for (rotation, direction) in in_front_of_plane(&decomposed, rays1) {
-        motions.push(RelativePose::new(rotation, direction, k1, k2));
-    }
+    motions.extend(
+        in_front_of_plane(&decomposed, rays1)
+            .into_iter()
+            .map(RelativePose::from),
+    );
     let scores: Vec<usize> = motions.iter().map(score).collect();
     let pose = |i: usize| (motions[i].rotation, motions[i].direction);
     best_and_rival(&scores, pose).map(|place| place.map(|i| motions[i]))

@@ -2,8 +2,9 @@
 
 use super::TwoViewOptions;
 use super::rotation::estimate_rotation;
-use crate::camera::{Intrinsics, RigidTransform};
-use crate::robust::{RansacOptions, RansacReport};
+use super::turn_through_lenses::find_turn_through_lenses;
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::robust::{ObservedMatches, RansacOptions, RansacReport};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
 
@@ -83,7 +84,7 @@ pub(super) fn homography_of_turn(
 /// direction the camera moved cannot be told, whatever the model says.
 ///
 /// * `pixels1`, `pixels2`: the matches that the model was found from
-/// * `k1`, `k2`: intrinsics of the two cameras
+/// * `cameras`: the two cameras, of any lens
 /// * `inliers`: for each match, whether it is an inlier of the model
 /// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
 ///   [`RansacOptions::max_error_px`] should be that of the model
@@ -94,7 +95,7 @@ pub(super) fn homography_of_turn(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::estimate_relative_pose;
 /// use epipole::two_view::{TwoViewOptions, find_explaining_turn};
 /// use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
@@ -107,22 +108,28 @@ pub(super) fn homography_of_turn(
 /// }).collect();
 /// let options = TwoViewOptions::default();
 /// // The pose fits every match, and its direction means nothing.
-/// let pose = estimate_relative_pose(&p1, &p2, &k, &k, &options.ransac, &mut ())?;
+/// let camera = Camera::pinhole(k, 640, 480);
+/// let pose = estimate_relative_pose(&p1, &p2, [&camera; 2], &options.ransac, &mut ())?;
 /// assert_eq!(pose.num_inliers, 60);
-/// let turn = find_explaining_turn(&p1, &p2, &k, &k, &pose.inliers, &options)?;
+/// let turn = find_explaining_turn(&p1, &p2, [&camera; 2], &pose.inliers, &options)?;
 /// assert_eq!(turn.map(|turn| turn.num_explained), Some(60));
 /// # Ok(()) }
 /// ```
 pub fn find_explaining_turn(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
+    cameras: [&Camera; 2],
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> Result<Option<ExplainingTurn>> {
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
+    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+        let [seen1, seen2] = ObservedMatches::new(&in1, &in2, cameras)?.seen;
+        let pairs: Vec<_> = seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect();
+        return Ok(find_turn_through_lenses(&pairs, options));
+    }
+    let [k1, k2] = cameras.map(|camera| &camera.intrinsics);
     let ransac = RansacOptions {
         max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
         ..options.in_two_dimensions()

@@ -1,7 +1,7 @@
 //! Bad input: an error for everyone, and what is found is what it is said to be.
 
 use crate::scene::{Points, Shape, cameras, intrinsics, options, scene};
-use epipole::camera::{Intrinsics, PosedCamera};
+use epipole::camera::{Camera, Intrinsics, PosedCamera};
 use epipole::epipolar::sampson_px;
 use epipole::homography::transfer_error_px;
 use epipole::math::random::Random;
@@ -106,18 +106,17 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
         );
     }));
     note(
-        estimate_relative_pose(p1, p2, &k, &k, &budget, &mut ()).map(|r| {
-            let pose = &r.model;
-            check_rotation(&pose.rotation);
-            assert!((pose.direction.norm() - 1.0).abs() < 1e-9);
-            check_epipolar(&pose.fundamental);
-            check_epipolar(&pose.essential());
-            check_report(
-                &r,
-                &budget,
-                &errors_px(&|a, b| sampson_px(&pose.fundamental, a, b)),
-            );
-        }),
+        estimate_relative_pose(p1, p2, [&Camera::pinhole(k, 640, 480); 2], &budget, &mut ()).map(
+            |r| {
+                let pose = &r.model;
+                check_rotation(&pose.rotation);
+                assert!((pose.direction.norm() - 1.0).abs() < 1e-9);
+                let f = pose.fundamental(&k, &k).unwrap();
+                check_epipolar(&f);
+                check_epipolar(&pose.essential());
+                check_report(&r, &budget, &errors_px(&|a, b| sampson_px(&f, a, b)));
+            },
+        ),
     );
     note(estimate_similarity(p1, p2, &budget, &mut ()).map(|r| {
         let matrix = r.model.matrix();
@@ -129,22 +128,24 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
         );
     }));
     note(
-        estimate_absolute_pose(&points, p2, &k, &budget, &mut ()).map(|r| {
-            check_rotation(r.model.rotation.to_rotation_matrix().matrix());
-            let center = r.model.inverse().translation.vector;
-            assert!(center.iter().all(|x| x.is_finite()), "{center}");
-            let camera = PosedCamera {
-                intrinsics: k,
-                cam_from_world: r.model,
-            };
-            let errors: Vec<f64> = (points.iter().zip(p2))
-                .map(|(point, pixel)| match camera.project(point) {
-                    Ok(seen) => (seen - pixel).norm(),
-                    Err(_) => f64::INFINITY,
-                })
-                .collect();
-            check_report(&r, &budget, &errors);
-        }),
+        estimate_absolute_pose(&points, p2, &Camera::pinhole(k, 640, 480), &budget, &mut ()).map(
+            |r| {
+                check_rotation(r.model.rotation.to_rotation_matrix().matrix());
+                let center = r.model.inverse().translation.vector;
+                assert!(center.iter().all(|x| x.is_finite()), "{center}");
+                let camera = PosedCamera {
+                    intrinsics: k,
+                    cam_from_world: r.model,
+                };
+                let errors: Vec<f64> = (points.iter().zip(p2))
+                    .map(|(point, pixel)| match camera.project(point) {
+                        Ok(seen) => (seen - pixel).norm(),
+                        Err(_) => f64::INFINITY,
+                    })
+                    .collect();
+                check_report(&r, &budget, &errors);
+            },
+        ),
     );
     let choice = TwoViewOptions {
         ransac: budget,
@@ -154,7 +155,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
         estimate_two_view(p1, p2, &choice, &mut ()).map(|r| check_two_view(&r, p1.len(), &choice)),
     );
     note(
-        estimate_two_view_calibrated(p1, p2, &k, &k, &choice, &mut ())
+        estimate_two_view_calibrated(p1, p2, [&Camera::pinhole(k, 640, 480); 2], &choice, &mut ())
             .map(|r| check_two_view(&r, p1.len(), &choice)),
     );
     errors
@@ -235,8 +236,22 @@ fn a_match_beyond_all_images_is_left_out() {
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_relative_pose(&p1, &p2, &k, &k, &options, &mut ()).unwrap(),
-                estimate_relative_pose(&s.p1, &s.p2, &k, &k, &options, &mut ()).unwrap(),
+                estimate_relative_pose(
+                    &p1,
+                    &p2,
+                    [&Camera::pinhole(k, 640, 480); 2],
+                    &options,
+                    &mut (),
+                )
+                .unwrap(),
+                estimate_relative_pose(
+                    &s.p1,
+                    &s.p2,
+                    [&Camera::pinhole(k, 640, 480); 2],
+                    &options,
+                    &mut (),
+                )
+                .unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
@@ -250,8 +265,22 @@ fn a_match_beyond_all_images_is_left_out() {
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
             let (with, without) = (
-                estimate_two_view_calibrated(&p1, &p2, &k, &k, &choice, &mut ()).unwrap(),
-                estimate_two_view_calibrated(&s.p1, &s.p2, &k, &k, &choice, &mut ()).unwrap(),
+                estimate_two_view_calibrated(
+                    &p1,
+                    &p2,
+                    [&Camera::pinhole(k, 640, 480); 2],
+                    &choice,
+                    &mut (),
+                )
+                .unwrap(),
+                estimate_two_view_calibrated(
+                    &s.p1,
+                    &s.p2,
+                    [&Camera::pinhole(k, 640, 480); 2],
+                    &choice,
+                    &mut (),
+                )
+                .unwrap(),
             );
             check(&with.inliers, &without.inliers, with.num_left_out);
         }

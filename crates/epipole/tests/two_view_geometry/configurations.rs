@@ -3,7 +3,7 @@
 use crate::scene::{
     Scene, Shape, cameras, direction_error, intrinsics, options, rotation_error, scene,
 };
-use epipole::camera::RigidTransform;
+use epipole::camera::{Camera, RigidTransform};
 use epipole::epipolar::{
     decompose_essential, essential_from_fundamental, essential_from_motion,
     fundamental_from_essential, sampson_px, select_pose,
@@ -47,8 +47,17 @@ fn configurations_are_recognized() {
                     ..TwoViewOptions::default()
                 };
                 (
-                    estimate_two_view_calibrated(&s.p1, &s.p2, &k1, &k2, &options, &mut ())
-                        .unwrap(),
+                    estimate_two_view_calibrated(
+                        &s.p1,
+                        &s.p2,
+                        [
+                            &Camera::pinhole(k1, 640, 480),
+                            &Camera::pinhole(k2, 640, 480),
+                        ],
+                        &options,
+                        &mut (),
+                    )
+                    .unwrap(),
                     estimate_two_view(&s.p1, &s.p2, &options, &mut ()).unwrap(),
                 )
             };
@@ -134,8 +143,14 @@ fn chance_is_no_pair() {
                 },
                 ..TwoViewOptions::default()
             };
-            let calibrated =
-                estimate_two_view_calibrated(&a, &b, &k, &k, &choice, &mut ()).unwrap();
+            let calibrated = estimate_two_view_calibrated(
+                &a,
+                &b,
+                [&Camera::pinhole(k, 640, 480); 2],
+                &choice,
+                &mut (),
+            )
+            .unwrap();
             assert_eq!(calibrated.configuration, Configuration::Degenerate);
             assert_eq!(calibrated.cam2_from_cam1, None);
             let uncalibrated = estimate_two_view(&a, &b, &choice, &mut ()).unwrap();
@@ -159,7 +174,13 @@ fn chance_is_no_pair() {
                 .iter()
                 .map(|p| Point3::new(p.x / 100.0, p.y / 100.0, random.uniform(4.0, 9.0)))
                 .collect();
-            let pose = estimate_absolute_pose(&points, &b, &k, &choice.ransac, &mut ());
+            let pose = estimate_absolute_pose(
+                &points,
+                &b,
+                &Camera::pinhole(k, 640, 480),
+                &choice.ransac,
+                &mut (),
+            );
             assert!(pose.is_err() || pose.unwrap().could_be_chance());
         }
     }
@@ -179,8 +200,17 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
             min_essential_share: 2.0,
             ..TwoViewOptions::default()
         };
-        let found =
-            estimate_two_view_calibrated(&scene.p1, &scene.p2, &k1, &k2, &choose, &mut ()).unwrap();
+        let found = estimate_two_view_calibrated(
+            &scene.p1,
+            &scene.p2,
+            [
+                &Camera::pinhole(k1, 640, 480),
+                &Camera::pinhole(k2, 640, 480),
+            ],
+            &choose,
+            &mut (),
+        )
+        .unwrap();
         assert!(matches!(found.model, TwoViewModel::Fundamental(_)));
         let motion = found.cam2_from_cam1.unwrap();
         let truth = scene.motion();

@@ -1,7 +1,7 @@
 //! Motions and matches that mislead.
 
 use crate::scene::{Shape, cameras, direction_error, intrinsics, options, rotation_error, scene};
-use epipole::camera::{PosedCamera, RigidTransform, look_at};
+use epipole::camera::{Camera, PosedCamera, RigidTransform, look_at};
 use epipole::epipolar::{Epipole, RelativePose, epipoles, fundamental_from_cameras, sampson_px};
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, SamplerKind, StopReason};
@@ -69,7 +69,17 @@ fn forward_motion() {
         let pair = (camera(-5.0), camera(-4.0));
         let s = scene(&mut random, pair, Shape::Volume, 300, 0.7, 0.3);
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
-        let pose = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
+        let pose = estimate_relative_pose(
+            &s.p1,
+            &s.p2,
+            [
+                &Camera::pinhole(*k1, 640, 480),
+                &Camera::pinhole(*k2, 640, 480),
+            ],
+            &options(seed),
+            &mut (),
+        )
+        .unwrap();
         let motion = pose.model.cam2_from_cam1();
         assert!(rotation_error(&motion, &s.motion()) < 0.002, "{seed}");
         assert!(direction_error(&motion, &s.motion()) < 0.01, "{seed}");
@@ -124,9 +134,16 @@ fn no_motion_and_almost_none() {
                         Err(error) => assert!(!error.to_string().is_empty()),
                     }
                 }
-                if let Ok(report) =
-                    estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(1), &mut ())
-                {
+                if let Ok(report) = estimate_relative_pose(
+                    &s.p1,
+                    &s.p2,
+                    [
+                        &Camera::pinhole(*k1, 640, 480),
+                        &Camera::pinhole(*k2, 640, 480),
+                    ],
+                    &options(1),
+                    &mut (),
+                ) {
                     let RelativePose {
                         rotation,
                         direction,
@@ -141,8 +158,17 @@ fn no_motion_and_almost_none() {
                     assert!(report.iterations <= RansacOptions::default().max_iterations);
                 }
                 let choice = TwoViewOptions::default();
-                let report =
-                    estimate_two_view_calibrated(&s.p1, &s.p2, k1, k2, &choice, &mut ()).unwrap();
+                let report = estimate_two_view_calibrated(
+                    &s.p1,
+                    &s.p2,
+                    [
+                        &Camera::pinhole(*k1, 640, 480),
+                        &Camera::pinhole(*k2, 640, 480),
+                    ],
+                    &choice,
+                    &mut (),
+                )
+                .unwrap();
                 assert_eq!(report.configuration, Configuration::Panoramic);
             }
         }
@@ -243,7 +269,17 @@ fn a_crowded_pixel_has_few_votes() {
         }
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
         let f = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
-        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
+        let e = estimate_relative_pose(
+            &s.p1,
+            &s.p2,
+            [
+                &Camera::pinhole(*k1, 640, 480),
+                &Camera::pinhole(*k2, 640, 480),
+            ],
+            &options(seed),
+            &mut (),
+        )
+        .unwrap();
         for inliers in [&f.inliers, &e.inliers] {
             let found = inliers.iter().zip(&s.truth).filter(|(a, b)| **a && **b);
             let found = found.count();

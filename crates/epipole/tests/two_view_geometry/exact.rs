@@ -4,7 +4,7 @@ use crate::scene::{
     Points, Shape, cameras, direction_error, intrinsics, options, rotation_error, same_up_to_sign,
     scene,
 };
-use epipole::camera::{PosedCamera, RigidTransform};
+use epipole::camera::{Camera, PosedCamera, RigidTransform};
 use epipole::epipolar::{
     decompose_essential, essential_from_fundamental, essential_from_motion,
     fundamental_from_cameras, sampson_px, select_pose,
@@ -26,7 +26,17 @@ fn a_hundred_exact_pairs() {
         let s = scene(&mut random, pair, Shape::Volume, 50, 1.0, 0.0);
         let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
         let truth = s.motion();
-        let report = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
+        let report = estimate_relative_pose(
+            &s.p1,
+            &s.p2,
+            [
+                &Camera::pinhole(*k1, 640, 480),
+                &Camera::pinhole(*k2, 640, 480),
+            ],
+            &options(seed),
+            &mut (),
+        )
+        .unwrap();
         let motion = report.model.cam2_from_cam1();
         assert!(rotation_error(&motion, &truth) < 1e-6, "{seed}");
         assert!(direction_error(&motion, &truth) < 1e-6, "{seed}");
@@ -62,10 +72,30 @@ fn equal_seeds_give_equal_bits() {
             one,
             estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap()
         );
-        let e = estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap();
+        let e = estimate_relative_pose(
+            &s.p1,
+            &s.p2,
+            [
+                &Camera::pinhole(*k1, 640, 480),
+                &Camera::pinhole(*k2, 640, 480),
+            ],
+            &options(seed),
+            &mut (),
+        )
+        .unwrap();
         assert_eq!(
             e,
-            estimate_relative_pose(&s.p1, &s.p2, k1, k2, &options(seed), &mut ()).unwrap()
+            estimate_relative_pose(
+                &s.p1,
+                &s.p2,
+                [
+                    &Camera::pinhole(*k1, 640, 480),
+                    &Camera::pinhole(*k2, 640, 480)
+                ],
+                &options(seed),
+                &mut ()
+            )
+            .unwrap()
         );
         let other = estimate_fundamental(&s.p1, &s.p2, &options(seed + 100), &mut ()).unwrap();
         different += usize::from(other.model != one.model);

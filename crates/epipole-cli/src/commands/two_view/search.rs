@@ -1,22 +1,26 @@
 //! The searches of `epipole two-view`, and what they found.
 
+use super::errors::{self, Pixels, SeenPixels};
 use super::focal::intrinsics;
 use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::known_camera::{known_cameras, warn_of_unseen};
 use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::turn::{self, left_open, left_open_by_homography};
-use epipole::camera::RigidTransform;
-use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose, sampson_px};
-use epipole::homography::{HomographyEstimator, homography_sampson_px};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::epipolar::{
+    FundamentalEstimator, RelativePose, essential_from_fundamental, estimate_relative_pose,
+};
+use epipole::homography::{HomographyEstimator, estimate_homography_calibrated};
 use epipole::progress::Stage;
 use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
     Configuration, ExplainingTurn, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
     estimate_two_view_calibrated, find_explaining_turn,
 };
-use nalgebra::{Matrix3, Point2};
+use nalgebra::Matrix3;
 
 /// What was found, whatever the model.
 pub(super) struct Found {
@@ -56,10 +60,46 @@ impl Found {
         }
     }
 
+    fn of_report(report: TwoViewReport, errors_px: Vec<f64>) -> Self {
+        let (kind, model) = match report.model {
+            TwoViewModel::Fundamental(f) => ("fundamental", f),
+            TwoViewModel::Essential(e) => ("essential", e),
+            TwoViewModel::Homography(h) => ("homography", h),
+        };
+        Self {
+            kind,
+            model,
+            errors_px,
+            max_error_px: report.max_error_px,
+            focals_px: None,
+            inliers: report.inliers,
+            cam2_from_cam1: report.cam2_from_cam1,
+            other_cam2_from_cam1: report.other_cam2_from_cam1,
+            configuration: word(report.configuration),
+        }
+    }
+
     /// Where a camera that only turned explains it all.
     pub(super) fn turned(&mut self, turn: &ExplainingTurn) {
         self.configuration = "panoramic";
         self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+    }
+}
+
+/// The cameras of two photographs.
+struct Cameras([Camera; 2]);
+
+impl Cameras {
+    fn new(photos: &[Photo; 2], [k1, k2]: [Intrinsics; 2]) -> Self {
+        Self([photos[0].camera(k1), photos[1].camera(k2)])
+    }
+
+    fn both(&self) -> [&Camera; 2] {
+        self.0.each_ref()
+    }
+
+    fn are_pinholes(&self) -> bool {
+        self.0.iter().all(Camera::is_pinhole)
     }
 }
 
@@ -71,97 +111,209 @@ pub(super) fn estimate(
     arguments: &Arguments,
     context: &Context,
     photos: &[Photo; 2],
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
+    pixels: Pixels<'_>,
 ) -> Result<Found, Failure> {
-    let options = arguments.options(context);
-    let set = || MatchSet::new(pixels1, pixels2);
-    let errors = |f: &Matrix3<f64>| -> Vec<f64> {
-        pixels1
-            .iter()
-            .zip(pixels2)
-            .map(|(a, b)| sampson_px(f, a, b))
-            .collect()
-    };
+    if arguments.known.is_given() {
+        return through_lenses(arguments, context, photos, pixels);
+    }
     match arguments.model {
         Model::Auto => {
             let given = arguments.camera.given(photos)?;
-            let progress = Progress::new(context, Stage::RobustEstimation.words());
-            let mut monitor = |status| progress.show(status);
-            let report = match given {
-                Some([k1, k2]) => {
-                    estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, &options, &mut monitor)
-                }
-                None => estimate_two_view(pixels1, pixels2, &options, &mut monitor),
-            }?;
-            drop(progress);
-            arguments.robust.warn_of_stop(
-                report.stop,
-                options.ransac.max_iterations,
-                report.required_iterations,
-                context,
-            );
-            let found = of_report(report, pixels1, pixels2);
-            warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
+            let cameras = given.map(|given| Cameras::new(photos, given));
+            let report = auto(arguments, context, cameras.as_ref(), pixels)?;
+            let errors_px = match (report.model, &report.fundamental) {
+                (TwoViewModel::Homography(h), _) => errors::of_homography(pixels, &h),
+                (_, Some(f)) => errors::of_fundamental(pixels, f),
+                (_, None) => vec![0.0; pixels[0].len()],
+            };
+            let found = Found::of_report(report, errors_px);
+            warn_of_turn(arguments, context, photos, pixels, &found)?;
             Ok(found)
         }
-        Model::Fundamental => {
-            let estimator = FundamentalEstimator::new(set()?)?;
-            let report = arguments.robust.run(estimator, context)?;
-            let (f, judging) = (report.model, options.ransac.within(report.max_error_px));
-            let words = ["fundamental", "general"];
-            let found = Found::of_search(words, f, errors(&f), report, &options);
-            if found.configuration != "degenerate"
-                && let Some(open) = left_open(pixels1, pixels2, &found.inliers, &judging)?
-            {
-                context.warn(&open);
-            }
-            Ok(found)
-        }
+        Model::Fundamental => fundamental(arguments, context, pixels),
         Model::Essential => {
-            let [k1, k2] = intrinsics(arguments, context, photos, pixels1, pixels2)?;
-            let report = arguments.robust.watched(context, |options, monitor| {
-                estimate_relative_pose(pixels1, pixels2, &k1, &k2, options, monitor)
-            })?;
-            let pose = report.model;
-            let judging = options.within(report.max_error_px);
-            let (model, errors_px) = (pose.essential(), errors(&pose.fundamental));
-            let words = ["essential", "general"];
-            let mut found = Found::of_search(words, model, errors_px, report, &options);
+            let [p1, p2] = pixels;
+            let [k1, k2] = intrinsics(arguments, context, photos, p1, p2)?;
+            let cameras = Cameras::new(photos, [k1, k2]);
+            let errors_px = |pose: &RelativePose| {
+                let f = pose.fundamental(&k1, &k2)?;
+                Ok(errors::of_fundamental(pixels, &f))
+            };
+            let mut found = essential(arguments, context, &cameras, pixels, errors_px)?;
             found.focals_px = Some([k1.fu_px(), k2.fu_px()]);
-            if found.configuration == "degenerate" {
-                return Ok(found);
-            }
-            found.cam2_from_cam1 = Some(pose.cam2_from_cam1());
-            if let Some(turn) =
-                find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
-            {
-                context.warn(&turn::sentence(&turn));
-                found.turned(&turn);
-            }
             Ok(found)
         }
         Model::Homography => {
             let given = arguments.camera.given(photos)?;
-            let estimator = HomographyEstimator::new(set()?)?;
+            let estimator = HomographyEstimator::new(MatchSet::new(pixels[0], pixels[1])?)?;
             let report = arguments.robust.run(estimator, context)?;
-            let judging = options.within(report.max_error_px);
-            let h = report.model;
-            let error = |(a, b)| homography_sampson_px(&h, a, b);
-            let errors_px = pixels1.iter().zip(pixels2).map(error).collect();
-            let words = ["homography", "planar"];
-            let mut found = Found::of_search(words, h, errors_px, report, &options);
+            let errors_px = errors::of_homography(pixels, &report.model);
             // Pixels alone do not tell a turn from a plane.
-            if let (Some([k1, k2]), "planar") = (given, found.configuration)
-                && let Some(turn) =
-                    find_explaining_turn(pixels1, pixels2, &k1, &k2, &found.inliers, &judging)?
-            {
-                found.turned(&turn);
-            }
-            warn_of_turn(arguments, context, photos, [pixels1, pixels2], &found)?;
+            let cameras = given.map(|given| Cameras::new(photos, given));
+            let found = planar(arguments, context, cameras, pixels, (report, errors_px))?;
+            warn_of_turn(arguments, context, photos, pixels, &found)?;
             Ok(found)
         }
     }
+}
+
+/// As [`estimate`] for photographs by a known lens, which have no F.
+fn through_lenses(
+    arguments: &Arguments,
+    context: &Context,
+    photos: &[Photo; 2],
+    pixels: Pixels<'_>,
+) -> Result<Found, Failure> {
+    let cameras = known_cameras(&arguments.camera, context, photos)?;
+    warn_of_unseen(cameras.each_ref(), pixels, context);
+    let seen = SeenPixels::new(cameras.each_ref(), pixels);
+    let cameras = Cameras(cameras);
+    match arguments.model {
+        Model::Auto | Model::Fundamental => {
+            let report = auto(arguments, context, Some(&cameras), pixels)?;
+            let report = TwoViewReport {
+                model: of_rays(report.model, &cameras)?,
+                ..report
+            };
+            let errors_px = match report.model {
+                TwoViewModel::Homography(h) => seen.of_homography(&h),
+                TwoViewModel::Essential(e) | TwoViewModel::Fundamental(e) => {
+                    seen.of_essential(&e)?
+                }
+            };
+            Ok(Found::of_report(report, errors_px))
+        }
+        Model::Essential => {
+            let errors_px = |pose: &RelativePose| Ok(seen.of_motion(&pose.cam2_from_cam1()));
+            essential(arguments, context, &cameras, pixels, errors_px)
+        }
+        Model::Homography => {
+            let [p1, p2] = pixels;
+            let report = arguments.robust.watched(context, |options, monitor| {
+                estimate_homography_calibrated(p1, p2, cameras.both(), options, monitor)
+            })?;
+            let errors_px = seen.of_homography(&report.model);
+            planar(
+                arguments,
+                context,
+                Some(cameras),
+                pixels,
+                (report, errors_px),
+            )
+        }
+    }
+}
+
+/// The model of rays, where a lens without distortion gave one of pixels.
+fn of_rays(model: TwoViewModel, cameras: &Cameras) -> Result<TwoViewModel, Failure> {
+    if !cameras.are_pinholes() {
+        return Ok(model);
+    }
+    let [k1, k2] = cameras.both().map(|camera| camera.intrinsics);
+    Ok(match model {
+        TwoViewModel::Fundamental(f) => {
+            TwoViewModel::Essential(essential_from_fundamental(&f, &k1, &k2)?)
+        }
+        TwoViewModel::Essential(e) => TwoViewModel::Essential(e),
+        TwoViewModel::Homography(h) => {
+            let h = k2.inverse_matrix() * h * k1.matrix();
+            // Both cameras are on one side of a plane.
+            TwoViewModel::Homography(h / (h.norm() * h.determinant().signum()))
+        }
+    })
+}
+
+fn auto(
+    arguments: &Arguments,
+    context: &Context,
+    cameras: Option<&Cameras>,
+    [pixels1, pixels2]: Pixels<'_>,
+) -> Result<TwoViewReport, Failure> {
+    let options = arguments.options(context);
+    let progress = Progress::new(context, Stage::RobustEstimation.words());
+    let mut monitor = |status| progress.show(status);
+    let report = match cameras.map(Cameras::both) {
+        Some(cameras) => {
+            estimate_two_view_calibrated(pixels1, pixels2, cameras, &options, &mut monitor)
+        }
+        None => estimate_two_view(pixels1, pixels2, &options, &mut monitor),
+    }?;
+    drop(progress);
+    arguments.robust.warn_of_stop(
+        report.stop,
+        options.ransac.max_iterations,
+        report.required_iterations,
+        context,
+    );
+    Ok(report)
+}
+
+fn fundamental(
+    arguments: &Arguments,
+    context: &Context,
+    pixels: Pixels<'_>,
+) -> Result<Found, Failure> {
+    let options = arguments.options(context);
+    let [pixels1, pixels2] = pixels;
+    let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
+    let report = arguments.robust.run(estimator, context)?;
+    let (f, judging) = (report.model, options.ransac.within(report.max_error_px));
+    let errors_px = errors::of_fundamental(pixels, &f);
+    let found = Found::of_search(["fundamental", "general"], f, errors_px, report, &options);
+    if found.configuration != "degenerate"
+        && let Some(open) = left_open(pixels1, pixels2, &found.inliers, &judging)?
+    {
+        context.warn(&open);
+    }
+    Ok(found)
+}
+
+/// E, and whether a turn explains it.
+fn essential(
+    arguments: &Arguments,
+    context: &Context,
+    cameras: &Cameras,
+    [pixels1, pixels2]: Pixels<'_>,
+    errors_px: impl Fn(&RelativePose) -> Result<Vec<f64>, Failure>,
+) -> Result<Found, Failure> {
+    let options = arguments.options(context);
+    let report = arguments.robust.watched(context, |options, monitor| {
+        estimate_relative_pose(pixels1, pixels2, cameras.both(), options, monitor)
+    })?;
+    let pose = report.model;
+    let judging = options.within(report.max_error_px);
+    let (model, errors_px) = (pose.essential(), errors_px(&pose)?);
+    let words = ["essential", "general"];
+    let mut found = Found::of_search(words, model, errors_px, report, &options);
+    if found.configuration == "degenerate" {
+        return Ok(found);
+    }
+    found.cam2_from_cam1 = Some(pose.cam2_from_cam1());
+    let (cameras, inliers) = (cameras.both(), &found.inliers);
+    if let Some(turn) = find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging)? {
+        context.warn(&turn::sentence(&turn));
+        found.turned(&turn);
+    }
+    Ok(found)
+}
+
+/// A homography, and whether it is that of a turn, if the cameras are known.
+fn planar(
+    arguments: &Arguments,
+    context: &Context,
+    cameras: Option<Cameras>,
+    [pixels1, pixels2]: Pixels<'_>,
+    (report, errors_px): (RansacReport<Matrix3<f64>>, Vec<f64>),
+) -> Result<Found, Failure> {
+    let options = arguments.options(context);
+    let (h, judging) = (report.model, options.within(report.max_error_px));
+    let mut found = Found::of_search(["homography", "planar"], h, errors_px, report, &options);
+    if let (Some(cameras), "planar") = (cameras, found.configuration) {
+        let (cameras, inliers) = (cameras.both(), &found.inliers);
+        let turn = find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging)?;
+        turn.iter().for_each(|turn| found.turned(turn));
+    }
+    Ok(found)
 }
 
 /// Of a plane that did not move, or may be a turn by another focal length than the one given, read or guessed.
@@ -169,7 +321,7 @@ fn warn_of_turn(
     arguments: &Arguments,
     context: &Context,
     photos: &[Photo; 2],
-    [pixels1, pixels2]: [&[Point2<f64>]; 2],
+    [pixels1, pixels2]: Pixels<'_>,
     found: &Found,
 ) -> Result<(), Failure> {
     if found.configuration != "planar" {
@@ -214,32 +366,5 @@ fn configuration<M>(
         "degenerate"
     } else {
         otherwise
-    }
-}
-
-fn of_report(report: TwoViewReport, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Found {
-    let pairs = || pixels1.iter().zip(pixels2);
-    let (kind, model) = match report.model {
-        TwoViewModel::Fundamental(f) => ("fundamental", f),
-        TwoViewModel::Essential(e) => ("essential", e),
-        TwoViewModel::Homography(h) => ("homography", h),
-    };
-    let errors_px = match (report.model, &report.fundamental) {
-        (TwoViewModel::Homography(h), _) => pairs()
-            .map(|(a, b)| homography_sampson_px(&h, a, b))
-            .collect(),
-        (_, Some(f)) => pairs().map(|(a, b)| sampson_px(f, a, b)).collect(),
-        (_, None) => vec![0.0; pixels1.len()],
-    };
-    Found {
-        kind,
-        model,
-        errors_px,
-        max_error_px: report.max_error_px,
-        focals_px: None,
-        inliers: report.inliers,
-        cam2_from_cam1: report.cam2_from_cam1,
-        other_cam2_from_cam1: report.other_cam2_from_cam1,
-        configuration: word(report.configuration),
     }
 }

@@ -1,7 +1,7 @@
 //! What the matches of two photographs say about how the camera moved.
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
@@ -53,6 +53,11 @@ pub(super) struct Judged {
     pub(super) median_angle_deg: f64,
 }
 
+/// Cameras of any image size, which no estimator asks for.
+fn pinholes(intrinsics: &[Intrinsics; 2]) -> [Camera; 2] {
+    intrinsics.map(|k| Camera::pinhole(k, 0, 0))
+}
+
 /// Judges matches, of which inliers are at most `max_error_px` from their epipolar lines.
 ///
 /// # Errors
@@ -83,8 +88,7 @@ pub(super) fn judge(
     let report: TwoViewReport = match estimate_two_view_calibrated(
         pixels1,
         pixels2,
-        &lenses[0],
-        &lenses[1],
+        pinholes(lenses).each_ref(),
         &options,
         &mut (),
     ) {
@@ -148,7 +152,9 @@ fn turned_otherwise(
         )));
     }
     let [k1, k2] = [k1.zoomed(turn.focal_factor)?, k2.zoomed(turn.focal_factor)?];
-    let better = estimate_two_view_calibrated(pixels1, pixels2, &k1, &k2, options, &mut ())?;
+    let cameras = pinholes(&[k1, k2]);
+    let better =
+        estimate_two_view_calibrated(pixels1, pixels2, cameras.each_ref(), options, &mut ())?;
     let count = |inliers: &[bool]| inliers.iter().filter(|inlier| **inlier).count() as f64;
     let gain = count(&better.inliers) / count(&report.inliers);
     let motion = better.cam2_from_cam1.filter(|_| gain > MIN_GAIN);

@@ -10,9 +10,9 @@ use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::{PairMatches, TrackElement, build_tracks};
 use super::triangulate_track::Sight;
 use super::two_view_start::VerifiedPair;
-use super::views::{View, Views};
+use super::views::Views;
 use crate::Result;
-use crate::absolute_pose::{estimate_absolute_pose, estimate_absolute_pose_of_rays};
+use crate::absolute_pose::estimate_absolute_pose;
 use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
 use crate::progress::Monitor;
 use crate::robust::{RansacOptions, SamplerKind};
@@ -260,33 +260,23 @@ impl Builder {
             sampler: SamplerKind::Uniform,
             ..pair_ransac(&self.options).within(self.options.max_registration_error_px)
         };
-        let intrinsics = self.intrinsics[image];
-        let (mut pixels, mut rays, mut positions) = (Vec::new(), Vec::new(), Vec::new());
-        let mut of_visible = Vec::new();
+        let (mut pixels, mut positions, mut of_visible) = (Vec::new(), Vec::new(), Vec::new());
         for (n, (element, track)) in visible.iter().enumerate() {
-            let view = self.views.of(image, element.keypoint as usize);
-            if let (Some(point), Some(view)) = (&self.points[*track], view) {
-                match view {
-                    View::Pixel(pixel) => pixels.push(pixel),
-                    View::Ray(ray) => rays.push(*ray),
-                }
+            if let Some(point) = &self.points[*track] {
+                pixels.push(self.views.pixels[image][element.keypoint as usize]);
                 positions.push(point.position);
                 of_visible.push(n);
             }
         }
         // Without consensus the image is not registered, and may be later.
-        let found = match &self.views {
-            Views::Pinhole(_) => {
-                estimate_absolute_pose(&positions, &pixels, &intrinsics, &ransac, &mut ())
-            }
-            Views::Rays(_) => estimate_absolute_pose_of_rays(&positions, &rays, &ransac, &mut ()),
-        };
+        let camera = &self.views.cameras[image];
+        let found = estimate_absolute_pose(&positions, &pixels, camera, &ransac, &mut ());
         let found = found.ok()?;
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
         let camera = PosedCamera {
-            intrinsics,
+            intrinsics: self.intrinsics[image],
             cam_from_world: found.model,
         };
         self.place(image, Some(camera));

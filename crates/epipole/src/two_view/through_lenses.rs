@@ -1,26 +1,26 @@
-//! What two views show, from rays: for lenses that no pinhole camera stands for.
+//! Two views through lenses other than pinholes.
 
 use super::motion::{best_and_rival, in_front_of_plane};
-use super::turn_of_rays::find_explaining_turn_of_rays;
+use super::turn::find_explaining_turn;
 use super::{Configuration, TwoViewModel, TwoViewOptions, TwoViewReport};
-#[cfg(doc)]
-use crate::Error;
 use crate::Result;
-use crate::camera::{Intrinsics, Observation, RigidTransform, cross_matrix};
-use crate::epipolar::{estimate_relative_pose_of_rays, sampson_px_of_rays};
-use crate::homography::{decompose_homography, estimate_homography_of_rays};
+use crate::camera::{Camera, Intrinsics, Observation, RigidTransform};
+use crate::epipolar::{estimate_relative_pose, tangent_sampson_px};
+use crate::homography::{decompose_homography, estimate_homography_calibrated};
 use crate::math::order::at_rank;
 use crate::progress::Monitor;
-use crate::robust::{RansacOptions, RansacReport};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use crate::robust::{ObservedMatches, RansacOptions, RansacReport};
+use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 
-/// Samples of four matches, at most: where a homography explains nearly all, a tenth is plenty.
+/// Maximum number of samples of four matches: where a homography explains nearly all, a tenth is plenty.
 const MAX_SAMPLES: usize = 500;
 
 /// The homography of rays that explains nearly all inliers of a motion, if there is one: they show a plane, or the
 /// camera only turned.
-pub(crate) fn plane_of_rays(
-    inliers: &[[Observation; 2]],
+pub(crate) fn find_plane_through_lenses(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    cameras: [&Camera; 2],
     options: &TwoViewOptions,
 ) -> Option<RansacReport<Matrix3<f64>>> {
     let in_two_dimensions = options.in_two_dimensions();
@@ -28,67 +28,33 @@ pub(crate) fn plane_of_rays(
         max_iterations: in_two_dimensions.max_iterations.min(MAX_SAMPLES),
         ..in_two_dimensions
     };
-    let [seen1, seen2] =
-        [0, 1].map(|side| -> Vec<Observation> { inliers.iter().map(|pair| pair[side]).collect() });
-    let found = estimate_homography_of_rays(&seen1, &seen2, &ransac, &mut ()).ok()?;
-    let needed = options.max_homography_share * inliers.len() as f64;
+    let found = estimate_homography_calibrated(pixels1, pixels2, cameras, &ransac, &mut ()).ok()?;
+    let needed = options.max_homography_share * pixels1.len() as f64;
     (found.num_inliers as f64 >= needed).then_some(found)
 }
 
-/// What two views through any lenses show, and the motion: E, or H for a plane or a turn, from rays.
-///
-/// * `seen1`, `seen2`: matching pixels with their rays, in the same order; wrong matches are expected
-/// * `options`: errors are in the pixels of the photographs, those of H in image 2, where matches have the noise of both:
-///   they are given 1.25 √2 times [`RansacOptions::max_error_px`]
-///
-/// The same as [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) but for lenses without a pinhole
-/// camera that could stand for them, so without F: [`TwoViewReport::model`] and [`TwoViewReport::homography`] are of
-/// rays, `x2ᵀ E x1 = 0` and `x2 ∝ H x1`.
+/// Body of [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) for cameras of any lens: E, or H of rays
+/// for a plane or a turn. Errors of H are in image 2.
 ///
 /// # Errors
-/// As [`TwoViewOptions::check`], and as
-/// [`estimate_relative_pose_of_rays`](crate::epipolar::estimate_relative_pose_of_rays).
+/// As [`estimate_relative_pose`].
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens};
-/// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_of_rays};
-/// use nalgebra::{Point2, Rotation3, Vector3};
-/// let lens = Lens::Fisheye(Fisheye::default());
-/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
-/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
-/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
-/// for i in 0..60 {
-///     let pixel = Point2::new(f64::from(120 + i * 37 % 400), f64::from(120 + i * 71 % 400));
-///     let seen = camera.observe(&pixel)?;
-///     let pixel2 = camera.project(&(turn * seen.ray()).into())?;
-///     seen1.push(seen);
-///     seen2.push(camera.observe(&pixel2)?);
-/// }
-/// let report = estimate_two_view_of_rays(&seen1, &seen2, &TwoViewOptions::default(), &mut ())?;
-/// assert_eq!(report.configuration, Configuration::Panoramic);
-/// assert!((report.cam2_from_cam1.unwrap().rotation.angle() - 0.2).abs() < 1e-6);
-/// # Ok(()) }
-/// ```
-pub fn estimate_two_view_of_rays(
-    seen1: &[Observation],
-    seen2: &[Observation],
+pub(super) fn estimate_through_lenses(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    cameras: [&Camera; 2],
     options: &TwoViewOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
-    options.check()?;
-    let epipolar = estimate_relative_pose_of_rays(seen1, seen2, &options.ransac, monitor)?;
+    let epipolar = estimate_relative_pose(pixels1, pixels2, cameras, &options.ransac, monitor)?;
     let options = &options.within(epipolar.max_error_px);
-    let motion = epipolar.model;
+    let motion = epipolar.model.cam2_from_cam1();
     let is_degenerate =
         epipolar.num_unique_inliers < options.min_num_inliers || epipolar.could_be_chance();
-    let rotation = motion.rotation.to_rotation_matrix().into_inner();
-    let essential = cross_matrix(&motion.translation.vector) * rotation;
     let mut found = TwoViewReport {
         configuration: Configuration::General,
-        model: TwoViewModel::Essential(essential / essential.norm()),
+        model: TwoViewModel::Essential(epipolar.model.essential()),
         fundamental: None,
         homography: None,
         cam2_from_cam1: Some(motion),
@@ -107,9 +73,11 @@ pub fn estimate_two_view_of_rays(
         found.cam2_from_cam1 = None;
         return Ok(found);
     }
-    let inliers = inliers_of(seen1, seen2, &found.inliers);
-    let turn = find_explaining_turn_of_rays(&inliers, options);
-    let plane = plane_of_rays(&inliers, options);
+    let of_motion = Inliers::new(pixels1, pixels2, cameras, &found.inliers)?;
+    let [in1, in2] = &of_motion.pixels;
+    let all = vec![true; in1.len()];
+    let turn = find_explaining_turn(in1, in2, cameras, &all, options)?;
+    let plane = find_plane_through_lenses(in1, in2, cameras, options);
     let flat = if let Some(turn) = turn {
         found.configuration = Configuration::Panoramic;
         found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
@@ -117,7 +85,7 @@ pub fn estimate_two_view_of_rays(
         Some(rotation.into_inner() / 3.0_f64.sqrt())
     } else if let Some(plane) = plane {
         found.configuration = Configuration::Planar;
-        let motions = planar_motions(&inliers, &motion, &plane, options);
+        let motions = planar_motions(&of_motion.seen, &motion, &plane, options);
         [found.cam2_from_cam1, found.other_cam2_from_cam1] = motions;
         Some(plane.model)
     } else {
@@ -126,15 +94,26 @@ pub fn estimate_two_view_of_rays(
     found.homography = flat;
     if let Some(homography) = flat {
         found.model = TwoViewModel::Homography(homography);
-        let reach_px = options.in_two_dimensions().max_error_px;
-        let fits = |(seen1, seen2): (&Observation, &Observation)| {
-            seen2.error_sq(&(homography * seen1.ray())) < reach_px * reach_px
+        let max_error_px = options.in_two_dimensions().max_error_px;
+        let observed = ObservedMatches::new(pixels1, pixels2, cameras)?;
+        let [seen1, seen2] = &observed.seen;
+        let fits = |place: &Option<usize>| {
+            place.is_some_and(|i| {
+                seen2[i].error_sq(&(homography * seen1[i].ray())) < max_error_px * max_error_px
+            })
         };
-        found.inliers = seen1.iter().zip(seen2).map(fits).collect();
+        found.inliers = observed
+            .matches
+            .unique()
+            .places()
+            .iter()
+            .map(fits)
+            .collect();
         found.num_inliers = found.inliers.iter().filter(|is| **is).count();
     }
     if let (Some(motion), false) = (&found.cam2_from_cam1, turn.is_some()) {
-        let mut angles: Vec<f64> = (inliers_of(seen1, seen2, &found.inliers).iter())
+        let inliers = Inliers::new(pixels1, pixels2, cameras, &found.inliers)?;
+        let mut angles: Vec<f64> = (inliers.seen.iter())
             .map(|[seen1, seen2]| (motion.rotation * seen1.ray()).angle(&seen2.ray()))
             .collect();
         let middle = angles.len() / 2;
@@ -144,13 +123,28 @@ pub fn estimate_two_view_of_rays(
     Ok(found)
 }
 
-fn inliers_of(
-    seen1: &[Observation],
-    seen2: &[Observation],
-    inliers: &[bool],
-) -> Vec<[Observation; 2]> {
-    let kept = seen1.iter().zip(seen2).zip(inliers).filter(|(_, is)| **is);
-    kept.map(|((seen1, seen2), _)| [*seen1, *seen2]).collect()
+/// The different matches that fit a model.
+struct Inliers {
+    pixels: [Vec<Point2<f64>>; 2],
+    seen: Vec<[Observation; 2]>,
+}
+
+impl Inliers {
+    fn new(
+        pixels1: &[Point2<f64>],
+        pixels2: &[Point2<f64>],
+        cameras: [&Camera; 2],
+        mask: &[bool],
+    ) -> Result<Self> {
+        let kept = super::turn::inliers_of(pixels1, pixels2, mask)?;
+        let observed = ObservedMatches::new(&kept[0], &kept[1], cameras)?;
+        let [seen1, seen2] = observed.seen;
+        let first = observed.matches.unique().first_occurrences();
+        Ok(Self {
+            pixels: kept.map(|pixels| first.iter().map(|&i| pixels[i]).collect()),
+            seen: seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect(),
+        })
+    }
 }
 
 /// The motion past a plane that most matches agree with, and another one with nearly as many.
@@ -178,7 +172,7 @@ fn planar_motions(
     let max_error_px = options.ransac.max_error_px;
     let score = |motion: &RigidTransform| {
         let fits = |[seen1, seen2]: &&[Observation; 2]| {
-            sampson_px_of_rays(motion, seen1, seen2) < max_error_px
+            tangent_sampson_px(motion, seen1, seen2) < max_error_px
         };
         inliers.iter().filter(fits).count()
     };
@@ -194,23 +188,18 @@ fn planar_motions(
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::camera::{Camera, Division, Fisheye, Lens};
+    use crate::camera::{Division, Fisheye, Lens};
     use crate::math::random::Random;
-    use nalgebra::{Point2, Point3};
+    use crate::two_view::estimate_two_view_calibrated;
+    use nalgebra::Point3;
 
     /// Matches with noise of half a pixel, every tenth wrong.
     fn seen(
-        lens: &Lens,
-        focal_px: f64,
+        camera: &Camera,
         motion: &RigidTransform,
         point: impl Fn(&mut Random) -> Point3<f64>,
-    ) -> [Vec<Observation>; 2] {
+    ) -> [Vec<Point2<f64>>; 2] {
         let mut random = Random::new(4);
-        let k = Intrinsics::centered(focal_px, 800, 800).unwrap();
-        let camera = Camera {
-            lens: *lens,
-            ..Camera::pinhole(k, 800, 800)
-        };
         let mut seen = [Vec::new(), Vec::new()];
         while seen[0].len() < 240 {
             let x = point(&mut random);
@@ -219,7 +208,7 @@ mod tests {
                 let pixel = camera.project(x).ok()? + off;
                 let inside = 0.0..800.0;
                 let is_inside = inside.contains(&pixel.x) && inside.contains(&pixel.y);
-                camera.observe(&pixel).ok().filter(|_| is_inside)
+                is_inside.then_some(pixel)
             };
             let off_px = if seen[0].len() % 10 == 0 { 50.0 } else { 0.5 };
             if let (Some(one), Some(two)) = (see(&x, 0.5), see(&(motion * x), off_px)) {
@@ -228,6 +217,14 @@ mod tests {
             }
         }
         seen
+    }
+
+    fn camera(lens: Lens, focal_px: f64) -> Camera {
+        let k = Intrinsics::centered(focal_px, 800, 800).unwrap();
+        Camera {
+            lens,
+            ..Camera::pinhole(k, 800, 800)
+        }
     }
 
     fn wall(random: &mut Random) -> Point3<f64> {
@@ -254,8 +251,9 @@ mod tests {
         let options = TwoViewOptions::default().within(2.0);
         for (lens, focal_px) in [(fisheye, 260.0), (narrow, 1400.0)] {
             let run = |motion, point: fn(&mut Random) -> Point3<f64>| {
-                let [seen1, seen2] = seen(&lens, focal_px, motion, point);
-                estimate_two_view_of_rays(&seen1, &seen2, &options, &mut ()).unwrap()
+                let camera = camera(lens, focal_px);
+                let [p1, p2] = seen(&camera, motion, point);
+                estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap()
             };
             let general = run(&step, room);
             assert_eq!(general.configuration, Configuration::General, "{lens:?}");
@@ -296,14 +294,17 @@ mod tests {
 
     #[test]
     fn few_matches_are_degenerate_or_refused() {
-        let lens = Lens::Fisheye(Fisheye::default());
+        let camera = camera(Lens::Fisheye(Fisheye::default()), 260.0);
         let step = RigidTransform::translation(-0.5, 0.0, 0.0);
-        let [seen1, seen2] = seen(&lens, 260.0, &step, room);
+        let [p1, p2] = seen(&camera, &step, room);
         let options = TwoViewOptions::default().within(2.0);
-        let few = estimate_two_view_of_rays(&seen1[..12], &seen2[..12], &options, &mut ()).unwrap();
+        let run = |num: usize| {
+            let (p1, p2) = (&p1[..num], &p2[..num]);
+            estimate_two_view_calibrated(p1, p2, [&camera; 2], &options, &mut ())
+        };
+        let few = run(12).unwrap();
         assert_eq!(few.configuration, Configuration::Degenerate);
         assert_eq!(few.cam2_from_cam1, None);
-        let refused = estimate_two_view_of_rays(&seen1[..4], &seen2[..4], &options, &mut ());
-        assert!(matches!(refused, Err(Error::TooFew { .. })));
+        assert!(matches!(run(4), Err(Error::TooFew { .. })));
     }
 }

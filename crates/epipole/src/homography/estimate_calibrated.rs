@@ -1,12 +1,15 @@
-//! H of a plane from rays of which many are wrongly matched: for lenses that no pinhole camera stands for.
+//! H of the rays of calibrated cameras, from matches of which many are wrong.
 
+use super::estimate_homography;
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::Observation;
+use crate::camera::{Camera, Observation};
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
-use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
+use crate::robust::{
+    Data, Estimator, MatchSet, ObservedMatches, Problem, RansacOptions, RansacReport, ransac,
+};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
 /// Homographies of rays, for RANSAC: four matches a sample, errors in the pixels of image 2.
@@ -149,36 +152,38 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     }
 }
 
-/// The homography of rays, `ray2 ∝ H ray1` by a positive factor, that most matches agree on, whatever lenses saw them:
-/// of a plane, or of a camera that only turned. H has unit Frobenius norm.
+/// The homography of rays, `ray2 ∝ H ray1` by a positive factor, that most matches of two calibrated cameras agree on: of
+/// a plane, or of a camera that only turned. H has unit Frobenius norm.
 ///
-/// * `seen1`, `seen2`: matching pixels with their rays, in the same order; wrong matches are expected
-/// * `options`: [`RansacOptions::max_error_px`] bounds the error of an inlier in image 2, in the pixels of the photograph
+/// * `pixels1`, `pixels2`: matching pixels, in the same order; wrong matches are expected
+/// * `cameras`: the two cameras, of any lens
+/// * `options`: [`RansacOptions::max_error_px`] bounds the error of an inlier in image 2, pixels
+///
+/// Between pinhole cameras it is `K2⁻¹ H K1` of [`estimate_homography`].
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4 different matches, and as
-/// [`ransac`].
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4 different matches that both
+/// lenses see, and as [`estimate_homography`] and [`ransac`].
 ///
 /// Source: as [`homography_4point`](super::homography_4point), with rays in the place of homogeneous points.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform};
-/// use epipole::homography::estimate_homography_of_rays;
+/// use epipole::homography::estimate_homography_calibrated;
 /// use epipole::robust::RansacOptions;
-/// use nalgebra::{Point2, Point3, Vector3};
+/// use nalgebra::{Point3, Vector3};
 /// let lens = Lens::Fisheye(Fisheye::default());
 /// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(200.0, 640, 640)?, 640, 640) };
 /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-0.5, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
-/// let see = |x: &Point3<f64>| camera.observe(&camera.project(x)?);
-/// let (mut seen1, mut seen2) = (Vec::new(), Vec::new());
+/// let (mut p1, mut p2) = (Vec::new(), Vec::new());
 /// for i in 0..40 {
 ///     // The floor, 1 below the camera; some of it is beside and behind.
 ///     let x = Point3::new(f64::from(i * 7 % 11) - 5.0, 1.0, 4.0 - 0.1 * f64::from(i * 3 % 43));
-///     seen1.push(see(&x)?);
-///     seen2.push(see(&(cam2_from_cam1 * x))?);
+///     p1.push(camera.project(&x)?);
+///     p2.push(camera.project(&(cam2_from_cam1 * x))?);
 /// }
-/// let report = estimate_homography_of_rays(&seen1, &seen2, &RansacOptions::default(), &mut ())?;
+/// let report = estimate_homography_calibrated(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 40);
 /// // As `homography_from_motion` has it, with n = −y and d = 1.
 /// let h = cam2_from_cam1.rotation.to_rotation_matrix().matrix()
@@ -186,22 +191,29 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 /// assert!((report.model - h / h.norm()).norm() < 1e-6);
 /// # Ok(()) }
 /// ```
-pub fn estimate_homography_of_rays(
-    seen1: &[Observation],
-    seen2: &[Observation],
+pub fn estimate_homography_calibrated(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    cameras: [&Camera; 2],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
-    let pixels = [seen1, seen2]
-        .map(|seen| -> Vec<Point2<f64>> { seen.iter().map(Observation::pixel).collect() });
-    let matches = MatchSet::new(&pixels[0], &pixels[1])?;
+    if cameras.iter().all(|camera| camera.is_pinhole()) {
+        let report = estimate_homography(pixels1, pixels2, options, monitor)?;
+        let [k1, k2] = cameras.map(|camera| camera.intrinsics);
+        let of_rays = k2.inverse_matrix() * report.model * k1.matrix();
+        // A plane is in front of both cameras, so the factor of an inlier tells the sign.
+        let inlier = report.inliers.iter().position(|&is| is);
+        let is_in_front = inlier.is_none_or(|i| (of_rays * k1.ray(&pixels1[i])).z > 0.0);
+        let signed = if is_in_front { of_rays } else { -of_rays };
+        return Ok(report.map(|_| signed / signed.norm()));
+    }
+    let ObservedMatches { matches, seen } = ObservedMatches::new(pixels1, pixels2, cameras)?;
     matches.at_least(4, "a homography of rays")?;
-    let kept = matches.unique().first_occurrences();
-    let rays1 = kept.iter().map(|&i| seen1[i].ray()).collect();
-    let seen2 = kept.iter().map(|&i| seen2[i]).collect();
+    let [seen1, seen2] = seen;
     let estimator = RayHomographyEstimator {
         matches,
-        rays1,
+        rays1: seen1.iter().map(Observation::ray).collect(),
         seen2,
     };
     ransac(estimator, options, monitor)
@@ -216,19 +228,31 @@ mod tests {
     use crate::optim::check_jacobian;
     use nalgebra::{DMatrix, DVector, Point3, Vector2};
 
-    /// A wall seen by a fisheye with noise, every fourth match wrong.
-    fn wall(num: usize, sigma_px: f64, seed: u64) -> ([Vec<Observation>; 2], Matrix3<f64>) {
-        let mut random = Random::new(seed);
-        let camera = Camera {
+    fn pinhole() -> Camera {
+        Camera::pinhole(Intrinsics::centered(250.0, 800, 800).unwrap(), 800, 800)
+    }
+
+    fn fisheye() -> Camera {
+        Camera {
             lens: Lens::Fisheye(Fisheye::default()),
-            ..Camera::pinhole(Intrinsics::centered(250.0, 800, 800).unwrap(), 800, 800)
-        };
+            ..pinhole()
+        }
+    }
+
+    /// A wall seen with noise, every fourth match wrong.
+    fn wall(
+        camera: &Camera,
+        num: usize,
+        sigma_px: f64,
+        seed: u64,
+    ) -> ([Vec<Point2<f64>>; 2], Matrix3<f64>) {
+        let mut random = Random::new(seed);
         let motion =
             RigidTransform::new(Vector3::new(-0.4, 0.1, 0.2), Vector3::new(0.1, 0.3, -0.2));
         let mut see = |x: &Vector3<f64>, off_px: f64| {
             let seen = camera.project(&Point3::from(*x)).unwrap();
             let off = Vector2::from_fn(|_, _| off_px * random.normal());
-            camera.observe(&(seen + off)).unwrap()
+            seen + off
         };
         let mut places = Random::new(seed + 1);
         let mut seen = [Vec::new(), Vec::new()];
@@ -245,21 +269,28 @@ mod tests {
 
     #[test]
     fn a_wall_is_found_among_wrong_matches() {
-        let (seen, truth) = wall(200, 0.5, 1);
-        let options = RansacOptions::default().within(3.0);
-        let report = estimate_homography_of_rays(&seen[0], &seen[1], &options, &mut ()).unwrap();
-        assert!(
-            (148..156).contains(&report.num_inliers),
-            "{}",
-            report.num_inliers
-        );
-        let off = (report.model - truth).norm();
-        assert!(off < 0.005, "{off}");
+        for camera in [fisheye(), pinhole()] {
+            let ([p1, p2], truth) = wall(&camera, 200, 0.5, 1);
+            let options = RansacOptions::default().within(3.0);
+            let report =
+                estimate_homography_calibrated(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap();
+            assert!(
+                (148..156).contains(&report.num_inliers),
+                "{}",
+                report.num_inliers
+            );
+            let off = (report.model - truth).norm();
+            assert!(off < 0.005, "{off}");
+        }
     }
 
     #[test]
     fn derivatives_are_differences() {
-        let (seen, truth) = wall(12, 0.5, 3);
+        let (pixels, truth) = wall(&fisheye(), 12, 0.5, 3);
+        let seen = pixels.map(|pixels| -> Vec<_> {
+            let observe = |pixel| fisheye().observe(pixel).unwrap();
+            pixels.iter().map(observe).collect()
+        });
         let rays1: Vec<_> = seen[0].iter().map(Observation::ray).collect();
         for i in (0..12usize).filter(|i| i % 4 != 0) {
             let used = [i];
@@ -282,12 +313,16 @@ mod tests {
 
     #[test]
     fn bad_input_is_refused() {
-        let (seen, _) = wall(8, 0.5, 5);
-        let options = RansacOptions::default();
-        let few = estimate_homography_of_rays(&seen[0][..3], &seen[1][..3], &options, &mut ());
-        assert!(matches!(few, Err(Error::TooFew { .. })));
-        let unlike = estimate_homography_of_rays(&seen[0], &seen[1][..7], &options, &mut ());
-        assert!(matches!(unlike, Err(Error::SizeMismatch { .. })));
+        for camera in [fisheye(), pinhole()] {
+            let ([p1, p2], _) = wall(&camera, 8, 0.5, 5);
+            let run = |num1: usize, num2: usize| {
+                let options = RansacOptions::default();
+                let (p1, p2) = (&p1[..num1], &p2[..num2]);
+                estimate_homography_calibrated(p1, p2, [&camera; 2], &options, &mut ())
+            };
+            assert!(matches!(run(3, 3), Err(Error::TooFew { .. })));
+            assert!(matches!(run(8, 7), Err(Error::SizeMismatch { .. })));
+        }
         // Rays of one plane through the center give none.
         let flat = [0.1, 0.2, 0.4, 0.8, 0.9].map(|x| Vector3::new(x, 0.0, 1.0));
         let of_four = core::array::from_fn(|i| flat[i]);

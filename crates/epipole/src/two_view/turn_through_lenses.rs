@@ -1,4 +1,4 @@
-//! Whether a camera with any lens only turned.
+//! Turns of cameras of any lens.
 
 use super::rotation::align_rays;
 use super::{ExplainingTurn, TwoViewOptions};
@@ -8,32 +8,12 @@ use nalgebra::{Matrix3, Vector3};
 /// How often the turn is found again from the half of the matches that fits it best.
 const ROUNDS: usize = 10;
 
-/// The turn that explains nearly all matches, if there is one, as [`find_explaining_turn`](super::find_explaining_turn)
-/// has it of pinhole cameras. These are the inliers of a motion, so few of them are wrong.
+/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras of any lens; errors are in image 2.
 ///
-/// * `inliers`: what both cameras saw
-/// * `options`: as of `find_explaining_turn`; errors are in image 2, and given 1.25 √2 times the threshold
+/// * `inliers`: observations of both cameras, of which few are wrong
 ///
 /// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets" (concentration steps).
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
-/// use epipole::two_view::{TwoViewOptions, find_explaining_turn_of_rays};
-/// use nalgebra::Point2;
-/// let lens = Lens::from_coefficients(LensKind::Fisheye, &[0.0; 4])?;
-/// let camera = Camera { lens, ..Camera::pinhole(Intrinsics::centered(600.0, 640, 480)?, 640, 480) };
-/// let see = |u: i32, v: i32| camera.observe(&Point2::new(f64::from(u), f64::from(v)));
-/// let mut still = Vec::new();
-/// for i in 0..60 {
-///     still.push([see(i * 37 % 640, i * 71 % 480)?; 2]);
-/// }
-/// let turn = find_explaining_turn_of_rays(&still, &TwoViewOptions::default()).unwrap();
-/// assert_eq!(turn.num_explained, 60);
-/// assert!(turn.cam2_from_cam1.rotation.angle() < 1e-6);
-/// # Ok(()) }
-/// ```
-pub fn find_explaining_turn_of_rays(
+pub(super) fn find_turn_through_lenses(
     inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
 ) -> Option<ExplainingTurn> {
@@ -100,13 +80,13 @@ mod tests {
                 };
                 pairs.push([see(x), see(other)]);
             }
-            let found = find_explaining_turn_of_rays(&pairs, &TwoViewOptions::default());
+            let found = find_turn_through_lenses(&pairs, &TwoViewOptions::default());
             assert_eq!(found.is_some(), expected);
             if let Some(found) = found {
                 let off = found.cam2_from_cam1.rotation.angle_to(&motion.rotation);
                 assert!(off < 1e-3, "{off}");
             }
         }
-        assert!(find_explaining_turn_of_rays(&[], &TwoViewOptions::default()).is_none());
+        assert!(find_turn_through_lenses(&[], &TwoViewOptions::default()).is_none());
     }
 }

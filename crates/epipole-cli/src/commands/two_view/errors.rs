@@ -1,0 +1,68 @@
+//! Errors of matches, pixels, by the models of two views.
+
+use epipole::camera::{Camera, Observation, RigidTransform};
+use epipole::epipolar::{decompose_essential, sampson_px, tangent_sampson_px};
+use epipole::homography::homography_sampson_px;
+use nalgebra::{Matrix3, Point2};
+
+/// Matching pixels of two images.
+pub(super) type Pixels<'a> = [&'a [Point2<f64>]; 2];
+
+fn each(pixels: Pixels<'_>, error_px: impl Fn(&Point2<f64>, &Point2<f64>) -> f64) -> Vec<f64> {
+    let pairs = pixels[0].iter().zip(pixels[1]);
+    pairs.map(|(a, b)| error_px(a, b)).collect()
+}
+
+/// Of F.
+pub(super) fn of_fundamental(pixels: Pixels<'_>, f: &Matrix3<f64>) -> Vec<f64> {
+    each(pixels, |a, b| sampson_px(f, a, b))
+}
+
+/// Of an H of pixels.
+pub(super) fn of_homography(pixels: Pixels<'_>, h: &Matrix3<f64>) -> Vec<f64> {
+    each(pixels, |a, b| homography_sampson_px(h, a, b))
+}
+
+/// Matches seen through lenses; infinite errors where a lens bends no ray to a pixel.
+pub(super) struct SeenPixels(Vec<Option<[Observation; 2]>>);
+
+impl SeenPixels {
+    pub(super) fn new(cameras: [&Camera; 2], pixels: Pixels<'_>) -> Self {
+        let pairs = pixels[0].iter().zip(pixels[1]);
+        let seen = pairs.map(|(a, b)| {
+            let (one, two) = (cameras[0].observe(a).ok()?, cameras[1].observe(b).ok()?);
+            Some([one, two])
+        });
+        Self(seen.collect())
+    }
+
+    fn each(&self, error_px: impl Fn(&Observation, &Observation) -> f64) -> Vec<f64> {
+        let error = |[a, b]: &[Observation; 2]| error_px(a, b);
+        let of = |seen: &Option<_>| seen.as_ref().map_or(f64::INFINITY, error);
+        self.0.iter().map(of).collect()
+    }
+
+    /// Of a motion.
+    pub(super) fn of_motion(&self, motion: &RigidTransform) -> Vec<f64> {
+        self.each(|a, b| tangent_sampson_px(motion, a, b))
+    }
+
+    /// Of that motion of E which a match agrees with best: where the configuration is degenerate none is chosen.
+    pub(super) fn of_essential(&self, essential: &Matrix3<f64>) -> epipole::Result<Vec<f64>> {
+        let motions = decompose_essential(essential)?;
+        Ok(self.each(|a, b| {
+            let errors = motions
+                .iter()
+                .map(|motion| tangent_sampson_px(motion, a, b));
+            errors.fold(f64::INFINITY, f64::min)
+        }))
+    }
+
+    /// Of an H of rays, in image 2.
+    pub(super) fn of_homography(&self, homography: &Matrix3<f64>) -> Vec<f64> {
+        self.each(|a, b| {
+            let off = b.offset_px(&(homography * a.ray()));
+            off.map_or(f64::INFINITY, |off| off.norm())
+        })
+    }
+}
