@@ -249,18 +249,20 @@ mod tests {
         let mut random = Random::new(seed);
         let motion =
             RigidTransform::new(Vector3::new(-0.4, 0.1, 0.2), Vector3::new(0.1, 0.3, -0.2));
-        let mut see = |x: &Vector3<f64>, off_px: f64| {
-            let seen = camera.project(&Point3::from(*x)).unwrap();
-            let off = Vector2::from_fn(|_, _| off_px * random.normal());
-            seen + off
+        let mut see = |x: &Point3<f64>, off_px: f64| -> Option<Point2<f64>> {
+            let seen = camera.project(x).ok()?;
+            Some(seen + Vector2::from_fn(|_, _| off_px * random.normal()))
         };
         let mut places = Random::new(seed + 1);
         let mut seen = [Vec::new(), Vec::new()];
-        for n in 0..num {
+        while seen[0].len() < num {
             let x = Point3::new(3.0 * places.normal(), 3.0 * places.normal(), 1.5);
-            seen[0].push(see(&x.coords, sigma_px));
-            let off_px = if n % 4 == 0 { 60.0 } else { sigma_px };
-            seen[1].push(see(&(motion * x).coords, off_px));
+            let is_wrong = seen[0].len().is_multiple_of(4);
+            let off_px = if is_wrong { 60.0 } else { sigma_px };
+            if let (Some(one), Some(two)) = (see(&x, sigma_px), see(&(motion * x), off_px)) {
+                seen[0].push(one);
+                seen[1].push(two);
+            }
         }
         let rotation = motion.rotation.to_rotation_matrix().into_inner();
         let h = rotation + motion.translation.vector * Vector3::z().transpose() / 1.5;
