@@ -12,6 +12,7 @@
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
 //!   photographs, to cameras and points; [`Reconstruction`] writes them to files.
+//! * [`Reconstruction::localize`] gives the pose of another photo.
 //! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
 
 mod alignment;
@@ -22,6 +23,7 @@ mod export;
 mod g2o;
 mod incremental;
 mod keyframes;
+mod localize;
 mod loop_closure;
 mod odometry;
 mod options;
@@ -49,6 +51,7 @@ pub use export::ColmapModel;
 pub use incremental::{
     IncrementalReconstruction, SfmResult, SfmStep, reconstruct, reconstruct_verified,
 };
+pub use localize::{Localization, LocalizeOptions};
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };

@@ -117,7 +117,9 @@ pub fn match_features(
             pairs.push(PairMatches {
                 image1,
                 image2,
-                matches: match_pair(first, second, options, &mut part)?,
+                matches: (match_pair(first, second, options, &mut part)?.iter())
+                    .map(|found| (found.index1 as u32, found.index2 as u32))
+                    .collect(),
             });
         }
     }
@@ -137,12 +139,12 @@ pub fn match_rectified(
     right: &PhotoFeatures,
     options: &PhotoOptions,
     monitor: &mut dyn Monitor,
-) -> Result<Vec<(u32, u32)>> {
+) -> Result<Vec<Match>> {
     let mut matches = match_pair(left, right, options, monitor)?;
-    matches.retain(|&(i, j)| {
+    matches.retain(|found| {
         let (a, b) = (
-            left.image.keypoints[i as usize],
-            right.image.keypoints[j as usize],
+            left.image.keypoints[found.index1],
+            right.image.keypoints[found.index2],
         );
         (a.y - b.y).abs() <= MAX_ROW_ERROR_PX && a.x > b.x
     });
@@ -152,7 +154,7 @@ pub fn match_rectified(
 /// How far a rectification may be off.
 const MAX_ROW_ERROR_PX: f64 = 2.0;
 
-/// Matches between two photographs, as indices of their keypoints.
+/// Matches between the features of two photographs.
 ///
 /// # Errors
 /// As [`match_any_descriptors`].
@@ -163,15 +165,14 @@ pub fn match_pair(
     second: &PhotoFeatures,
     options: &PhotoOptions,
     monitor: &mut dyn Monitor,
-) -> Result<Vec<(u32, u32)>> {
+) -> Result<Vec<Match>> {
     let descriptors = (&first.descriptors, &second.descriptors);
     let mut matches =
         match_any_descriptors(descriptors.0, descriptors.1, &options.matching, monitor)?;
     if options.best_first {
         matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
     }
-    let pair = |m: &Match| (m.index1 as u32, m.index2 as u32);
-    Ok(matches.iter().map(pair).collect())
+    Ok(matches)
 }
 
 /// Keypoints of all photographs and matches between all pairs of them.
