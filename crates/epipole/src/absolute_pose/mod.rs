@@ -8,6 +8,7 @@ mod fit;
 mod local_problem;
 mod p3p;
 mod p4pf;
+mod pose_with_focal;
 mod refine;
 mod refine_focal;
 mod sides;
@@ -18,5 +19,6 @@ pub use estimate_focal::{AbsolutePoseFocalEstimator, estimate_absolute_pose_and_
 pub use estimate_of_rays::estimate_absolute_pose_of_rays;
 pub use fit::fit_absolute_pose;
 pub use p3p::pose_p3p;
-pub use p4pf::{AbsolutePoseWithFocal, pose_p4pf};
+pub use p4pf::pose_p4pf;
+pub use pose_with_focal::AbsolutePoseWithFocal;
 pub use refine::{refine_absolute_pose, reprojection_error_px};

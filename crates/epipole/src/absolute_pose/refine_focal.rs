@@ -1,7 +1,7 @@
 //! Nonlinear refinement of a camera pose together with the focal length.
 
 use super::local_problem::{LocalPose, LocalProblem};
-use super::p4pf::PoseFocal;
+use super::pose_with_focal::PoseFocal;
 use super::refine::PoseProblem;
 use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
