@@ -13,6 +13,7 @@
 mod advice;
 mod blobs;
 mod board;
+mod board_search;
 mod calibrate;
 mod chessboard;
 mod circle_grid;
@@ -34,9 +35,10 @@ mod undistort;
 
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
+pub use board_search::BoardSearch;
 pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
 pub use closed_form::intrinsics_from_planes;
-pub use find_board::{BoardSearch, find_board};
+pub use find_board::find_board;
 #[cfg(feature = "decode")]
 pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use rig::{RigCalibration, calibrate_rig};
