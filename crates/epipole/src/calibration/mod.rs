@@ -15,6 +15,7 @@ mod blobs;
 mod board;
 mod board_search;
 mod calibrate;
+mod calibrated_view;
 mod chessboard;
 mod circle_grid;
 mod closed_form;
@@ -36,7 +37,8 @@ mod undistort;
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
 pub use board_search::BoardSearch;
-pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
+pub use calibrate::{Calibration, CalibrationOptions, calibrate};
+pub use calibrated_view::CalibratedView;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::find_board;
 #[cfg(feature = "decode")]
