@@ -1,4 +1,4 @@
-//! What the solver sees of a published problem: residuals, their derivatives, and steps.
+//! A published problem as the solver sees it: residuals, their derivatives, and steps.
 
 use super::problem::BalProblem;
 use super::radial::radial_terms;
