@@ -1,274 +1,32 @@
 //! Circles of files: none may import, by way of others, a file that imports it.
 
-use crate::before_tests;
-use epipole_tests::{files_below, root};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
+use crate::imports::{Files, Module, sources};
+use std::collections::BTreeSet;
 
-/// Path of a module from the root of its crate.
-type Module = Vec<String>;
-
-/// A source file without tests, comments and strings, as far as imports need it.
-struct File {
-    module: Module,
-    /// Names that it defines.
-    defined: BTreeSet<String>,
-    /// Names that it takes from elsewhere, and under which path; `*` for all of a module.
-    imports: Vec<(String, Module)>,
-    /// The same, for whoever imports them from here.
-    exports: Vec<(String, Module)>,
-    /// Paths in the code.
-    paths: Vec<Module>,
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
-/// Words and single other characters.
-fn tokens(code: &str) -> Vec<&str> {
-    let mut tokens = Vec::new();
-    let mut rest = code;
-    while let Some(c) = rest.chars().next() {
-        let len = match is_word(c) {
-            true => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-            false => c.len_utf8(),
-        };
-        if !c.is_whitespace() {
-            tokens.push(&rest[..len]);
-        }
-        rest = &rest[len..];
-    }
-    tokens
-}
-
-/// The names that a tree of imports brings, and the path of each; the rest begins behind the tree.
-fn import_tree<'a>(
-    mut tokens: &'a [&'a str],
-    mut path: Module,
-    found: &mut Vec<(String, Module)>,
-) -> &'a [&'a str] {
-    loop {
-        match tokens {
-            [":", ":", after @ ..] => tokens = after,
-            ["{", after @ ..] => {
-                tokens = after;
-                while let Some(&first) = tokens.first() {
-                    match first {
-                        "}" => return &tokens[1..],
-                        "," => tokens = &tokens[1..],
-                        _ => tokens = import_tree(tokens, path.clone(), found),
-                    }
-                }
-                return tokens;
-            }
-            ["*", after @ ..] => {
-                found.push(("*".to_owned(), path));
-                return after;
-            }
-            ["as", name, after @ ..] => {
-                found.push(((*name).to_owned(), path));
-                return after;
-            }
-            ["self", after @ ..] if !path.is_empty() => tokens = after,
-            [word, after @ ..] if word.starts_with(is_word) => {
-                path.push((*word).to_owned());
-                tokens = after;
-            }
-            _ => {
-                if let Some(name) = path.last() {
-                    found.push((name.clone(), path.clone()));
-                }
-                return tokens;
-            }
+/// Sets of files of which each reaches each.
+fn circles(files: &Files) -> Vec<BTreeSet<&str>> {
+    let mut reached = files.imports();
+    let modules: Vec<&Module> = reached.keys().copied().collect();
+    // As long as something new is reached.
+    let mut grows = true;
+    while grows {
+        grows = false;
+        for &module in &modules {
+            let direct = reached[module].clone();
+            let further = direct.iter().flat_map(|next| reached[*next].iter());
+            let all: BTreeSet<&Module> = further.chain(&direct).copied().collect();
+            grows |= all.len() > direct.len();
+            reached.insert(module, all);
         }
     }
-}
-
-impl File {
-    fn read(module: Module, text: &str) -> Self {
-        let code = crate::without_strings(&before_tests(text));
-        let mut file = Self {
-            module,
-            defined: BTreeSet::new(),
-            imports: Vec::new(),
-            exports: Vec::new(),
-            paths: Vec::new(),
-        };
-        let all = tokens(&code);
-        let mut rest = &all[..];
-        let mut is_public = false;
-        while let Some((&first, after)) = rest.split_first() {
-            rest = after;
-            match first {
-                "use" => {
-                    let list = match is_public {
-                        true => &mut file.exports,
-                        false => &mut file.imports,
-                    };
-                    rest = import_tree(after, Module::new(), list);
-                }
-                "fn" | "struct" | "enum" | "trait" | "const" | "static" | "type" | "union" => {
-                    file.defined
-                        .extend(after.first().map(|&name| name.to_owned()));
-                }
-                "pub" => {
-                    is_public = true;
-                    if let ["(", inner @ ..] = after {
-                        let end = inner.iter().position(|&token| token == ")");
-                        rest = &inner[end.map_or(0, |end| end + 1)..];
-                    }
-                    continue;
-                }
-                word if word.starts_with(is_word) && matches!(after, [":", ":", ..]) => {
-                    let mut path = vec![word.to_owned()];
-                    while let [":", ":", next, more @ ..] = rest
-                        && next.starts_with(is_word)
-                    {
-                        path.push((*next).to_owned());
-                        rest = more;
-                    }
-                    file.paths.push(path);
-                }
-                _ => {}
-            }
-            is_public = false;
+    let mut circles = BTreeSet::new();
+    for (module, all) in &reached {
+        if all.contains(module) {
+            let both = all.iter().filter(|other| reached[**other].contains(module));
+            circles.insert(both.map(|other| files.path(other)).collect());
         }
-        file
     }
-}
-
-/// The files of a crate, by the module that each is.
-struct Files(BTreeMap<Module, (String, File)>);
-
-impl Files {
-    fn of_crate(name: &str) -> Self {
-        let source = root().join("crates").join(name).join("src");
-        let mut files = BTreeMap::new();
-        for path in files_below(&source, &["rs"]) {
-            let below = path
-                .strip_prefix(&source)
-                .unwrap_or(&path)
-                .with_extension("");
-            let mut module: Module = (below.iter())
-                .map(|part| part.to_string_lossy().into_owned())
-                .collect();
-            if module.last().is_some_and(|last| last == "mod") || module == ["lib"] {
-                module.pop();
-            }
-            let is_test = |part: &String| part == "tests" || part.ends_with("_tests");
-            if module.iter().any(is_test) {
-                continue;
-            }
-            let shown = path
-                .strip_prefix(&source)
-                .unwrap_or(&path)
-                .display()
-                .to_string();
-            let text = fs::read_to_string(&path).unwrap_or_default();
-            files.insert(module.clone(), (shown, File::read(module, &text)));
-        }
-        Self(files)
-    }
-
-    /// A path of `file` from the root of the crate; `None` if it leads out of the crate.
-    fn absolute(&self, file: &File, path: &[String]) -> Option<Module> {
-        let mut at = file.module.clone();
-        let mut rest = path;
-        match rest.first()?.as_str() {
-            "crate" => (at, rest) = (Module::new(), &rest[1..]),
-            "self" => rest = &rest[1..],
-            "super" => {
-                while let Some(("super", after)) = rest.split_first().map(|(a, b)| (a.as_str(), b))
-                {
-                    at.pop();
-                    rest = after;
-                }
-            }
-            first => {
-                let child = [&at[..], &[first.to_owned()]].concat();
-                if !self.0.contains_key(&child) {
-                    // Under a name that was imported.
-                    let (_, path) = (file.imports.iter()).find(|(name, _)| name == first)?;
-                    if path.first().is_some_and(|start| start == first) {
-                        return None;
-                    }
-                    at = self.absolute(file, path)?;
-                    rest = &rest[1..];
-                }
-            }
-        }
-        at.extend(rest.iter().cloned());
-        Some(at)
-    }
-
-    /// The file that defines what an absolute path names; `None` for a module as a whole.
-    fn definer(&self, path: &[String], depth: usize) -> Option<&Module> {
-        let known = (0..=path.len())
-            .rev()
-            .find(|&len| self.0.contains_key(&path[..len]))?;
-        let (module, (_, file)) = self.0.get_key_value(&path[..known])?;
-        let name = path.get(known)?;
-        if file.defined.contains(name) || depth == 0 {
-            return Some(module);
-        }
-        let through = |exported: &Module, name: Option<&String>| {
-            let mut path = self.absolute(file, exported)?;
-            path.extend(name.cloned());
-            self.definer(&path, depth - 1)
-        };
-        let mut exports = file.exports.iter();
-        if let Some((_, exported)) = exports.find(|(exported, _)| exported == name) {
-            return through(exported, None);
-        }
-        let mut all = file.exports.iter().filter(|(exported, _)| exported == "*");
-        let behind = all.find_map(|(_, exported)| {
-            let target = through(exported, Some(name))?;
-            self.0[target].1.defined.contains(name).then_some(target)
-        });
-        behind.or(Some(module))
-    }
-
-    /// The files that a file takes names from.
-    fn arrows(&self, file: &File) -> BTreeSet<&Module> {
-        let imported = (file.imports.iter()).map(|(name, path)| match name.as_str() {
-            "*" => [&path[..], &["*".to_owned()]].concat(),
-            _ => path.clone(),
-        });
-        let paths = imported.chain(file.paths.iter().cloned());
-        paths
-            .filter_map(|path| self.definer(&self.absolute(file, &path)?, 8))
-            .filter(|target| **target != file.module)
-            .collect()
-    }
-
-    /// Sets of files of which each reaches each.
-    fn circles(&self) -> Vec<BTreeSet<&str>> {
-        let mut reached: BTreeMap<&Module, BTreeSet<&Module>> = BTreeMap::new();
-        for (module, (_, file)) in &self.0 {
-            reached.insert(module, self.arrows(file));
-        }
-        // As long as something new is reached.
-        let mut grows = true;
-        while grows {
-            grows = false;
-            for module in self.0.keys() {
-                let direct = reached[module].clone();
-                let further = direct.iter().flat_map(|next| reached[*next].iter());
-                let all: BTreeSet<&Module> = further.chain(&direct).copied().collect();
-                grows |= all.len() > direct.len();
-                reached.insert(module, all);
-            }
-        }
-        let mut circles = BTreeSet::new();
-        for (module, all) in &reached {
-            if all.contains(module) {
-                let both = all.iter().filter(|other| reached[**other].contains(module));
-                circles.insert(both.map(|other| self.0[*other].0.as_str()).collect());
-            }
-        }
-        circles.into_iter().collect()
-    }
+    circles.into_iter().collect()
 }
 
 #[test]
@@ -281,7 +39,7 @@ fn files_import_in_no_circle() {
             .iter()
             .filter(|entry| entry.of_crate == *name)
             .collect();
-        for circle in files.circles() {
+        for circle in circles(&files) {
             let is_within = |entry: &&Remaining| {
                 circle
                     .iter()
@@ -303,34 +61,20 @@ fn files_import_in_no_circle() {
 }
 
 #[test]
-fn exports_of_a_parent_are_looked_through() {
-    let module = |path: &str| -> Module { path.split_whitespace().map(str::to_owned).collect() };
-    let file = |path: &str, text: &str| {
-        let file = File::read(module(path), text);
-        (module(path), (format!("{path}.rs"), file))
-    };
-    let files = Files(BTreeMap::from([
-        file("", "mod room;"),
-        file(
-            "room",
-            "mod a;\nmod b;\npub use a::{A, helper};\npub use b::*;",
-        ),
-        file("room a", "use super::B;\npub struct A;\npub fn helper() {}"),
-        file(
+fn a_circle_through_exports_of_a_parent_is_found() {
+    let files = sources(&[
+        ("room", "mod a;\nmod b;\npub use a::A;\npub use b::*;"),
+        ("room a", "use super::B;\npub struct A;"),
+        (
             "room b",
-            "use crate::room::{self, C};\npub struct B;\npub struct C;\nfn f() { room::helper() }",
+            "use crate::room;\npub struct B;\nfn f(_: room::A) {}",
         ),
-        file(
-            "room c",
-            "use super::{A, B};\nfn g(_: crate::room::a::A) {}",
-        ),
-    ]));
+        ("room c", "use super::{A, B};"),
+    ]);
     assert_eq!(
-        files.circles(),
+        circles(&files),
         [BTreeSet::from(["room a.rs", "room b.rs"])]
     );
-    assert_eq!(files.arrows(&files.0[&module("room c")].1).len(), 2);
-    assert_eq!(files.arrows(&files.0[&module("room")].1).len(), 0);
 }
 
 /// A circle that remains for now.
@@ -339,7 +83,7 @@ struct Remaining {
     files: Vec<String>,
 }
 
-/// What `circles.toml` lists.
+/// The list in `circles.toml`.
 fn remaining() -> Vec<Remaining> {
     let text: toml::Table = include_str!("circles.toml").parse().unwrap();
     let circles = text["circle"].as_array().unwrap().iter();

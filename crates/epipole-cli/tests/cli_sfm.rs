@@ -88,7 +88,7 @@ fn commands_find_the_same_features() {
     let matched = json(&["match", path(&files[0]), path(&files[1])]);
     let expected = epipole::sfm::match_pair(&features[0], &features[1], &options, &mut ()).unwrap();
     let expected: Vec<_> = (expected.iter())
-        .map(|(i, j)| (f64::from(*i), f64::from(*j)))
+        .map(|found| (found.index1 as f64, found.index2 as f64))
         .collect();
     assert!(expected.len() > 50);
     assert_eq!(places(&matched["matches"]), expected);

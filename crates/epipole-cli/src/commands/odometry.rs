@@ -17,6 +17,7 @@ use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
 use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
+use epipole::feature::Match;
 use epipole::progress::Part;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
@@ -279,7 +280,8 @@ impl Work<'_> {
         let mut left_right = Vec::new();
         for (a, b) in left.iter().zip(&right) {
             let mut part = Part::new(watch, MATCHED, MATCHED);
-            left_right.push(match_rectified(a, b, &self.options, &mut part)?);
+            let matches = match_rectified(a, b, &self.options, &mut part)?;
+            left_right.push(matches.iter().map(Match::indices).collect::<Vec<_>>());
         }
         // Descriptors are the larger part of the memory.
         let images = |features: Vec<PhotoFeatures>| -> Vec<SfmImage> {

@@ -1,8 +1,9 @@
 //! The pose of a camera and its focal length from points of which many are wrongly matched.
 
 use super::estimate::usable;
-use super::p4pf::{AbsolutePoseWithFocal, MAX_SOLUTIONS, PoseFocal, solve};
+use super::p4pf::{MAX_SOLUTIONS, solve};
 use super::point_errors::PinholePoints;
+use super::pose_with_focal::{AbsolutePoseWithFocal, PoseFocal};
 use super::refine::{PoseProblem, rigid};
 use super::refine_focal::{refine_with_focal, relative_focal_deviation};
 use crate::camera::{Intrinsics, plausible_focals_px};

@@ -1,8 +1,8 @@
 //! Nonlinear refinement of a camera pose together with the focal length.
 
 use super::local_pose::{LocalPose, Pivot};
-use super::p4pf::PoseFocal;
 use super::point_errors::{PinholePoints, PointErrors};
+use super::pose_with_focal::PoseFocal;
 use super::refine::PoseProblem;
 use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};

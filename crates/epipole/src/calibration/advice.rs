@@ -1,6 +1,6 @@
 //! What is wrong with a set of views, though a camera came out of it.
 
-use super::calibrate::CalibratedView;
+use super::calibrated_view::CalibratedView;
 use nalgebra::Vector3;
 
 /// Something about the views that makes a calibration less sure than its errors say.

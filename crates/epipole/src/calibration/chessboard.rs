@@ -1,6 +1,6 @@
 //! The inner corners of a chessboard.
 
-use super::find_board::BoardSearch;
+use super::board_search::BoardSearch;
 use super::lattice::{Cell, Lattice};
 use super::saddles::{Saddle, SaddleImage};
 use super::{Board, BoardView};

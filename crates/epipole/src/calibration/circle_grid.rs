@@ -1,7 +1,7 @@
 //! The disks of an asymmetric grid.
 
 use super::blobs::{Blob, find_blobs};
-use super::find_board::BoardSearch;
+use super::board_search::BoardSearch;
 use super::lattice::{Cell, Lattice};
 use super::{Board, BoardView};
 use crate::Result;

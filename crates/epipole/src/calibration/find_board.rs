@@ -1,5 +1,6 @@
 //! A board in a photograph.
 
+use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
 use super::crossing::{edges_through, fit_crossing};
@@ -10,116 +11,8 @@ use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::{Border, GrayImage32, pyramid_down};
 use nalgebra::Point2;
 
-/// What a search for a board came to.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BoardSearch {
-    /// Where its marks are.
-    Found(BoardView),
-    /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is of another size.
-    Partial {
-        /// Marks along the longer side.
-        columns: usize,
-        /// Marks along the shorter side.
-        rows: usize,
-        /// How many marks were seen.
-        num_seen: usize,
-    },
-    /// Nothing like it.
-    Nothing,
-}
-
-impl BoardSearch {
-    /// The view, if the board was found.
-    pub fn view(self) -> Option<BoardView> {
-        match self {
-            Self::Found(view) => Some(view),
-            _ => None,
-        }
-    }
-
-    /// Why there is no view, as a sentence; `None` if there is one.
-    pub fn problem(&self, board: &Board) -> Option<String> {
-        let (columns, rows) = (board.columns(), board.rows());
-        match self {
-            Self::Found(_) => None,
-            Self::Nothing => Some(format!(
-                "no board of {columns} × {rows} marks was found: it must be whole in the picture, sharp, and with a \
-                 margin around it"
-            )),
-            Self::Partial {
-                columns: seen_columns,
-                rows: seen_rows,
-                num_seen,
-            } => {
-                let larger = *seen_columns > columns.max(rows) || *seen_rows > columns.min(rows);
-                let why = if larger {
-                    "the board is of another size, or something beside it looks alike: count its marks once more, or cover \
-                     what is beside it"
-                } else {
-                    "a part is outside of the picture or hidden, or the board is of another size: show more of it, or count its \
-                     marks once more"
-                };
-                Some(format!(
-                    "a grid of {seen_columns} × {seen_rows} with {num_seen} marks was found, not {columns} × {rows}: {why}"
-                ))
-            }
-        }
-    }
-
-    /// Corners of other things stand in a row here and there: a grid is told from them by two rows and columns at least,
-    /// of which half is seen.
-    fn unless_by_chance(self) -> Self {
-        match self {
-            Self::Partial {
-                columns,
-                rows,
-                num_seen,
-            } if columns.min(rows) < 2 || 2 * num_seen < columns * rows => Self::Nothing,
-            search => search,
-        }
-    }
-
-    /// Whether this is a whole grid, larger than the board, beside which a part of one means nothing: the board is of
-    /// another size then, and texture looked like it.
-    pub(super) fn outdoes(&self, view: &BoardView, board: &Board) -> bool {
-        let &Self::Partial {
-            columns,
-            rows,
-            num_seen,
-        } = self
-        else {
-            return false;
-        };
-        let (longer, shorter) = (board.columns(), board.rows());
-        let is_larger = columns > longer.max(shorter) || rows > longer.min(shorter);
-        let is_whole = num_seen as f64 >= WHOLE * (columns * rows) as f64;
-        is_larger
-            && is_whole
-            && num_seen as f64 >= MORE * view.num_seen() as f64
-            && !view.is_whole()
-    }
-
-    /// The one with more marks.
-    pub(super) fn or_more(self, other: Self) -> Self {
-        let num_seen = |search: &Self| match search {
-            Self::Found(view) => usize::MAX - view.pixels.len() + view.num_seen(),
-            Self::Partial { num_seen, .. } => *num_seen,
-            Self::Nothing => 0,
-        };
-        if num_seen(&other) > num_seen(&self) {
-            other
-        } else {
-            self
-        }
-    }
-}
-
 /// The search begins in an image whose longer side is no more than this, pixels.
 const FIRST_SIDE: u32 = 1300;
-/// A grid of which this share of the marks is seen is no chance.
-const WHOLE: f64 = 0.8;
-/// So many times the marks are another grid, and not the same one with a stray corner.
-const MORE: f64 = 1.25;
 /// The window of the refinement by gradients, as a share of the distance to the nearest mark.
 const WINDOW: f64 = 0.3;
 const WINDOWS: (usize, usize) = (2, 15);
@@ -467,47 +360,5 @@ mod tests {
         assert!(find_board(&nan, &board).is_err());
         let bytes = GrayImage32::from_pixel(20, 20, Luma([200.0]));
         assert!(find_board(&bytes, &board).is_err());
-    }
-
-    #[test]
-    fn a_few_corners_in_a_row_are_no_board_of_another_size() {
-        let search = |columns, rows, num_seen| {
-            BoardSearch::Partial {
-                columns,
-                rows,
-                num_seen,
-            }
-            .unless_by_chance()
-        };
-        // As photographs of other things give them.
-        for (columns, rows, num_seen) in [(15, 11, 9), (3, 1, 3)] {
-            assert_eq!(search(columns, rows, num_seen), BoardSearch::Nothing);
-        }
-        // A board whose last column is out of sight.
-        assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
-    }
-
-    #[test]
-    fn a_whole_larger_grid_outdoes_part_of_a_board() {
-        let board = Board::new(Pattern::Chessboard, 7, 6, 0.025).unwrap();
-        let view = |num_seen: usize| BoardView {
-            pixels: (0..42)
-                .map(|n| (n < num_seen).then(|| Point2::new(n as f64, 0.0)))
-                .collect(),
-        };
-        let grid = |columns, rows, num_seen| BoardSearch::Partial {
-            columns,
-            rows,
-            num_seen,
-        };
-        assert!(grid(9, 6, 54).outdoes(&view(38), &board));
-        assert!(grid(9, 7, 55).outdoes(&view(38), &board));
-        // All of the board is there; the other grid has gaps, as what is no board; or it has hardly more marks, or fewer.
-        assert!(!grid(9, 6, 54).outdoes(&view(42), &board));
-        assert!(!grid(9, 7, 49).outdoes(&view(38), &board));
-        assert!(!grid(8, 6, 48).outdoes(&view(41), &board));
-        assert!(!grid(8, 4, 32).outdoes(&view(38), &board));
-        assert!(!grid(7, 5, 35).outdoes(&view(30), &board));
-        assert!(!BoardSearch::Nothing.outdoes(&view(38), &board));
     }
 }

@@ -13,7 +13,9 @@
 mod advice;
 mod blobs;
 mod board;
+mod board_search;
 mod calibrate;
+mod calibrated_view;
 mod chessboard;
 mod circle_grid;
 mod closed_form;
@@ -34,9 +36,11 @@ mod undistort;
 
 pub use advice::CalibrationWarning;
 pub use board::{Board, BoardView, Pattern};
-pub use calibrate::{CalibratedView, Calibration, CalibrationOptions, calibrate};
+pub use board_search::BoardSearch;
+pub use calibrate::{Calibration, CalibrationOptions, calibrate};
+pub use calibrated_view::CalibratedView;
 pub use closed_form::intrinsics_from_planes;
-pub use find_board::{BoardSearch, find_board};
+pub use find_board::find_board;
 #[cfg(feature = "decode")]
 pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use rig::{RigCalibration, calibrate_rig};

@@ -8,12 +8,11 @@ use super::in_front::{self, Lenses};
 use super::refine::refine_in_frame;
 use super::refine_focal::refine_pose_and_focal_in_frame;
 use super::refine_pose::{ErrorsInFrame, Pose, RaysInFrame, Steps, refine_pose};
-use super::{RelativePose, project_to_essential};
+use super::{RelativePose, project_to_essential, sampson};
 use crate::camera::Intrinsics;
 use crate::math::order::at_rank;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
-use crate::robust::Estimator;
 use nalgebra::{Matrix3, Vector3};
 
 /// Ratio of neighboring focal lengths that are tried, unless there were too many: valleys of the cost are wider.
@@ -103,7 +102,12 @@ impl<'a> FocalProfile<'a> {
 
     fn fill(&mut self, model: &PoseWithFocal, fundamental: &Matrix3<f64>, random: &mut Random) {
         let mut inliers = Vec::new();
-        self.of.inliers(model, self.max_error_px, &mut inliers);
+        sampson::inliers(
+            &self.of.pixels,
+            &model.fundamental,
+            self.max_error_px,
+            &mut inliers,
+        );
         let range = &self.of.focals_px;
         let span = libm::log(range.end / range.start);
         if inliers.len() < 5 || !span.is_finite() {

@@ -1,42 +1,14 @@
 //! Features of photographs by any of the detectors.
 
+use super::any::{AnyDescriptors, AnyFeatures};
 use super::{
-    BinaryDescriptors, Descriptors, FeatureKind, FeatureOptions, Features, Keypoint, Match,
-    MatchOptions, RefineOptions, SiftOptions, describe_patches, detect_orb, detect_sift,
-    good_features_to_track, match_descriptors, match_hamming, refine_corners,
+    FeatureKind, FeatureOptions, Features, Keypoint, RefineOptions, SiftOptions, describe_patches,
+    detect_orb, detect_sift, good_features_to_track, refine_corners,
 };
+use crate::Result;
 use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
 use crate::progress::{Monitor, Part};
-use crate::{Error, Result};
 use image::RgbImage;
-
-/// Descriptors of whatever kind.
-#[derive(Debug, Clone, PartialEq)]
-pub enum AnyDescriptors {
-    /// Numbers, compared by Euclidean distance: SIFT, RootSIFT, patches.
-    Vectors(Descriptors),
-    /// Bits, compared by how many differ: ORB.
-    Bits(BinaryDescriptors),
-}
-
-impl AnyDescriptors {
-    /// The numbers; `None` for bits.
-    pub fn as_vectors(&self) -> Option<&Descriptors> {
-        match self {
-            Self::Vectors(vectors) => Some(vectors),
-            Self::Bits(_) => None,
-        }
-    }
-}
-
-/// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AnyFeatures {
-    /// Where.
-    pub keypoints: Vec<Keypoint>,
-    /// What it looks like there.
-    pub descriptors: AnyDescriptors,
-}
 
 /// The gray values in [0, 1] in which features of a photograph are looked for: 8 bits, equal to
 /// OpenCV's ([`rgb_to_gray`]), so that every command finds the same features in a photograph.
@@ -57,8 +29,8 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 /// nothing.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range,
-/// [`Error::Canceled`].
+/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel, [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
+/// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: as [`detect_sift`](super::detect_sift), [`detect_orb`], [`good_features_to_track`].
 ///
@@ -148,44 +120,11 @@ fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> 
     })
 }
 
-/// The matches of two lists of descriptors of one kind, in the order of the first.
-///
-/// # Errors
-/// [`Error::Degenerate`] if one list is of numbers and the other of bits; else as
-/// [`match_descriptors`] and [`match_hamming`].
-///
-/// Source: as [`match_descriptors`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::feature::{AnyDescriptors, Descriptors, MatchOptions, match_any_descriptors};
-/// let list = |values| Descriptors::from_bytes(2, values).map(AnyDescriptors::Vectors);
-/// let (first, second) = (list(vec![9, 9])?, list(vec![90, 90, 8, 9])?);
-/// let matches = match_any_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
-/// assert_eq!((matches.len(), matches[0].index2), (1, 1));
-/// # Ok(()) }
-/// ```
-pub fn match_any_descriptors(
-    first: &AnyDescriptors,
-    second: &AnyDescriptors,
-    options: &MatchOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<Vec<Match>> {
-    match (first, second) {
-        (AnyDescriptors::Vectors(a), AnyDescriptors::Vectors(b)) => {
-            match_descriptors(a, b, options, monitor)
-        }
-        (AnyDescriptors::Bits(a), AnyDescriptors::Bits(b)) => match_hamming(a, b, options, monitor),
-        _ => Err(Error::Degenerate {
-            what: "the distance of two descriptors",
-            why: "one is a list of numbers and the other one of bits",
-        }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Error;
+    use crate::feature::{MatchOptions, match_any_descriptors};
     use crate::progress::Status;
     use image::{Luma, Rgb};
     use std::ops::ControlFlow;

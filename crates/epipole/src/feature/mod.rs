@@ -4,6 +4,7 @@
 //! images that are flat or too small. Lists are in a fixed order, strongest first, that does not
 //! depend on the number of threads. Gray values are taken to lie in [0, 1].
 
+mod any;
 mod corners;
 mod descriptors;
 mod extract;
@@ -21,11 +22,10 @@ mod structure_tensor;
 mod track;
 mod window_tensor;
 
+pub use any::{AnyDescriptors, AnyFeatures, match_any_descriptors};
 pub use corners::{harris_response, min_eigenvalue_response};
 pub use descriptors::Descriptors;
-pub use extract::{
-    AnyDescriptors, AnyFeatures, detect_features, match_any_descriptors, photo_to_gray,
-};
+pub use extract::{detect_features, photo_to_gray};
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
 pub use matching::{

@@ -1,6 +1,7 @@
 //! The structure tensor: how the gradient is spread around each pixel.
 
-use crate::imaging::kernel::{Kernel, Row, along_and_across};
+use crate::imaging::kernel::{Kernel, Row};
+use crate::imaging::rows::along_and_across;
 use crate::imaging::separable::{Ring, RowFilter, Sink, in_bands};
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
 use crate::math::simd::dispatched;

@@ -27,6 +27,7 @@ pub(crate) mod kernel;
 mod pyramid;
 mod reduce;
 mod resize;
+pub(crate) mod rows;
 mod sample;
 pub(crate) mod separable;
 mod sharpness;

@@ -2,7 +2,8 @@
 //! while the kernel along v needs it, and never written to memory as an image of its own.
 
 use super::gray::from_vec;
-use super::kernel::{Kernel, Row, along_and_across};
+use super::kernel::{Kernel, Row};
+use super::rows::along_and_across;
 use super::{Border, GrayImage32};
 use crate::{Error, Result};
 use std::ops::Range;

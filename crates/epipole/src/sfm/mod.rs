@@ -26,6 +26,8 @@ mod keyframes;
 mod localize;
 mod loop_closure;
 mod odometry;
+mod odometry_options;
+mod odometry_result;
 mod options;
 mod photos;
 mod pose_graph;
@@ -55,9 +57,9 @@ pub use localize::{Localization, LocalizeOptions};
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,
 };
-pub use odometry::{
-    Odometry, OdometryOptions, OdometryResult, monocular_odometry, stereo_odometry,
-};
+pub use odometry::{Odometry, monocular_odometry, stereo_odometry};
+pub use odometry_options::OdometryOptions;
+pub use odometry_result::OdometryResult;
 pub use options::{SfmInput, SfmOptions};
 pub use photos::{
     Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,

@@ -4,47 +4,19 @@ use super::builder::Builder;
 use super::bundle::Sensor;
 use super::incremental::SfmStep;
 use super::keyframes::Keyframes;
-use super::options::{SfmInput, SfmOptions, check};
-use super::reconstruction::{Reconstruction, SfmImage};
+use super::odometry_options::OdometryOptions;
+use super::odometry_result::{OdometryResult, result_of};
+use super::options::{SfmInput, check};
+use super::reconstruction::SfmImage;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::progress::{Monitor, Part, Stage, report};
-use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use std::collections::VecDeque;
 
 /// What is asked for, as an error of too few says.
 const OF_FRAMES: &str = "the path of a camera from frames";
-
-/// How to follow a camera.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OdometryOptions {
-    /// Thresholds, in pixels and degrees. Frames are nearer to each other than photographs, so
-    /// that points are accepted under smaller angles: 0.3 degrees, and the start wants 1.
-    pub sfm: SfmOptions,
-    /// Keyframes that are refined together; older ones stay. 8.
-    pub window: usize,
-    /// Refine everything once more at the end, and again while a focal length that is refined has not arrived. True.
-    pub final_adjustment: bool,
-}
-
-impl Default for OdometryOptions {
-    fn default() -> Self {
-        Self {
-            sfm: SfmOptions {
-                ransac: RansacOptions::default().within(1.5),
-                max_registration_error_px: 3.0,
-                max_reprojection_error_px: 2.0,
-                min_angle_deg: 0.3,
-                min_start_angle_deg: 1.0,
-                ..SfmOptions::default()
-            },
-            window: 8,
-            final_adjustment: true,
-        }
-    }
-}
 
 /// How often everything is refined at the end, at most.
 const FINAL_ADJUSTMENTS: usize = 10;
@@ -54,23 +26,6 @@ const SETTLED_FOCAL: f64 = 2e-3;
 
 /// Share of the work after which all pairs are tested.
 const VERIFIED: f32 = 0.5;
-
-/// Where the camera went.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct OdometryResult {
-    /// `world_from_cam` of each frame, `None` where it was lost. The first frame that was found is
-    /// the origin. One camera alone leaves the unit of length open.
-    pub world_from_cam: Vec<Option<RigidTransform>>,
-    /// Frames that gave points: those that lie sufficiently far from the one before, by the angle
-    /// under which points see the two, or that show much that it does not.
-    pub keyframes: Vec<usize>,
-    /// Frames that could not be placed.
-    pub lost: Vec<usize>,
-    /// The cameras and points; of a stereo rig the left cameras, then the right ones.
-    pub reconstruction: Reconstruction,
-    /// Whether every frame was tried; false for [`Odometry::finish`] before the last step.
-    pub is_complete: bool,
-}
 
 /// The path of a single camera, up to scale.
 ///
@@ -417,41 +372,4 @@ fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
         builder.points.fill(None);
     }
     false
-}
-
-fn result_of(builder: &Builder, num_frames: usize) -> OdometryResult {
-    let mut reconstruction = builder.so_far();
-    let origin = reconstruction.cameras[..num_frames]
-        .iter()
-        .flatten()
-        .next()
-        .map_or_else(RigidTransform::identity, |camera| camera.cam_from_world);
-    // The first frame is where the world's origin is.
-    let world_from_old = origin;
-    for camera in reconstruction.cameras.iter_mut().flatten() {
-        camera.cam_from_world *= world_from_old.inverse();
-    }
-    // Exactly, where rounding would leave a trace of the old pose.
-    if let Some(first) = reconstruction.cameras[..num_frames]
-        .iter_mut()
-        .flatten()
-        .next()
-    {
-        first.cam_from_world = RigidTransform::identity();
-    }
-    for point in &mut reconstruction.points {
-        point.position = world_from_old * point.position;
-    }
-    let world_from_cam: Vec<Option<RigidTransform>> = reconstruction.cameras[..num_frames]
-        .iter()
-        .map(|camera| camera.map(|camera| camera.cam_from_world.inverse()))
-        .collect();
-    OdometryResult {
-        lost: (0..num_frames)
-            .filter(|&f| world_from_cam[f].is_none())
-            .collect(),
-        world_from_cam,
-        reconstruction,
-        ..OdometryResult::default()
-    }
 }

@@ -118,7 +118,7 @@ pub fn match_features(
                 image1,
                 image2,
                 matches: (match_pair(first, second, options, &mut part)?.iter())
-                    .map(|found| (found.index1 as u32, found.index2 as u32))
+                    .map(Match::indices)
                     .collect(),
             });
         }

@@ -19,6 +19,7 @@
 mod dlt;
 mod midpoint;
 mod nview;
+mod nview_problem;
 mod optimal;
 mod quality;
 mod starts;

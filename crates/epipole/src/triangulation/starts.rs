@@ -1,7 +1,7 @@
 //! Where to start a search that wrong pixels must not lead astray.
 
 use super::midpoint::triangulate_weighted_midpoint;
-use super::nview::Problem;
+use super::nview_problem::Problem;
 use crate::camera::relative_motion;
 use crate::optim::FixedProblem;
 use crate::{Error, Result};

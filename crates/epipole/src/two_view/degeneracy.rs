@@ -1,7 +1,7 @@
 //! What the inliers of F leave open.
 
 use super::TwoViewOptions;
-use super::turn::inliers_of;
+use super::pairs::inliers_of;
 use crate::homography::estimate_homography;
 use crate::robust::RansacOptions;
 use crate::{Error, Result};

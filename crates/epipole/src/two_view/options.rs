@@ -1,7 +1,5 @@
 //! How a pair of views is judged.
 
-#[cfg(doc)]
-use super::Configuration;
 use crate::homography::homography_sampson_sq;
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
@@ -19,7 +17,7 @@ pub struct TwoViewOptions {
     /// 1.25 times its threshold, by the Sampson error. [`ThresholdKind::Noise`](crate::robust::ThresholdKind)
     /// is that of F, which needs no intrinsics, for all of them.
     pub ransac: RansacOptions,
-    /// Fewer different inliers than this mean [`Configuration::Degenerate`]. 15.
+    /// Fewer different inliers than this mean [`Configuration::Degenerate`](super::Configuration::Degenerate). 15.
     pub min_num_inliers: usize,
     /// A homography that explains at least this share of the epipolar inliers means a plane or a
     /// turn. Above 1 nothing does. 0.8.

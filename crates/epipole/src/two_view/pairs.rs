@@ -2,6 +2,7 @@
 
 use super::TwoViewOptions;
 use crate::robust::MatchSet;
+use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
 /// Matches as the caller gave them.
@@ -90,4 +91,31 @@ impl<'a> Pairs<'a> {
         }
         fit / count.max(1.0)
     }
+}
+
+/// Both pixels of the matches of a mask.
+///
+/// # Errors
+/// [`Error::SizeMismatch`] if the lists differ in length.
+pub(super) fn inliers_of(
+    pixels1: &[Point2<f64>],
+    pixels2: &[Point2<f64>],
+    inliers: &[bool],
+) -> Result<[Vec<Point2<f64>>; 2]> {
+    for (first, second) in [
+        (pixels1.len(), pixels2.len()),
+        (pixels1.len(), inliers.len()),
+    ] {
+        if first != second {
+            return Err(Error::SizeMismatch {
+                what: "the lists of matching pixels and of inliers",
+                first,
+                second,
+            });
+        }
+    }
+    Ok([pixels1, pixels2].map(|pixels| {
+        let kept = pixels.iter().zip(inliers).filter(|(_, is)| **is);
+        kept.map(|(pixel, _)| *pixel).collect()
+    }))
 }

@@ -1,8 +1,9 @@
 //! Two views through lenses other than pinholes.
 
+use super::TwoViewOptions;
 use super::motion::{best_and_rival, in_front_of_plane};
+use super::report::{Configuration, TwoViewModel, TwoViewReport};
 use super::turn::find_explaining_turn;
-use super::{Configuration, TwoViewModel, TwoViewOptions, TwoViewReport};
 use crate::Result;
 use crate::camera::{Camera, Intrinsics, Observation, RigidTransform};
 use crate::epipolar::{estimate_relative_pose, tangent_sampson_px};
@@ -136,7 +137,7 @@ impl Inliers {
         cameras: [&Camera; 2],
         mask: &[bool],
     ) -> Result<Self> {
-        let kept = super::turn::inliers_of(pixels1, pixels2, mask)?;
+        let kept = super::pairs::inliers_of(pixels1, pixels2, mask)?;
         let observed = ObservedMatches::new(&kept[0], &kept[1], cameras)?;
         let [seen1, seen2] = observed.seen;
         let first = observed.matches.unique().first_occurrences();

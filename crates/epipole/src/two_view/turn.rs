@@ -1,84 +1,17 @@
 //! Cameras that only turned: E and F mean nothing then, though they fit.
 
 use super::TwoViewOptions;
+use super::explaining_turn::ExplainingTurn;
+use super::pairs::inliers_of;
 use super::rotation::estimate_rotation;
 use super::turn_through_lenses::find_turn_through_lenses;
-use crate::camera::{Camera, Intrinsics, RigidTransform};
-use crate::robust::{ObservedMatches, RansacOptions, RansacReport};
+use crate::camera::Camera;
+use crate::robust::{ObservedMatches, RansacOptions};
 use crate::{Error, Result};
-use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::Point2;
 
 /// Samples of two matches. Where a turn explains as much as is asked for, a tenth is plenty.
 const MAX_SAMPLES: usize = 300;
-
-/// A turn that explains nearly all inliers of another model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExplainingTurn {
-    /// The turn; its translation is zero.
-    pub cam2_from_cam1: RigidTransform,
-    /// How many of the inliers it explains.
-    pub num_explained: usize,
-    /// How many inliers there are.
-    pub num_inliers: usize,
-}
-
-impl ExplainingTurn {
-    /// The turn of a search, if it explains nearly all inliers of another model.
-    ///
-    /// * `intrinsics`: of the two cameras
-    /// * `inliers`: the matches that fit the other model
-    pub(super) fn new<'a>(
-        turn: &RansacReport<Matrix3<f64>>,
-        intrinsics: [&Intrinsics; 2],
-        inliers: impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
-        options: &TwoViewOptions,
-    ) -> Option<Self> {
-        // Two matches fit a turn always.
-        if turn.num_unique_inliers < 3 {
-            return None;
-        }
-        let homography = homography_of_turn(&turn.model, intrinsics);
-        let (mut num_inliers, mut num_explained) = (0, 0);
-        for (p1, p2) in inliers {
-            num_inliers += 1;
-            num_explained += usize::from(options.fits_homography(&homography, p1, p2));
-        }
-        Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
-    }
-
-    /// A turn that explains so many of the inliers, if these are nearly all: the one place where that is decided,
-    /// whatever the lens.
-    pub(super) fn if_nearly_all(
-        rotation: &Matrix3<f64>,
-        num_explained: usize,
-        num_inliers: usize,
-        options: &TwoViewOptions,
-    ) -> Option<Self> {
-        let needed = options.max_homography_share * num_inliers as f64;
-        (num_explained as f64 >= needed).then(|| Self {
-            cam2_from_cam1: motion_of_turn(rotation),
-            num_explained,
-            num_inliers,
-        })
-    }
-}
-
-/// The motion of a camera that only turns.
-pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
-    let rotation = Rotation3::from_matrix_unchecked(*rotation);
-    RigidTransform::from_parts(
-        Translation3::identity(),
-        UnitQuaternion::from_rotation_matrix(&rotation),
-    )
-}
-
-/// What a turn does to pixels: `K2 R K1⁻¹`.
-pub(super) fn homography_of_turn(
-    rotation: &Matrix3<f64>,
-    [k1, k2]: [&Intrinsics; 2],
-) -> Matrix3<f64> {
-    k2.matrix() * rotation * k1.inverse_matrix()
-}
 
 /// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in which
 /// direction the camera moved cannot be told, whatever the model says.
@@ -141,31 +74,4 @@ pub fn find_explaining_turn(
     };
     let pairs = in1.iter().zip(&in2);
     Ok(ExplainingTurn::new(&report, [k1, k2], pairs, options))
-}
-
-/// Both pixels of the matches of a mask.
-///
-/// # Errors
-/// [`Error::SizeMismatch`] if the lists differ in length.
-pub(super) fn inliers_of(
-    pixels1: &[Point2<f64>],
-    pixels2: &[Point2<f64>],
-    inliers: &[bool],
-) -> Result<[Vec<Point2<f64>>; 2]> {
-    for (first, second) in [
-        (pixels1.len(), pixels2.len()),
-        (pixels1.len(), inliers.len()),
-    ] {
-        if first != second {
-            return Err(Error::SizeMismatch {
-                what: "the lists of matching pixels and of inliers",
-                first,
-                second,
-            });
-        }
-    }
-    Ok([pixels1, pixels2].map(|pixels| {
-        let kept = pixels.iter().zip(inliers).filter(|(_, is)| **is);
-        kept.map(|(pixel, _)| *pixel).collect()
-    }))
 }

@@ -1,8 +1,9 @@
 //! Cameras that only turned and whose focal length is wrong: homographies that pass for those of planes.
 
 use super::TwoViewOptions;
+use super::explaining_turn::{homography_of_turn, motion_of_turn};
+use super::pairs::inliers_of;
 use super::rotation::align_rays;
-use super::turn::{homography_of_turn, inliers_of, motion_of_turn};
 use crate::Result;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::homography::{fit_homography, homography_sampson_sq, refine_homography};

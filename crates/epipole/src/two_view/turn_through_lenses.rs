@@ -1,7 +1,8 @@
 //! Turns of cameras of any lens.
 
+use super::TwoViewOptions;
+use super::explaining_turn::ExplainingTurn;
 use super::rotation::align_rays;
-use super::{ExplainingTurn, TwoViewOptions};
 use crate::camera::Observation;
 use nalgebra::{Matrix3, Vector3};
 

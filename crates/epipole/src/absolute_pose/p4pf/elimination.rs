@@ -1,6 +1,5 @@
 //! Ratios of the depths of four points in space: four quadrics in three unknowns.
 
-use super::Quadric;
 use crate::math::real_roots::{DEGREE as ROOT_DEGREE, real_roots};
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, SMatrix, Vector2, Vector3, Vector4};
@@ -10,6 +9,9 @@ const DEGREE: usize = 6;
 
 /// A polynomial in the ratio that is eliminated last, from the constant term upwards.
 type Polynomial = [f64; DEGREE + 1];
+
+/// A quadratic form in three ratios and 1.
+type Quadric = SMatrix<f64, 4, 4>;
 
 /// What multiplies y, w and 1 in an equation.
 type Row = [Polynomial; 3];

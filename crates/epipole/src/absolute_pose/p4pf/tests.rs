@@ -2,7 +2,7 @@
 
 use super::super::p3p::tests::problem;
 use super::*;
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, RigidTransform};
 use crate::math::random::Random;
 use nalgebra::Rotation3;
 

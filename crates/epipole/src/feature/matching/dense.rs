@@ -3,10 +3,12 @@
 //! The first list is cut into pieces, which threads share; a piece is compared with the second
 //! list tile by tile. Distances are compared squared; roots are taken of the two that remain.
 
+use super::dots;
 use super::floats::Floats;
 use super::integers::Integers;
-use super::{Descriptors, Found, Neighbors, parallel};
+use super::neighbors::{Found, Neighbors, Scanned};
 use crate::feature::descriptors::Values;
+use crate::feature::{Descriptors, parallel};
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use std::borrow::Cow;
@@ -39,21 +41,13 @@ pub(super) fn search(
     let n = first.dimension();
     if let (Some(a), Some(b)) = (whole_bytes(first), whole_bytes(second)) {
         let second = Integers::new(&b, n);
-        let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
+        let scan = |rows: &Range<usize>| dots::scan(&second, &a[rows.start * n..rows.end * n]);
         return gather(first.len(), b.len() / n, scan, monitor);
     }
     let a = first.to_floats();
     let second = Floats::new(second.to_floats(), n);
     let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
     gather(first.len(), second.count(), scan, monitor)
-}
-
-/// What a walk over the second list found for a piece of the first.
-pub(super) struct Scanned<D> {
-    /// Nearest index, its squared distance, that of the second nearest.
-    pub(super) rows: Vec<(usize, D, D)>,
-    /// For each of the second list: squared distance and place in the piece.
-    pub(super) columns: Vec<(D, usize)>,
 }
 
 /// A type of squared distance.

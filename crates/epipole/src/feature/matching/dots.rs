@@ -9,10 +9,19 @@
     reason = "loading vectors is unsafe; array types fix their lengths, or a check beside it does"
 )]
 
-use super::integers::{Integers, Piece, State, walk};
+use super::integers::{Integers, Packed, Piece, State, walk};
+use super::neighbors::Scanned;
+
+/// The two nearest of each descriptor in a piece of the first list.
+pub(super) fn scan(second: &Integers, bytes: &[u8]) -> Scanned<i32> {
+    let piece = Piece::new(bytes, second);
+    let mut state = State::new(second, &piece);
+    walk_best(second, &piece, &mut state);
+    state.scanned(second, &piece)
+}
 
 /// Compares a piece of the first list with the second list in the way that suits the processor.
-pub(super) fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
+fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2")]
@@ -33,10 +42,6 @@ pub(super) fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
     )))]
     walk(second, piece, state, portable);
 }
-
-/// Two neighboring numbers of eight descriptors: number 2k and 2k + 1 of the first, then of the
-/// second, and so on.
-pub(super) type Packed = [i16; 16];
 
 /// Inner products of eight packed descriptors with each of four plain ones, whose pairs of
 /// numbers are packed into one `i32`, low half first. All have equally many pairs.

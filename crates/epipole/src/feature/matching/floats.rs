@@ -3,7 +3,7 @@
 //! Eight descriptors of the first list are interleaved, one per lane. Differences are squared, not
 //! lengths subtracted: near neighbors would lose their digits.
 
-use super::dense::Scanned;
+use super::neighbors::Scanned;
 use crate::math::simd::dispatched;
 
 /// Descriptors of the second list in a tile.

@@ -1,7 +1,9 @@
 //! Matches between descriptors of bits.
 
-use super::{Found, MatchOptions, Neighbors, check, parallel, select};
-use crate::feature::matching::Match;
+use super::neighbors::{Found, Neighbors};
+use super::options::{MatchOptions, check};
+use super::select::{Match, select};
+use crate::feature::parallel;
 use crate::math::simd::dispatched;
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};

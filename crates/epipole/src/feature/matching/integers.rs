@@ -3,8 +3,7 @@
 //! Eight descriptors of the first list are interleaved, so that one vector instruction serves all
 //! eight and no sum is taken across a vector. `|a − b|² = |a|² + |b|² − 2 a·b` is exact here.
 
-use super::dense::Scanned;
-use super::dots::{Packed, walk_best};
+use super::neighbors::Scanned;
 
 /// Descriptors of the second list in a tile: with pairs of 128 numbers they fill 16 KiB.
 const TILE: usize = 64;
@@ -47,36 +46,15 @@ impl Integers {
             norms,
         }
     }
-
-    /// The two nearest of each descriptor in a piece of the first list.
-    pub(super) fn scan(&self, bytes: &[u8]) -> Scanned<i32> {
-        let piece = Piece::new(bytes, self.dimension, self.pairs);
-        let mut state = State {
-            rows: vec![Eight::default(); piece.norms.len()],
-            columns: vec![(i32::MAX, 0); self.norms.len()],
-        };
-        walk_best(self, &piece, &mut state);
-        let rows = (0..piece.count).map(|k| {
-            let (eight, lane) = (&state.rows[k / 8], k % 8);
-            let whole = |d: i32| d.saturating_add(piece.norms[k / 8][lane]);
-            (
-                eight.index[lane],
-                whole(eight.near[lane]),
-                whole(eight.second[lane]),
-            )
-        });
-        let rows = rows.collect();
-        state.columns.truncate(self.count);
-        Scanned {
-            rows,
-            columns: state.columns,
-        }
-    }
 }
 
 fn norm_sq(row: &[u8]) -> i32 {
     row.iter().map(|&v| i32::from(v) * i32::from(v)).sum()
 }
+
+/// Two neighboring numbers of eight descriptors: number 2k and 2k + 1 of the first, then of the
+/// second, and so on.
+pub(super) type Packed = [i16; 16];
 
 /// A piece of the first list, interleaved by eight.
 pub(super) struct Piece {
@@ -87,7 +65,8 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    fn new(bytes: &[u8], dimension: usize, pairs: usize) -> Self {
+    pub(super) fn new(bytes: &[u8], second: &Integers) -> Self {
+        let (dimension, pairs) = (second.dimension, second.pairs);
         let count = bytes.len() / dimension;
         let groups = count.div_ceil(8);
         let mut packed = vec![[0i16; 16]; groups * pairs];
@@ -130,6 +109,35 @@ impl Default for Eight {
 pub(super) struct State {
     rows: Vec<Eight>,
     columns: Vec<(i32, usize)>,
+}
+
+impl State {
+    /// Nothing found yet.
+    pub(super) fn new(second: &Integers, piece: &Piece) -> Self {
+        Self {
+            rows: vec![Eight::default(); piece.norms.len()],
+            columns: vec![(i32::MAX, 0); second.norms.len()],
+        }
+    }
+
+    /// The neighbors, once all of the second list was compared.
+    pub(super) fn scanned(mut self, second: &Integers, piece: &Piece) -> Scanned<i32> {
+        let rows = (0..piece.count).map(|k| {
+            let (eight, lane) = (&self.rows[k / 8], k % 8);
+            let whole = |d: i32| d.saturating_add(piece.norms[k / 8][lane]);
+            (
+                eight.index[lane],
+                whole(eight.near[lane]),
+                whole(eight.second[lane]),
+            )
+        });
+        let rows = rows.collect();
+        self.columns.truncate(second.count);
+        Scanned {
+            rows,
+            columns: self.columns,
+        }
+    }
 }
 
 /// Compares every descriptor of the piece with every one of the second list.

@@ -1,8 +1,9 @@
 //! Directions and descriptors at places that were not detected but are given.
 
 use super::descriptor::Samples;
+use super::options::{SiftOptions, check};
 use super::scale_space::{Octave, OctaveGrid};
-use super::{SiftOptions, check, descriptor, orientation};
+use super::{descriptor, orientation};
 use crate::feature::{Descriptors, Keypoint};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::order_by;

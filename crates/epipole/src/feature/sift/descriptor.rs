@@ -1,6 +1,6 @@
 //! The 4×4×8 histogram of gradients around a keypoint.
 
-use super::SiftNormalization;
+use super::options::SiftNormalization;
 use crate::imaging::GrayImage32;
 use crate::imaging::approx::{atan2, exp_negative};
 use crate::math::simd::dispatched;

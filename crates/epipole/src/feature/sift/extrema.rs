@@ -1,13 +1,10 @@
 //! Extrema of the differences of Gaussians, to a fraction of a sample.
 
-use super::SiftOptions;
-use super::scale_space::Octave;
+use super::options::SiftOptions;
+use super::scale_space::{MARGIN, Octave};
 use crate::feature::parallel;
 use crate::math::simd::dispatched;
 use nalgebra::{Matrix3, Vector3};
-
-/// Samples along the edge of an octave in which no extremum is looked for.
-pub(super) const MARGIN: usize = 5;
 
 /// Steps after which a search that still moves is given up.
 const MAX_MOVES: usize = 5;

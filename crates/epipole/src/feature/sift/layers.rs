@@ -1,7 +1,7 @@
 //! The whole scale space, for those who want to look at it.
 
+use super::options::{SiftOptions, check};
 use super::scale_space::{Octave, OctaveGrid};
-use super::{SiftOptions, check};
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, from_vec, require_finite, sample_bilinear};
 

@@ -1,7 +1,7 @@
 //! Directions of a keypoint: peaks of the histogram of gradients around it.
 
-use super::SiftOptions;
 use super::descriptor::Samples;
+use super::options::SiftOptions;
 use crate::imaging::GrayImage32;
 use std::f32::consts::{PI, TAU};
 

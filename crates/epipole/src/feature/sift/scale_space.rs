@@ -7,12 +7,15 @@
 //! a pixel between an image and its mirror image, and up-sampling as photographs are resized would
 //! shift all keypoints by a quarter.
 
-use super::SiftOptions;
+use super::options::SiftOptions;
 use crate::imaging::separable::{filter_into, in_bands};
 use crate::imaging::{Border, GrayImage32, from_vec, gaussian_kernel};
 
+/// Samples along the edge of an octave in which no extremum is looked for.
+pub(super) const MARGIN: usize = 5;
+
 /// Octaves with fewer samples along an axis hold no extremum far enough from their edge.
-const SMALLEST_SIDE: u32 = 2 * super::extrema::MARGIN as u32 + 2;
+const SMALLEST_SIDE: u32 = 2 * MARGIN as u32 + 2;
 
 /// The first layer of an octave, and where its samples lie in the image.
 pub(super) struct OctaveGrid {

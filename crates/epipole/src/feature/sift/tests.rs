@@ -1,8 +1,11 @@
 //! Tests of SIFT as a whole.
 
 use super::*;
+use crate::Error;
+use crate::feature::{Descriptors, Keypoint};
+use crate::imaging::GrayImage32;
 use crate::imaging::fixture;
-use crate::progress::Status;
+use crate::progress::{Stage, Status};
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 

@@ -1,6 +1,6 @@
 //! The bits of an entropy-coded segment, and the Huffman codes in them (ITU-T T.81, annexes C, F).
 
-use super::Flaw;
+use super::flaw::Flaw;
 
 /// Bits of a code that are looked up at once; longer ones are rare.
 const LOOKUP_BITS: u32 = 10;

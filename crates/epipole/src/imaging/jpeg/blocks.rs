@@ -1,7 +1,7 @@
 //! Passing over the blocks of 8 × 8 coefficients of a scan (ITU-T T.81, annexes F and G).
 
-use super::Flaw;
 use super::bits::{Bits, Huffman};
+use super::flaw::Flaw;
 
 /// A block of all of its coefficients, as of a sequential file.
 #[inline]

@@ -2,8 +2,9 @@
 
 use super::bits::{Bits, Huffman};
 use super::blocks::{Progressive, dc_first, whole};
+use super::flaw::Flaw;
 use super::frame::Frame;
-use super::{Flaw, Tables};
+use super::tables::Tables;
 
 /// What a scan header says.
 pub(super) struct Scan {

@@ -1,7 +1,7 @@
 //! The text format of the published problems.
 
 use super::super::tokens::Tokens;
-use super::{BalCamera, BalProblem};
+use super::problem::{BalCamera, BalProblem};
 use crate::Result;
 use crate::sfm::BundleObservation;
 use nalgebra::{Point2, Point3, Vector3};

@@ -1,6 +1,7 @@
 //! Which freedoms of the cameras are held, so that the world stays where it is.
 
-use super::{Bundle, BundleOptions, Gauge};
+use super::options::{BundleOptions, Gauge};
+use super::scene::Bundle;
 
 /// Which degrees of freedom of each camera are held.
 pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {

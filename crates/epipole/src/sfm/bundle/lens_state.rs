@@ -1,6 +1,7 @@
 //! What is refined of a lens.
 
-use super::{Bundle, BundleOptions};
+use super::options::BundleOptions;
+use super::scene::Bundle;
 use crate::Result;
 use crate::camera::{Intrinsics, Lens, MAX_COEFFICIENTS};
 use nalgebra::Vector2;

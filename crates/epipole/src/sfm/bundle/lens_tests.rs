@@ -1,10 +1,12 @@
 //! Bundles seen through lenses beyond Brown's model.
 
+use super::lens_state::{OF_ANY, OF_BROWN};
 use super::tests::{check_derivatives, disturb, everything, photograph};
 use super::*;
-use crate::camera::{Division, Fisheye};
+use crate::Error;
+use crate::camera::{Division, Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use crate::math::random::Random;
-use nalgebra::Vector3;
+use nalgebra::{Point2, Point3, Vector3};
 
 fn lens(kind: LensKind) -> Lens {
     let numbers: &[f64] = match kind {

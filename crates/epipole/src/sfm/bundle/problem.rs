@@ -1,7 +1,8 @@
 //! What the solver sees of a bundle: residuals, their derivatives, and steps.
 
 use super::lens_state::LensState;
-use super::{Bundle, BundleOptions, Eye};
+use super::options::BundleOptions;
+use super::scene::{Bundle, Eye};
 use crate::camera::moving_pose::{PoseState, move_points, sum_of_squares};
 use crate::camera::{Lens, MAX_COEFFICIENTS};
 use crate::optim::{BundleProblem, BundleStep, ObservationTerms, PriorTerms, RobustLoss};

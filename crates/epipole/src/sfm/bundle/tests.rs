@@ -1,11 +1,14 @@
 //! Cameras around points, put right again after they were disturbed.
 
+use super::lens_state::OF_BROWN;
+use super::problem::{Problem, State};
 use super::*;
-use crate::camera::{Distortion, look_at};
+use crate::Error;
+use crate::camera::{Distortion, Intrinsics, Lens, PosedCamera, RigidTransform, look_at};
 use crate::math::random::Random;
 use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, check_jacobian};
 use crate::progress::{Stage, Status};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Point2, Point3, Vector2, Vector3};
 use std::ops::ControlFlow;
 
 fn brown(lens: &Lens) -> Distortion {

@@ -1,7 +1,7 @@
 //! Photographs that stand slanted once they are rectified, as those of a baseline that runs askew through the picture.
 
-use super::PixelRect;
-use super::cover::Outline;
+use super::outline::Outline;
+use super::rect::PixelRect;
 use nalgebra::Vector2;
 
 /// Lines across the photographs that are tried as ends of what is shown.

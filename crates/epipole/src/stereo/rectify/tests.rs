@@ -1,10 +1,11 @@
 //! Rigs that turn and converge, photographed and rectified.
 
+use super::cover::LARGEST_CROP;
 use super::*;
 use crate::Error;
-use crate::camera::{Distortion, Lens, LensKind};
+use crate::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, RigidTransform};
 use crate::math::random::Random;
-use nalgebra::{Point3, UnitQuaternion, Vector3, Vector4};
+use nalgebra::{Point2, Point3, UnitQuaternion, Vector3, Vector4};
 
 fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> Camera {
     Camera {

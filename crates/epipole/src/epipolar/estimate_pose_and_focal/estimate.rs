@@ -1,128 +1,25 @@
-//! The relative pose and the focal length from matches of which many are wrong.
+//! The search for the model that most matches agree with.
 
-use super::coordinates::{CommonFrame, Coordinates};
-use super::estimate_fundamental::refuse_collinear;
-use super::five_point::pose_in_front;
-use super::focal_profile::FocalProfile;
-use super::refine_focal::{FocalCenters, refine_pose_and_focal_in_frame, relative_focal_deviation};
-use super::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
-use super::{RelativePose, decompose_essential, sampson, select_pose};
-use crate::camera::{Intrinsics, plausible_focals_px};
+use super::focal_estimator::{FocalEstimator, NAME};
+use super::pose_with_focal::PoseWithFocal;
+use crate::Result;
+use crate::camera::Intrinsics;
+use crate::epipolar::coordinates::Coordinates;
+use crate::epipolar::five_point::pose_in_front;
+use crate::epipolar::focal_profile::FocalProfile;
+use crate::epipolar::refine_focal::{refine_pose_and_focal_in_frame, relative_focal_deviation};
+use crate::epipolar::six_point::{EssentialWithFocal, MAX_SOLUTIONS, solve};
+use crate::epipolar::{RelativePose, decompose_essential, sampson, sampson_sq, select_pose};
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::robust::{
     Data, Estimator, Evidence, MatchSet, Problem, RansacOptions, RansacReport, Support, ransac,
 };
-use crate::{Error, Result};
 use arrayvec::ArrayVec;
-use core::ops::Range;
-use nalgebra::{Matrix3, Point2, Vector3};
-
-/// The motion between two cameras that share a focal length, up to the length of the translation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PoseWithFocal {
-    /// The motion.
-    pub pose: RelativePose,
-    /// F of the pixels, unit Frobenius norm.
-    pub fundamental: Matrix3<f64>,
-    /// The focal length of both cameras, pixels.
-    pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it, there and at other
-    /// focal lengths that explain the matches nearly as well. `None` for a candidate that is yet to be judged, and
-    /// where the focal length makes no difference at all.
-    pub focal_std_px: Option<f64>,
-}
-
-/// A focal length whose standard deviation is a larger share of it says no more than a guess.
-const TELLING: f64 = 0.1;
-
-impl PoseWithFocal {
-    /// Whether the matches tell the focal length, to a tenth of it.
-    pub fn tells_focal(&self) -> bool {
-        self.focal_std_px
-            .is_some_and(|std_px| std_px < TELLING * self.focal_px)
-    }
-
-    pub(super) fn new(
-        pose: (Matrix3<f64>, Vector3<f64>),
-        focal_px: f64,
-        centers: &[Point2<f64>; 2],
-    ) -> Option<Self> {
-        let camera = |c: &Point2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y).ok();
-        let (k1, k2) = (camera(&centers[0])?, camera(&centers[1])?);
-        let pose = RelativePose::from(pose);
-        Some(Self {
-            fundamental: pose.fundamental_or_zeros(&k1, &k2),
-            pose,
-            focal_px,
-            focal_std_px: None,
-        })
-    }
-}
-
-/// Relative poses of two cameras with one unknown focal length from matches, for
-/// [`Ransac`](crate::robust::Ransac).
-///
-/// A sample is six matches, and of its solutions only those are looked at that put the six points in front of both
-/// cameras, and whose focal length is plausible: at least a fifth of the distance from the principal points within which
-/// three of four matches are, and at most twenty times that of the farthest. The error is the Sampson error in pixels;
-/// refinement minimizes it over rotation, direction and focal length. In the end the best motions for focal lengths over the plausible range are compared with the model,
-/// since samples may all lead to the valley of a wrong one. Equal matches count once.
-///
-/// Source: as [`essential_6point`](super::essential_6point).
-#[derive(Debug, Clone)]
-pub struct FocalEstimator {
-    pub(super) matches: MatchSet,
-    pub(super) pixels: Coordinates,
-    pub(super) in_frame: Coordinates,
-    pub(super) frame: CommonFrame,
-    pub(super) centers: [Point2<f64>; 2],
-    pub(super) centers_in_frame: FocalCenters,
-    pub(super) focals_px: Range<f64>,
-}
-
-const NAME: &str = "a relative pose with a focal length from matches";
+use nalgebra::{Point2, Vector3};
 
 impl FocalEstimator {
-    /// Prepares the estimation.
-    ///
-    /// * `principal1`, `principal2`: the principal points of the two images, pixels
-    ///
-    /// # Errors
-    /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of an image lie
-    /// on one line, or are equal, [`Error::NotFinite`] for principal points that are not.
-    pub fn new(
-        matches: MatchSet,
-        principal1: &Point2<f64>,
-        principal2: &Point2<f64>,
-    ) -> Result<Self> {
-        matches.at_least(6, NAME)?;
-        let centers = [*principal1, *principal2];
-        if !centers.iter().all(|c| c.x.is_finite() && c.y.is_finite()) {
-            return Err(Error::NotFinite {
-                what: "a principal point",
-            });
-        }
-        refuse_collinear(&matches, NAME)?;
-        let pixels = Coordinates::voting(&matches);
-        let frame = CommonFrame::new(&matches);
-        let far = (0..matches.len()).map(|i| {
-            let (p1, p2) = matches.pair(i);
-            (p1 - centers[0]).norm().max((p2 - centers[1]).norm())
-        });
-        let mut far: Vec<_> = far.collect();
-        Ok(Self {
-            focals_px: plausible_focals_px(&mut far),
-            in_frame: pixels.mapped(&frame),
-            centers_in_frame: FocalCenters::new(&frame, &centers),
-            matches,
-            pixels,
-            frame,
-            centers,
-        })
-    }
-
     fn refined(
         &self,
         model: &PoseWithFocal,
@@ -156,10 +53,6 @@ impl FocalEstimator {
         let profile = FocalProfile::new(self, model, max_error_px, &mut Random::new(0));
         let elsewhere = profile.map_or(0.0, |profile| profile.relative_deviation(model));
         Some(share.max(elsewhere) * model.focal_px)
-    }
-
-    fn is_usable(&self, focal_px: f64) -> bool {
-        self.focals_px.contains(&focal_px)
     }
 }
 
@@ -199,7 +92,7 @@ impl Estimator for FocalEstimator {
 
     fn error_sq(&self, model: &PoseWithFocal, index: usize) -> f64 {
         let (x1, x2) = self.matches.pair(index);
-        super::sampson_sq(&model.fundamental, &x1, &x2)
+        sampson_sq(&model.fundamental, &x1, &x2)
     }
 
     fn refine(

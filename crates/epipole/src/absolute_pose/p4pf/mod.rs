@@ -4,30 +4,15 @@ mod elimination;
 mod plane;
 
 use self::elimination::depth_ratios;
+use super::pose_with_focal::{AbsolutePoseWithFocal, PoseFocal};
 use super::refine::rigid;
 use super::refine_focal::polish_sample;
-use crate::camera::RigidTransform;
 use crate::math::svd3;
 use arrayvec::ArrayVec;
-use nalgebra::{Matrix3, Point2, Point3, SMatrix, Vector3, Vector4};
-
-/// Where a camera is, and its focal length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AbsolutePoseWithFocal {
-    /// The pose.
-    pub cam_from_world: RigidTransform,
-    /// The focal length, pixels.
-    pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it. `None` for a
-    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
-    pub focal_std_px: Option<f64>,
-}
+use nalgebra::{Matrix3, Point2, Point3, Vector3, Vector4};
 
 /// At most so many solutions: six of points in space, one of points on a plane.
 pub(super) const MAX_SOLUTIONS: usize = 7;
-
-/// R, t and the focal length in pixels.
-pub(super) type PoseFocal = (Matrix3<f64>, Vector3<f64>, f64);
 
 /// Four points are on a line if they are broader than this share of their length in no direction.
 const LINE: f64 = 1e-6;
@@ -255,9 +240,6 @@ impl Sample {
         (0.25 * sum).sqrt()
     }
 }
-
-/// A quadratic form in three ratios and 1.
-type Quadric = SMatrix<f64, 4, 4>;
 
 #[cfg(test)]
 mod tests;

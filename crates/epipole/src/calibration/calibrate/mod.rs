@@ -4,6 +4,7 @@
 mod tests;
 
 use super::advice::{CalibrationWarning, warnings};
+use super::calibrated_view::CalibratedView;
 use super::coverage::coverage;
 use super::problem::{
     OF_CAMERA, Problem, SHARED, SeenMark, State, camera_numbers, intrinsics_of, lens_of,
@@ -36,17 +37,6 @@ impl Default for CalibrationOptions {
             max_iterations: 200,
         }
     }
-}
-
-/// What was found out about one view.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CalibratedView {
-    /// Where the board was, meters.
-    pub cam_from_board: RigidTransform,
-    /// Root mean square of its reprojection errors, pixels.
-    pub rms_px: f64,
-    /// Marks seen.
-    pub num_marks: usize,
 }
 
 /// A calibrated camera and how sure it is.

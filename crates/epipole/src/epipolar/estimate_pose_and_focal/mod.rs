@@ -1,0 +1,9 @@
+//! The relative pose and the focal length from matches of which many are wrong.
+
+mod estimate;
+mod focal_estimator;
+mod pose_with_focal;
+
+pub use estimate::estimate_relative_pose_and_focal;
+pub use focal_estimator::FocalEstimator;
+pub use pose_with_focal::PoseWithFocal;

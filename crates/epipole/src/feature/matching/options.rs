@@ -1,0 +1,49 @@
+//! Choices of matching.
+
+use crate::{Error, Result};
+
+/// Which nearest neighbors count as matches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MatchOptions {
+    /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
+    /// the test out. Lowe 2004, §7.1.
+    pub max_ratio: Option<f32>,
+    /// Each must be the other's nearest.
+    pub mutual: bool,
+    /// The largest distance, ≥ 0; `None` for any.
+    pub max_distance: Option<f32>,
+    /// No feature of the second image in two matches: the closest stays. Mutual matches are
+    /// unique already.
+    pub unique: bool,
+}
+
+impl Default for MatchOptions {
+    /// Ratio 0.8, mutual, any distance.
+    fn default() -> Self {
+        Self {
+            max_ratio: Some(0.8),
+            mutual: true,
+            max_distance: None,
+            unique: true,
+        }
+    }
+}
+
+/// Refuses options outside their range.
+pub(super) fn check(options: &MatchOptions) -> Result<()> {
+    if let Some(ratio) = options.max_ratio.filter(|&r| !(r > 0.0 && r <= 1.0)) {
+        return Err(Error::OutOfRange {
+            what: "the largest ratio of distances",
+            requirement: "greater than 0 and at most 1",
+            value: f64::from(ratio),
+        });
+    }
+    if let Some(distance) = options.max_distance.filter(|&d| d.is_nan() || d < 0.0) {
+        return Err(Error::OutOfRange {
+            what: "the largest distance of a match",
+            requirement: "0 or more",
+            value: f64::from(distance),
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! Tests of nearest neighbors, and the matches that pass them.
+
+use super::neighbors::Neighbors;
+use super::options::MatchOptions;
+
+/// A feature of the first image and the one of the second that it was matched with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Match {
+    /// Index in the first list.
+    pub index1: usize,
+    /// Index in the second list.
+    pub index2: usize,
+    /// Euclidean distance of the descriptors, or the number of bits that differ.
+    pub distance: f32,
+    /// This distance over that of the second nearest, in [0, 1]; 0 if there is no second, 1 if
+    /// both are 0.
+    pub ratio: f32,
+}
+
+impl Match {
+    /// Both indices, as [`PairMatches`](crate::sfm::PairMatches) has them.
+    ///
+    /// ```
+    /// use epipole::feature::Match;
+    /// assert_eq!(Match { index1: 3, index2: 5, distance: 0.2, ratio: 0.7 }.indices(), (3, 5));
+    /// ```
+    pub fn indices(&self) -> (u32, u32) {
+        (self.index1 as u32, self.index2 as u32)
+    }
+}
+
+/// The neighbors that pass all tests.
+///
+/// * `columns`: for each of the second list the index of its nearest in the first
+pub(super) fn select(rows: &[Neighbors], columns: &[usize], options: &MatchOptions) -> Vec<Match> {
+    let mut matches: Vec<Match> = rows
+        .iter()
+        .enumerate()
+        .filter(|(k, near)| !options.mutual || columns[near.index] == *k)
+        .map(|(k, near)| Match {
+            index1: k,
+            index2: near.index,
+            distance: near.distance,
+            ratio: near.ratio(),
+        })
+        .filter(|m| {
+            options
+                .max_ratio
+                .is_none_or(|limit| m.ratio < limit || limit == 1.0)
+        })
+        .filter(|m| options.max_distance.is_none_or(|limit| m.distance <= limit))
+        .collect();
+    if options.unique && !options.mutual {
+        // The closest of each second index; of equally close ones the first.
+        let mut closest: Vec<Option<usize>> = vec![None; columns.len()];
+        for (k, m) in matches.iter().enumerate() {
+            let held = &mut closest[m.index2];
+            if held.is_none_or(|h| m.distance < matches[h].distance) {
+                *held = Some(k);
+            }
+        }
+        let mut k = 0;
+        matches.retain(|m| {
+            k += 1;
+            closest[m.index2] == Some(k - 1)
+        });
+    }
+    matches
+}

@@ -1,0 +1,114 @@
+//! Choices of the detector and of its descriptors.
+
+use crate::{Error, Result};
+
+/// How the 128 sums of a SIFT descriptor are scaled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SiftNormalization {
+    /// Lowe's: unit length, entries above 0.2 cut, unit length again.
+    #[default]
+    L2,
+    /// RootSIFT: the square roots of the entries' shares of their sum, so that the Euclidean
+    /// distance compares histograms by the Hellinger kernel.
+    ///
+    /// Source: Arandjelović & Zisserman 2012, "Three things everyone should know to improve
+    /// object retrieval", §3.
+    Root,
+}
+
+/// How [`detect_sift`](super::detect_sift) works. The defaults are Lowe's, as OpenCV takes them, but for the blur that
+/// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
+/// and fewer of the features are too small to be seen from further away.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SiftOptions {
+    /// At most so many features, the strongest; 0 means no limit.
+    pub max_features: usize,
+    /// Layers per octave in which extrema are looked for, 1 to 10.
+    pub layers_per_octave: usize,
+    /// Blur of the first layer of an octave, pixels of that octave, 0.8 to 4.
+    pub sigma_px: f64,
+    /// Blur that the image is assumed to have, pixels, 0 to `sigma_px / 2`.
+    pub input_blur_px: f64,
+    /// Start at twice the image's size (octave −1): more and smaller features, four times the
+    /// work.
+    pub upsample: bool,
+    /// Smallest answer of an extremum times the layers per octave, for gray values in [0, 1].
+    pub contrast_threshold: f32,
+    /// Largest ratio of the principal curvatures, > 1.
+    pub edge_threshold: f32,
+    /// At most so many directions per place, ≥ 1; each makes a feature.
+    pub max_orientations: usize,
+    /// A further direction needs this share of the strongest one's weight, in (0, 1].
+    pub orientation_peak_ratio: f32,
+    /// Take every direction to be 0: for cameras held upright.
+    pub upright: bool,
+    /// How descriptors are scaled.
+    pub normalization: SiftNormalization,
+}
+
+impl Default for SiftOptions {
+    fn default() -> Self {
+        Self {
+            max_features: 0,
+            layers_per_octave: 3,
+            sigma_px: 1.6,
+            input_blur_px: 0.3,
+            upsample: true,
+            contrast_threshold: 0.04,
+            edge_threshold: 10.0,
+            max_orientations: 2,
+            orientation_peak_ratio: 0.8,
+            upright: false,
+            normalization: SiftNormalization::L2,
+        }
+    }
+}
+
+/// Refuses options outside their range.
+pub(super) fn check(options: &SiftOptions) -> Result<()> {
+    let ranges = [
+        (
+            "the layers per octave",
+            "between 1 and 10",
+            options.layers_per_octave as f64,
+            (1..=10).contains(&options.layers_per_octave),
+        ),
+        (
+            "the blur of an octave's first layer in pixels",
+            "between 0.8 and 4",
+            options.sigma_px,
+            (0.8..=4.0).contains(&options.sigma_px),
+        ),
+        (
+            "the blur of the input in pixels",
+            "between 0 and half that of the first layer",
+            options.input_blur_px,
+            (0.0..=0.5 * options.sigma_px).contains(&options.input_blur_px),
+        ),
+        (
+            "the contrast threshold",
+            "between 0 and 1",
+            f64::from(options.contrast_threshold),
+            (0.0..=1.0).contains(&options.contrast_threshold),
+        ),
+        (
+            "the edge threshold",
+            "greater than 1",
+            f64::from(options.edge_threshold),
+            options.edge_threshold > 1.0,
+        ),
+        (
+            "the number of directions per keypoint",
+            "at least 1",
+            options.max_orientations as f64,
+            options.max_orientations >= 1,
+        ),
+        (
+            "the share of a further direction",
+            "greater than 0 and at most 1",
+            f64::from(options.orientation_peak_ratio),
+            options.orientation_peak_ratio > 0.0 && options.orientation_peak_ratio <= 1.0,
+        ),
+    ];
+    Error::check_rules(&ranges)
+}

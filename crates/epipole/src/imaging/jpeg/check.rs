@@ -1,0 +1,105 @@
+//! A walk over the segments of a file.
+
+use super::flaw::Flaw;
+use super::frame::Frame;
+use super::scan::Scan;
+use super::tables::Tables;
+
+/// How the file of a sound picture ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::imaging) enum End {
+    /// With the marker that belongs there.
+    Marked,
+    /// Just behind the last block, here.
+    Unmarked(usize),
+}
+
+/// Passes over a JPEG file; over its markers only if its picture is larger than `max_pixels`.
+///
+/// # Errors
+/// What is wrong, in words, if its data are damaged.
+pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, String> {
+    let mut tables = Tables::default();
+    let mut frame: Option<Frame> = None;
+    // Whether the data are of a kind that is known here.
+    let mut known = true;
+    let (mut at, mut behind) = (2, 2);
+    while at + 1 < file.len() {
+        let marker = match (file[at], file[at + 1]) {
+            (0xFF, 0xD9) => {
+                return match &frame {
+                    Some(frame) if known && !frame.is_complete() => Err(ENDS.to_owned()),
+                    _ => Ok(End::Marked),
+                };
+            }
+            (0xFF, 0x00 | 0x01 | 0xD0..=0xD8) => {
+                at += 2;
+                continue;
+            }
+            (0xFF, marker @ 0x02..=0xFE) => marker,
+            // Bytes too many before a marker are no harm; or data that are unknown here.
+            _ => {
+                at += 1;
+                continue;
+            }
+        };
+        let Some(segment) = segment(file, at + 2) else {
+            break;
+        };
+        at += 4 + segment.len();
+        match marker {
+            0xC4 => tables.read_huffman(segment),
+            0xDD => tables.read_restart(segment),
+            0xC0..=0xC2 if frame.is_none() => {
+                frame = Frame::read(segment, marker == 0xC2);
+                known &= (frame.as_ref()).is_some_and(|frame| frame.pixels() <= max_pixels);
+            }
+            // Arithmetic coding, lossless files and files of several frames.
+            0xC0..=0xCF => known = false,
+            0xDA if known => {
+                let scan =
+                    (frame.as_mut()).and_then(|frame| Some((Scan::read(segment, frame)?, frame)));
+                let passed = scan.and_then(|(scan, frame)| {
+                    let passed = scan.pass_over(file, at, frame, &tables)?;
+                    Some(passed.map_err(|(flaw, row)| words(flaw, row, frame.height)))
+                });
+                match passed {
+                    Some(end) => {
+                        behind = end?;
+                        at = behind;
+                    }
+                    None => known = false,
+                }
+            }
+            _ => (),
+        }
+    }
+    match frame {
+        // Progressive files could always go on.
+        Some(frame) if known && !frame.progressive && frame.is_complete() => {
+            Ok(End::Unmarked(behind))
+        }
+        _ => Err(ENDS.to_owned()),
+    }
+}
+
+const ENDS: &str = "the JPEG file ends before its picture does";
+
+/// The bytes behind the length at `at`, where the file has that many.
+fn segment(file: &[u8], at: usize) -> Option<&[u8]> {
+    let length = file.get(at..at + 2)?;
+    let length = usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);
+    file.get(at + 2..at + length)
+}
+
+fn words(flaw: Flaw, row: u32, rows: u32) -> String {
+    match flaw {
+        Flaw::Ends => format!("the JPEG file is damaged: its data end after {row} of {rows} rows"),
+        Flaw::Senseless => {
+            format!("the JPEG file is damaged: its data make no sense after {row} of {rows} rows")
+        }
+        Flaw::Surplus => {
+            format!("the JPEG file is damaged: its data are for more than {rows} rows")
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Tables that segments before a scan set.
+
+use super::bits::Huffman;
+
+/// Settings of the segments before a scan.
+#[derive(Default)]
+pub(super) struct Tables {
+    pub(super) dc: [Option<Huffman>; 4],
+    pub(super) ac: [Option<Huffman>; 4],
+    /// Units between two restarts; zero for none.
+    pub(super) restart: u32,
+}
+
+impl Tables {
+    pub(super) fn read_restart(&mut self, segment: &[u8]) {
+        if let Some(&[high, low]) = segment.first_chunk() {
+            self.restart = u32::from(u16::from_be_bytes([high, low]));
+        }
+    }
+
+    pub(super) fn read_huffman(&mut self, mut segment: &[u8]) {
+        while let Some((&[id, ref counts @ ..], rest)) = segment.split_first_chunk::<17>() {
+            let count: usize = counts.iter().map(|&n| usize::from(n)).sum();
+            let Some(symbols) = rest.get(..count) else {
+                return;
+            };
+            segment = &rest[count..];
+            let tables = if id >> 4 == 0 {
+                &mut self.dc
+            } else {
+                &mut self.ac
+            };
+            tables[usize::from(id & 3)] = Huffman::new(counts, symbols);
+        }
+    }
+}

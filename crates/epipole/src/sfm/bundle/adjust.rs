@@ -1,0 +1,151 @@
+//! Refinement of a bundle.
+
+use super::gauge;
+use super::lens_state::{self, OF_ANY, OF_BROWN};
+use super::observation::observation_pairs;
+use super::options::BundleOptions;
+use super::problem::{Problem, State};
+use super::scene::Bundle;
+use crate::camera::{Lens, LensKind, RigidTransform};
+use crate::optim::{LmReport, SchurSystem, minimize};
+use crate::progress::{Monitor, Part, Stage};
+use crate::{Error, Result};
+use nalgebra::Translation3;
+
+/// Refines cameras, points and, if wanted, what [`BundleOptions`] names of their lenses, in place:
+/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, and what is known of positions beside it, each
+/// difference in its standard deviations: a pixel weighs as much as one of them. Positions that are far from where the
+/// cameras are want [`align_points`](crate::sfm::align_points) first.
+///
+/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::BundleAdjustment`]
+///
+/// Cameras and points without observations stay where they are.
+///
+/// # Errors
+/// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
+/// camera or point that is not there, for a lens beyond the number of cameras and sensors, a standard deviation that is not positive, or
+/// for a loss that [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses,
+/// [`Error::NotFinite`] if a pixel, a coefficient of a lens, a known position or the cost at the start is not finite,
+/// [`Error::Canceled`]; the bundle is then the best found so far.
+///
+/// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
+/// is its §9.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::sfm::{Bundle, BundleObservation, BundleOptions, PositionPrior, adjust_bundle};
+/// use nalgebra::{Point3, Vector3};
+/// // Three cameras look along z; each has a lens of its own.
+/// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
+/// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+///     bundle.cameras.push(PosedCamera {
+///         intrinsics: Intrinsics::centered(500.0, 640, 480)?,
+///         cam_from_world: RigidTransform::translation(-x, -y, 0.0),
+///     });
+/// }
+/// for n in 0..12 {
+///     let [x, y] = [f64::from(n % 4) - 1.5, f64::from(n / 4) - 1.0];
+///     bundle.points.push(Point3::new(x, y, 4.0 + 0.7 * f64::from(n % 3)));
+/// }
+/// for (point, place) in bundle.points.iter().enumerate() {
+///     for (camera, model) in bundle.cameras.iter().enumerate() {
+///         bundle.observations.push(BundleObservation { camera, point, pixel: model.project(place)? });
+///     }
+/// }
+/// // A receiver says that all three stand half a meter further along x.
+/// let known = |camera: &PosedCamera| {
+///     let center_in_world = camera.center_in_world() + 0.5 * Vector3::x();
+///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })
+/// };
+/// let options = BundleOptions {
+///     position_priors: bundle.cameras.iter().map(known).collect(),
+///     ..BundleOptions::default()
+/// };
+/// adjust_bundle(&mut bundle, &options, &mut ())?;
+/// let moved = bundle.cameras[1].center_in_world();
+/// assert!((moved - Point3::new(1.5, 0.0, 0.0)).norm() < 1e-3, "{moved}");
+/// # Ok(()) }
+/// ```
+pub fn adjust_bundle(
+    bundle: &mut Bundle,
+    options: &BundleOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<LmReport> {
+    options.check()?;
+    let pairs = observation_pairs(
+        &bundle.observations,
+        bundle.cameras.len(),
+        bundle.points.len(),
+    )?;
+    if let Some(&sensor) = bundle
+        .sensor_of_observation
+        .iter()
+        .find(|&&sensor| sensor > bundle.sensors.len())
+    {
+        return Err(Error::OutOfRange {
+            what: "an observation's sensor",
+            requirement: "0 or the number of an existing one",
+            value: sensor as f64,
+        });
+    }
+    bundle.lenses.iter().try_for_each(Lens::check)?;
+    let num_lenses = bundle.num_lenses();
+    if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
+        return Err(Error::OutOfRange {
+            what: "the number of a lens",
+            requirement: "less than the number of cameras and sensors",
+            value: (num_lenses - 1) as f64,
+        });
+    }
+    // Room for more coefficients costs time, so it is taken only where some lens has more.
+    match (bundle.lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
+        true => adjust::<OF_ANY>(bundle, pairs, options, monitor),
+        false => adjust::<OF_BROWN>(bundle, pairs, options, monitor),
+    }
+}
+
+/// * `S`: room for what is refined of a lens
+fn adjust<const S: usize>(
+    bundle: &mut Bundle,
+    pairs: Vec<(u32, u32)>,
+    options: &BundleOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<LmReport> {
+    let num_lenses = bundle.num_lenses();
+    let mut state = State::new(bundle);
+    let problem = Problem::<S> {
+        bundle,
+        pairs,
+        options,
+        held_cameras: gauge::held_freedoms(bundle, options),
+        refined: lens_state::refined(bundle, options),
+    };
+    let mut system = SchurSystem::new(&problem);
+    let mut step = Part::new(monitor, 0.0, 1.0).of_stage(Stage::BundleAdjustment);
+    let report = minimize(&mut system, &mut state, &options.lm, &mut step);
+    if !matches!(report, Ok(_) | Err(Error::Canceled)) {
+        return report;
+    }
+    // Either all of it is taken over, or nothing.
+    let (mut cameras, mut sensors) = (bundle.cameras.clone(), bundle.sensors.clone());
+    for (index, (camera, new)) in cameras.iter_mut().zip(&state.cameras).enumerate() {
+        camera.cam_from_world =
+            RigidTransform::from_parts(Translation3::from(new.translation), new.rotation);
+        let lens = bundle.lens_of_camera.get(index).copied().unwrap_or(0);
+        camera.intrinsics = state.lenses[lens].refined(&camera.intrinsics)?;
+    }
+    for sensor in &mut sensors {
+        sensor.intrinsics = state.lenses[sensor.lens].refined(&sensor.intrinsics)?;
+    }
+    (bundle.cameras, bundle.sensors) = (cameras, sensors);
+    bundle.points = state.points;
+    if options.refines_lens() {
+        let num_known = bundle.lenses.len().max(num_lenses);
+        bundle.lenses.resize(num_known, Lens::NONE);
+        for (lens, refined) in bundle.lenses.iter_mut().zip(&state.lenses) {
+            *lens = refined.lens;
+        }
+    }
+    report
+}

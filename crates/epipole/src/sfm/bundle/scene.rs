@@ -1,0 +1,97 @@
+//! Cameras with their lenses, points and observations.
+
+use super::observation::BundleObservation;
+use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
+use nalgebra::{Point3, Vector2};
+
+/// A further camera that is bolted to each camera of a bundle, such as the right one of a stereo
+/// rig.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensor {
+    /// From the frame of the camera to that of the sensor; it is not refined.
+    pub sensor_from_camera: RigidTransform,
+    /// How the sensor's rays become pixels.
+    pub intrinsics: Intrinsics,
+    /// Its lens, as in [`Bundle::lens_of_camera`].
+    pub lens: usize,
+}
+
+/// Cameras, points and observations.
+///
+/// Cameras of one lens share what is refined of it: a factor for their focal lengths, a shift of their principal
+/// points, and its coefficients. One lens for all is the default; as many lenses as cameras give each its own.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bundle {
+    /// The cameras.
+    pub cameras: Vec<PosedCamera>,
+    /// What each lens does to rays; missing entries bend nothing.
+    pub lenses: Vec<Lens>,
+    /// The lens of each camera; missing entries are 0.
+    pub lens_of_camera: Vec<usize>,
+    /// The points, in the world.
+    pub points: Vec<Point3<f64>>,
+    /// What was seen where.
+    pub observations: Vec<BundleObservation>,
+    /// Further cameras bolted to each camera.
+    pub sensors: Vec<Sensor>,
+    /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
+    /// entries are 0.
+    pub sensor_of_observation: Vec<usize>,
+}
+
+impl Bundle {
+    /// How an observation was made: by the camera itself, or by a sensor.
+    pub(super) fn eye(&self, observation: usize) -> Eye<'_> {
+        let sensor = match self.sensor_of_observation.get(observation) {
+            Some(&k) if k > 0 => self.sensors.get(k - 1),
+            _ => None,
+        };
+        let camera = self.observations[observation].camera;
+        match sensor {
+            Some(sensor) => Eye {
+                intrinsics: &sensor.intrinsics,
+                lens: sensor.lens,
+                sensor_from_camera: Some(&sensor.sensor_from_camera),
+            },
+            None => Eye {
+                intrinsics: &self.cameras[camera].intrinsics,
+                lens: self.lens_of_camera.get(camera).copied().unwrap_or(0),
+                sensor_from_camera: None,
+            },
+        }
+    }
+
+    /// The number of lenses, as far as cameras and sensors have them.
+    pub(super) fn num_lenses(&self) -> usize {
+        let of_cameras = self.lens_of_camera.iter().take(self.cameras.len());
+        let used = of_cameras.chain(self.sensors.iter().map(|sensor| &sensor.lens));
+        used.max().map_or(1, |last| last.saturating_add(1))
+    }
+
+    /// Predicted minus observed pixel of an observation, given by its index; not finite if the lens does not see the
+    /// point, or it is in the camera's center plane. Points behind the camera are mirrored through its
+    /// center, as in [`adjust_bundle`](super::adjust_bundle), except by a fisheye, which may see them.
+    pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
+        let o = &self.observations[observation];
+        let eye = self.eye(observation);
+        let mut p = self.cameras[o.camera].cam_from_world * self.points[o.point];
+        if let Some(sensor_from_camera) = eye.sensor_from_camera {
+            p = sensor_from_camera * p;
+        }
+        let lens = self.lenses.get(eye.lens).copied().unwrap_or_default();
+        let shown = lens.project_or_mirror(&p.coords);
+        let center = eye.intrinsics.principal_point();
+        Vector2::new(
+            eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
+            eye.intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
+        )
+    }
+}
+
+/// What made an observation.
+pub(super) struct Eye<'a> {
+    pub(super) intrinsics: &'a Intrinsics,
+    pub(super) lens: usize,
+    /// `None` for the camera itself.
+    pub(super) sensor_from_camera: Option<&'a RigidTransform>,
+}

@@ -1,0 +1,60 @@
+//! The path of a camera that visual odometry found.
+
+use super::builder::Builder;
+use super::reconstruction::Reconstruction;
+use crate::camera::RigidTransform;
+
+/// Where the camera went.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OdometryResult {
+    /// `world_from_cam` of each frame, `None` where it was lost. The first frame that was found is
+    /// the origin. One camera alone leaves the unit of length open.
+    pub world_from_cam: Vec<Option<RigidTransform>>,
+    /// Frames that gave points: those that lie sufficiently far from the one before, by the angle
+    /// under which points see the two, or that show much that it does not.
+    pub keyframes: Vec<usize>,
+    /// Frames that could not be placed.
+    pub lost: Vec<usize>,
+    /// The cameras and points; of a stereo rig the left cameras, then the right ones.
+    pub reconstruction: Reconstruction,
+    /// Whether every frame was tried; false for [`Odometry::finish`](super::Odometry::finish) before the last step.
+    pub is_complete: bool,
+}
+
+/// The path in the frame of its first camera. Keyframes are left empty.
+pub(super) fn result_of(builder: &Builder, num_frames: usize) -> OdometryResult {
+    let mut reconstruction = builder.so_far();
+    let origin = reconstruction.cameras[..num_frames]
+        .iter()
+        .flatten()
+        .next()
+        .map_or_else(RigidTransform::identity, |camera| camera.cam_from_world);
+    // The first frame is where the world's origin is.
+    let world_from_old = origin;
+    for camera in reconstruction.cameras.iter_mut().flatten() {
+        camera.cam_from_world *= world_from_old.inverse();
+    }
+    // Exactly, where rounding would leave a trace of the old pose.
+    if let Some(first) = reconstruction.cameras[..num_frames]
+        .iter_mut()
+        .flatten()
+        .next()
+    {
+        first.cam_from_world = RigidTransform::identity();
+    }
+    for point in &mut reconstruction.points {
+        point.position = world_from_old * point.position;
+    }
+    let world_from_cam: Vec<Option<RigidTransform>> = reconstruction.cameras[..num_frames]
+        .iter()
+        .map(|camera| camera.map(|camera| camera.cam_from_world.inverse()))
+        .collect();
+    OdometryResult {
+        lost: (0..num_frames)
+            .filter(|&f| world_from_cam[f].is_none())
+            .collect(),
+        world_from_cam,
+        reconstruction,
+        ..OdometryResult::default()
+    }
+}

@@ -1,0 +1,81 @@
+//! A rectified rig.
+
+use super::checks::checked_index;
+use super::rect::PixelRect;
+use crate::Result;
+use crate::camera::{Camera, Intrinsics};
+use crate::stereo::PixelMap;
+use nalgebra::{Matrix3, Matrix4, Point2, Rotation3};
+
+/// A rectified rig: two virtual cameras that stand parallel and share a focal length, so that
+/// matches share a row (or, if `is_vertical`, a column).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rectification {
+    /// The photographs' cameras.
+    pub cameras: [Camera; 2],
+    /// Rotation of each camera's rays into the rectified frame.
+    pub rect_from_cam: [Rotation3<f64>; 2],
+    /// Intrinsics of the rectified pictures.
+    pub intrinsics: [Intrinsics; 2],
+    /// Homography from undistorted pixels of each photograph to rectified pixels,
+    /// `H = K_rect R K⁻¹`.
+    pub homographies: [Matrix3<f64>; 2],
+    /// `(X, Y, Z, W) = Q (u, v, d, 1)` in the rectified frame of the first camera, where (u, v)
+    /// is a pixel of the first picture and d its disparity `u1 − u2` (`v1 − v2` if vertical).
+    pub q: Matrix4<f64>,
+    /// Whether the second camera stands above or below the first: then matches share a column.
+    pub is_vertical: bool,
+    /// Distance between the cameras, meters.
+    pub baseline_m: f64,
+    /// Size of the rectified pictures, pixels.
+    pub width: u32,
+    /// See `width`.
+    pub height: u32,
+    /// A large rectangle in each rectified picture that its camera saw whole.
+    pub valid: [PixelRect; 2],
+}
+
+impl Rectification {
+    /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1, [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the
+    /// rectified camera looks away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
+    pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
+        let i = checked_index(index)?;
+        let turned = self.rect_from_cam[i] * self.cameras[i].ray(pixel)?;
+        self.intrinsics[i].project(&turned.into())
+    }
+
+    /// The place in photograph 0 or 1 that a rectified pixel is read from: rotation and lens in
+    /// one step. None where the camera could not see it.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
+    pub fn source_pixel(
+        &self,
+        index: usize,
+        rectified: &Point2<f64>,
+    ) -> Result<Option<Point2<f64>>> {
+        let i = checked_index(index)?;
+        let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
+        let camera = &self.cameras[i];
+        // Beyond its fold the lens model shows the same place twice.
+        if !camera.lens.is_seen(&ray) {
+            return Ok(None);
+        }
+        Ok(camera.project(&ray.into()).ok())
+    }
+
+    /// The map that redraws photograph 0 or 1.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
+    pub fn map(&self, index: usize) -> Result<PixelMap> {
+        checked_index(index)?;
+        Ok(PixelMap::from_fn(self.width, self.height, |u, v| {
+            let rectified = Point2::new(f64::from(u), f64::from(v));
+            self.source_pixel(index, &rectified).ok().flatten()
+        }))
+    }
+}

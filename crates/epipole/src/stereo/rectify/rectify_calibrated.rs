@@ -1,0 +1,146 @@
+//! Rectification of a calibrated rig.
+
+use super::checks::{check, common_size};
+use super::cover::{LARGEST_CROP, around_principal_points, around_what_is_seen};
+use super::outline::turned_outline;
+use super::q_matrix::q_matrix;
+use super::rect::PixelRect;
+use super::rectification::Rectification;
+use super::turn::turn_parallel;
+use crate::Result;
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use nalgebra::Vector2;
+
+/// Choices of [`rectify_calibrated`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RectifyOptions {
+    /// 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until
+    /// every pixel of the photographs is shown. Between: in between.
+    pub alpha: f64,
+    /// Size of the results, pixels; none: that of the photographs.
+    pub size: Option<(u32, u32)>,
+    /// Whether both results have the same principal point, so that points at infinity have
+    /// disparity 0. Otherwise each shows what its own camera sees best.
+    pub zero_disparity_at_infinity: bool,
+}
+
+impl Default for RectifyOptions {
+    /// Only valid pixels, the photographs' size, disparity 0 at infinity.
+    fn default() -> Self {
+        Self {
+            alpha: 0.0,
+            size: None,
+            zero_disparity_at_infinity: true,
+        }
+    }
+}
+
+/// Rectifies a calibrated rig.
+///
+/// Each camera turns by half of the rotation between them, so both pictures suffer equally; then
+/// both turn, by the smallest angle, until the baseline lies along the rows (or along the
+/// columns, if the second camera stands rather above or below). The smallest angle never turns a
+/// picture upside down: a second camera on the left gives negative disparities instead.
+///
+/// * `cameras`: of the first (left) and second (right) photograph, of the same size
+/// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
+///
+/// # Errors
+/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the baseline is more than 60° off the image plane
+/// halfway between the cameras, whichever way it slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline
+/// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
+/// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an
+/// empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds less than half-way to the photograph's border; what lies
+/// beyond a fold nearer to it is not shown.
+///
+/// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
+/// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
+/// use epipole::stereo::{RectifyOptions, rectify_calibrated};
+/// // Two ideal cameras that stand parallel, 0.1 m apart: nothing needs to change.
+/// let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480);
+/// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
+/// let rig = rectify_calibrated(&[camera, camera], &cam2_from_cam1, &RectifyOptions::default())?;
+/// assert!((rig.intrinsics[0].fu_px() - 500.0).abs() < 1e-6);
+/// // A disparity of 25 px in the middle is 500 × 0.1 / 25 = 2 m away.
+/// let x = rig.q * nalgebra::Vector4::new(319.5, 239.5, 25.0, 1.0);
+/// assert!((x.z / x.w - 2.0).abs() < 1e-6);
+/// # Ok(()) }
+/// ```
+pub fn rectify_calibrated(
+    cameras: &[Camera; 2],
+    cam2_from_cam1: &RigidTransform,
+    options: &RectifyOptions,
+) -> Result<Rectification> {
+    let (width, height) = common_size(cameras)?;
+    let (new_width, new_height) = options.size.unwrap_or((width, height));
+    check(width, height, new_width, new_height, options.alpha)?;
+    let turned = turn_parallel(cam2_from_cam1)?;
+    let rect_from_cam = turned.rect_from_cam;
+
+    // A focal length to begin with; the zoom follows.
+    let focal_px = cameras
+        .iter()
+        .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
+        .fold(f64::INFINITY, f64::min);
+    let outlines = [0, 1].map(|i| turned_outline(&cameras[i], &rect_from_cam[i]));
+    let [outline1, outline2] = outlines;
+    let outlines = [outline1?, outline2?];
+
+    let new_size = Vector2::new(f64::from(new_width), f64::from(new_height));
+    let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
+    // The direction that each photograph's middle looks to, seen in the result's middle.
+    let mut centers = outlines.each_ref().map(|o| middle - o.center * focal_px);
+    let mean = (centers[0] + centers[1]) / 2.0;
+    if options.zero_disparity_at_infinity {
+        centers = [mean; 2];
+    } else if turned.is_vertical {
+        centers.iter_mut().for_each(|c| c.x = mean.x);
+    } else {
+        centers.iter_mut().for_each(|c| c.y = mean.y);
+    }
+    let axis = usize::from(turned.is_vertical);
+    let shared = [0, 1].map(|a| options.zero_disparity_at_infinity || a != axis);
+    let seen = around_what_is_seen(&outlines, shared, &new_size, options.alpha)?;
+    // The principal points stay where they are, as is usual, unless that costs too much of the view.
+    let (focal_px, centers) =
+        around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
+            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.framing.0)
+            .unwrap_or(seen.framing);
+    let new_intrinsics = |c: &Vector2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y);
+    let intrinsics = [new_intrinsics(&centers[0])?, new_intrinsics(&centers[1])?];
+    let homographies = [0, 1].map(|i| {
+        let k_inverse = cameras[i].intrinsics.inverse_matrix();
+        intrinsics[i].matrix() * rect_from_cam[i].matrix() * k_inverse
+    });
+    let valid = [0, 1].map(|i| {
+        let rect = seen.inner[i].scaled(focal_px, &centers[i]);
+        PixelRect {
+            u_min: rect.u_min.max(0.0),
+            v_min: rect.v_min.max(0.0),
+            u_max: rect.u_max.min(new_size.x - 1.0),
+            v_max: rect.v_max.min(new_size.y - 1.0),
+        }
+    });
+    Ok(Rectification {
+        cameras: *cameras,
+        rect_from_cam,
+        intrinsics,
+        homographies,
+        q: q_matrix(
+            focal_px,
+            &centers[0],
+            turned.translation[axis],
+            centers[0][axis] - centers[1][axis],
+        ),
+        is_vertical: turned.is_vertical,
+        baseline_m: turned.translation.norm(),
+        width: new_width,
+        height: new_height,
+        valid,
+    })
+}

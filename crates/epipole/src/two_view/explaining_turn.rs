@@ -1,0 +1,75 @@
+//! A turn in the place of another model.
+
+use super::TwoViewOptions;
+use crate::camera::{Intrinsics, RigidTransform};
+use crate::robust::RansacReport;
+use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
+
+/// A turn that explains nearly all inliers of another model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExplainingTurn {
+    /// The turn; its translation is zero.
+    pub cam2_from_cam1: RigidTransform,
+    /// How many of the inliers it explains.
+    pub num_explained: usize,
+    /// How many inliers there are.
+    pub num_inliers: usize,
+}
+
+impl ExplainingTurn {
+    /// The turn of a search, if it explains nearly all inliers of another model.
+    ///
+    /// * `intrinsics`: of the two cameras
+    /// * `inliers`: the matches that fit the other model
+    pub(super) fn new<'a>(
+        turn: &RansacReport<Matrix3<f64>>,
+        intrinsics: [&Intrinsics; 2],
+        inliers: impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
+        options: &TwoViewOptions,
+    ) -> Option<Self> {
+        // Two matches fit a turn always.
+        if turn.num_unique_inliers < 3 {
+            return None;
+        }
+        let homography = homography_of_turn(&turn.model, intrinsics);
+        let (mut num_inliers, mut num_explained) = (0, 0);
+        for (p1, p2) in inliers {
+            num_inliers += 1;
+            num_explained += usize::from(options.fits_homography(&homography, p1, p2));
+        }
+        Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
+    }
+
+    /// A turn that explains so many of the inliers, if these are nearly all: the one place where that is decided,
+    /// whatever the lens.
+    pub(super) fn if_nearly_all(
+        rotation: &Matrix3<f64>,
+        num_explained: usize,
+        num_inliers: usize,
+        options: &TwoViewOptions,
+    ) -> Option<Self> {
+        let needed = options.max_homography_share * num_inliers as f64;
+        (num_explained as f64 >= needed).then(|| Self {
+            cam2_from_cam1: motion_of_turn(rotation),
+            num_explained,
+            num_inliers,
+        })
+    }
+}
+
+/// The motion of a camera that only turns.
+pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
+    let rotation = Rotation3::from_matrix_unchecked(*rotation);
+    RigidTransform::from_parts(
+        Translation3::identity(),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    )
+}
+
+/// What a turn does to pixels: `K2 R K1⁻¹`.
+pub(super) fn homography_of_turn(
+    rotation: &Matrix3<f64>,
+    [k1, k2]: [&Intrinsics; 2],
+) -> Matrix3<f64> {
+    k2.matrix() * rotation * k1.inverse_matrix()
+}
