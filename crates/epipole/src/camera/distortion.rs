@@ -18,6 +18,11 @@ use nalgebra::{Matrix2, Point2};
 /// Sources: Conrady 1919, "Decentred lens-systems"; Brown 1966, "Decentering distortion of
 /// lenses".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Distortion {
     /// Of r².
     pub k1: f64,

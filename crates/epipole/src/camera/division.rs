@@ -9,6 +9,11 @@ use nalgebra::{Matrix2, Point2};
 ///
 /// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens distortion", §2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Division {
     /// Factor of r² in the divisor.
     pub k: f64,

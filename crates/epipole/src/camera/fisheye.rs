@@ -12,6 +12,11 @@ use nalgebra::{Matrix2x3, Point2, Vector2, Vector3};
 /// Source: Kannala & Brandt 2006, "A generic camera model and calibration method for conventional, wide-angle,
 /// and fish-eye lenses".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Fisheye {
     /// k1 to k4.
     pub coefficients: [f64; 4],

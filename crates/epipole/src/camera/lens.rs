@@ -6,6 +6,11 @@ use nalgebra::{Matrix2x3, Point2, Vector3};
 
 /// What a lens does to rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Lens {
     /// Five numbers, for usual lenses.
     Brown(Distortion),

@@ -2,6 +2,11 @@
 
 /// The models of lenses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum LensKind {
     /// Five numbers, for usual lenses: [`Distortion`](super::Distortion).
     #[default]

@@ -16,6 +16,11 @@ use nalgebra::{Matrix2, Point2};
 /// Source: Claus & Fitzgibbon 2005, "A rational function lens distortion model for general cameras" (the idea);
 /// the form is OpenCV's.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct RationalDistortion {
     /// Above the line, and the tangential terms.
     pub numerator: Distortion,

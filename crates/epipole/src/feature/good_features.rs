@@ -7,6 +7,11 @@ use crate::{Error, Result};
 
 /// How much of a corner a pixel is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum CornerMeasure {
     /// The smaller eigenvalue of the structure tensor.
     #[default]
@@ -17,6 +22,11 @@ pub enum CornerMeasure {
 
 /// Cells of the image that share the corners out evenly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Grid {
     /// Cells side by side, ≥ 1.
     pub columns: usize,
@@ -26,6 +36,11 @@ pub struct Grid {
 
 /// What [`good_features_to_track`] looks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct GoodFeaturesOptions {
     /// At most so many corners; 0 means no limit.
     pub max_corners: usize,

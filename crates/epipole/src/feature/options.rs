@@ -7,6 +7,11 @@ use super::{
 
 /// Which features to look for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum FeatureKind {
     /// Scale-invariant features ([`detect_sift`](super::detect_sift)), Euclidean descriptors.
     Sift,
@@ -30,6 +35,11 @@ pub enum FeatureKind {
 /// assert_eq!((options.kind, options.max_features), (FeatureKind::RootSift, 8192));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct FeatureOptions {
     /// RootSIFT.
     pub kind: FeatureKind,

@@ -6,6 +6,11 @@ use nalgebra::Point2;
 
 /// How [`refine_corners`] searches.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct RefineOptions {
     /// Half the side of the window, pixels, 1 to 50: the window is `2 half + 1` wide.
     pub half_window: usize,

@@ -10,6 +10,11 @@ use std::ops::Range;
 
 /// Weights of the neighbors in the structure tensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Window {
     /// A square of so many pixels, each with weight 1. An even square reaches one pixel further
     /// up and left, as in OpenCV.
@@ -20,6 +25,11 @@ pub enum Window {
 
 /// The units of the structure tensor and of the responses made from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Scaling {
     /// Sums of products of the filter's answers as they are: whole numbers for whole gray values.
     #[default]
@@ -31,6 +41,11 @@ pub enum Scaling {
 
 /// How a structure tensor is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct StructureTensorOptions {
     /// The filter for the derivatives.
     pub derivative: DerivativeFilter,

@@ -10,6 +10,11 @@ use nalgebra::Point2;
 
 /// How [`track_lucas_kanade`] searches.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct TrackOptions {
     /// Half the side of the window, pixels, 1 to 50.
     pub half_window: usize,

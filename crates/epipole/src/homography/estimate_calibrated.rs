@@ -251,7 +251,8 @@ mod tests {
             RigidTransform::new(Vector3::new(-0.4, 0.1, 0.2), Vector3::new(0.1, 0.3, -0.2));
         let mut see = |x: &Point3<f64>, off_px: f64| -> Option<Point2<f64>> {
             let seen = camera.project(x).ok()?;
-            Some(seen + Vector2::from_fn(|_, _| off_px * random.normal()))
+            let is_inside = seen.iter().all(|x| (0.0..800.0).contains(x));
+            is_inside.then(|| seen + Vector2::from_fn(|_, _| off_px * random.normal()))
         };
         let mut places = Random::new(seed + 1);
         let mut seen = [Vec::new(), Vec::new()];

@@ -12,6 +12,11 @@ use super::GrayImage32;
 /// assert_eq!(Border::Constant(0.5).index(-2, 4), None); // .5 .5|a b c d
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Border {
     /// The edge pixel goes on for ever: `aaa|abcd|ddd`.
     Replicate,

@@ -12,6 +12,11 @@ use std::io::Cursor;
 
 /// What [`decode_gray`] and [`decode_rgb`] accept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct DecodeOptions {
     /// The largest width × height; a file that promises more is refused before memory is taken.
     pub max_pixels: u64,

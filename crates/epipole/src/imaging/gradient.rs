@@ -78,6 +78,11 @@ dispatched! {
 
 /// A derivative filter of small integers, not divided by its sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum DerivativeFilter {
     /// `[−1 0 1]` along, `[1 2 1]` across: 8 times the slope.
     #[default]

@@ -7,6 +7,11 @@ use nalgebra::{Matrix2x3, Matrix3};
 
 /// How a warp reads between pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Interpolation {
     /// The four pixels around.
     #[default]
@@ -17,6 +22,11 @@ pub enum Interpolation {
 
 /// Where a warp gets its pixels, and how many.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct WarpOptions {
     /// Width of the result, pixels.
     pub width: u32,

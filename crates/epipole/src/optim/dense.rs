@@ -131,11 +131,11 @@ impl System for DenseSystem<'_> {
 
 /// Minimizes a [`DenseProblem`] from `parameters`, in place.
 ///
-/// * `monitor`: as in [`minimize`]
+/// * `monitor`: asked after every iteration
 ///
 /// # Errors
 /// [`Error::TooFew`] without residuals or parameters, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, and as [`minimize`].
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start has no finite cost or gradient.
 ///
 /// Source: Moré 1978, "The Levenberg–Marquardt algorithm: implementation and theory", §3 (the QR
 /// form) and §6 (damping scaled by column norms; there it is the largest seen

@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SVector};
 ///
 /// The parameters may live on any manifold (a rotation, a unit vector, a matrix of rank 2): the
 /// problem itself says how a step of `P` numbers moves them.
-pub trait FixedProblem<const P: usize> {
+pub(crate) trait FixedProblem<const P: usize> {
     /// The quantities that are estimated.
     type Parameters: Clone;
 
@@ -39,18 +39,18 @@ pub trait FixedProblem<const P: usize> {
 
 /// The sums `JᵀJ`, `Jᵀr` and `½ Σ ρ(‖r‖²)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalEquations<const P: usize> {
+pub(crate) struct NormalEquations<const P: usize> {
     /// `Σ ρ' JᵀJ`; only its lower triangle is filled.
-    pub hessian: SMatrix<f64, P, P>,
+    pub(crate) hessian: SMatrix<f64, P, P>,
     /// `Σ ρ' Jᵀr`.
-    pub gradient: SVector<f64, P>,
+    pub(crate) gradient: SVector<f64, P>,
     /// `½ Σ ρ(‖r‖²)`.
-    pub cost: f64,
+    pub(crate) cost: f64,
 }
 
 impl<const P: usize> NormalEquations<P> {
     /// Sums of nothing.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             hessian: SMatrix::zeros(),
             gradient: SVector::zeros(),
@@ -60,7 +60,7 @@ impl<const P: usize> NormalEquations<P> {
 
     /// Adds one residual of `R` components with its Jacobian `∂r/∂δ` under a loss.
     #[inline]
-    pub fn add<const R: usize>(
+    pub(crate) fn add<const R: usize>(
         &mut self,
         residual: &SVector<f64, R>,
         jacobian: &SMatrix<f64, R, P>,
@@ -88,7 +88,12 @@ impl<const P: usize> NormalEquations<P> {
 
     /// Adds one scalar residual.
     #[inline]
-    pub fn add_scalar(&mut self, residual: f64, jacobian: &SVector<f64, P>, loss: &RobustLoss) {
+    pub(crate) fn add_scalar(
+        &mut self,
+        residual: f64,
+        jacobian: &SVector<f64, P>,
+        loss: &RobustLoss,
+    ) {
         self.add(
             &SVector::<f64, 1>::new(residual),
             &jacobian.transpose(),
@@ -267,34 +272,7 @@ pub(super) fn solve_cholesky_in_place<const P: usize>(
 /// [`Error::NotFinite`](crate::Error::NotFinite) if the start has no finite cost or gradient.
 ///
 /// Source: as [`minimize`](super::minimize).
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
-/// use nalgebra::{SVector, Vector1};
-/// // The number nearest to 1, 2 and 6 is their mean, 3.
-/// struct Mean([f64; 3]);
-/// impl FixedProblem<1> for Mean {
-///     type Parameters = f64;
-///     fn accumulate(&self, x: &f64, normal: &mut NormalEquations<1>) {
-///         for value in self.0 {
-///             normal.add_scalar(x - value, &Vector1::new(1.0), &RobustLoss::Trivial);
-///         }
-///     }
-///     fn cost(&self, x: &f64) -> f64 {
-///         self.0.iter().map(|value| 0.5 * (x - value) * (x - value)).sum()
-///     }
-///     fn plus(&self, x: &f64, delta: &SVector<f64, 1>) -> f64 {
-///         x + delta[0]
-///     }
-/// }
-/// let mut x = 100.0;
-/// let report = minimize_fixed(&Mean([1.0, 2.0, 6.0]), &mut x, &LmOptions::default())?;
-/// assert!((x - 3.0).abs() < 1e-9);
-/// assert!((report.final_cost - 7.0).abs() < 1e-9);
-/// # Ok(()) }
-/// ```
-pub fn minimize_fixed<const P: usize, F: FixedProblem<P>>(
+pub(crate) fn minimize_fixed<const P: usize, F: FixedProblem<P>>(
     problem: &F,
     parameters: &mut F::Parameters,
     options: &LmOptions,

@@ -21,7 +21,7 @@ pub struct EdgeTerms<const D: usize> {
 
 /// A least-squares problem `½ Σ ρ(eᵀ Ω e)` over the edges of a graph whose vertices have `D`
 /// degrees of freedom each.
-pub trait GraphProblem<const D: usize>: Sync {
+pub(crate) trait GraphProblem<const D: usize>: Sync {
     /// All vertices.
     type Parameters: Clone + Sync;
 
@@ -51,7 +51,7 @@ pub trait GraphProblem<const D: usize>: Sync {
 const LEAST_DAMPING: f64 = 1e-15;
 
 /// The [`System`] of a [`GraphProblem`]: sparse Cholesky, vertices of least degree first.
-pub struct GraphSystem<'a, const D: usize, G: GraphProblem<D>> {
+pub(crate) struct GraphSystem<'a, const D: usize, G: GraphProblem<D>> {
     problem: &'a G,
     terms: Vec<EdgeTerms<D>>,
     gradient: Vec<SVector<f64, D>>,
@@ -63,7 +63,7 @@ pub struct GraphSystem<'a, const D: usize, G: GraphProblem<D>> {
 
 impl<'a, const D: usize, G: GraphProblem<D>> GraphSystem<'a, D, G> {
     /// Finds the order of elimination and makes room for all blocks.
-    pub fn new(problem: &'a G) -> Self {
+    pub(crate) fn new(problem: &'a G) -> Self {
         let (num_vertices, edges) = (problem.num_vertices(), problem.edges());
         let terms = EdgeTerms {
             residual: SVector::zeros(),

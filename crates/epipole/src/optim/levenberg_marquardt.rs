@@ -7,7 +7,7 @@ use crate::{Error, Result};
 ///
 /// Implementations keep their matrices between calls, so that a loop allocates nothing after its
 /// first iteration.
-pub trait System {
+pub(crate) trait System {
     /// The quantities that are estimated; any manifold will do.
     type Parameters: Clone;
 
@@ -29,7 +29,7 @@ pub trait System {
 
 /// A problem's value and slope where it was linearized.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Linearization {
+pub(crate) struct Linearization {
     /// `½ Σ ρ(‖r‖²)`.
     pub cost: f64,
     /// The largest absolute component of `Jᵀr`.
@@ -40,7 +40,7 @@ pub struct Linearization {
 
 /// A solution of the damped normal equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DampedStep {
+pub(crate) struct DampedStep {
     /// How much the quadratic model says the cost will decrease: `½ δᵀ(λ D δ − Jᵀr)`.
     pub predicted_decrease: f64,
     /// The length of δ.
@@ -49,6 +49,11 @@ pub struct DampedStep {
 
 /// When to stop, and how to start.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct LmOptions {
     /// Steps tried at most, rejected ones included.
     pub max_iterations: usize,
@@ -166,7 +171,7 @@ const MIN_DAMPING: f64 = 1e-20;
 /// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
 /// in Marquardt's method", §3; steps that may raise the cost are the
 /// watchdog technique of Chamberlain, Powell, Lemaréchal & Pedersen 1982.
-pub fn minimize<S: System>(
+pub(crate) fn minimize<S: System>(
     system: &mut S,
     parameters: &mut S::Parameters,
     options: &LmOptions,

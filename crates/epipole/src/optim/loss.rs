@@ -19,6 +19,11 @@ use crate::{Error, Result};
 /// assert_eq!(huber.weight(100.0), 0.2);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum RobustLoss {
     /// `ρ(s) = s`: plain least squares.
     #[default]

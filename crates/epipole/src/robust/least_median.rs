@@ -17,6 +17,11 @@ const SMALLEST_REACH_PX: f64 = 1e-9;
 
 /// Choices of [`least_median`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct LeastMedianOptions {
     /// Samples drawn, ≥ 1. 500.
     pub num_samples: usize,

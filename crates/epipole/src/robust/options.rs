@@ -4,6 +4,11 @@ use crate::{Error, Result};
 
 /// How samples are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum SamplerKind {
     /// Every subset of the data is equally likely.
     Uniform,
@@ -17,6 +22,11 @@ pub enum SamplerKind {
 
 /// How a model is judged. Scores count from 0 (nothing fits) to the number of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum ScoreKind {
     /// `Σ max(0, 1 − e²/T²)`: a datum on the model counts 1, one at the threshold 0.
     ///
@@ -30,6 +40,11 @@ pub enum ScoreKind {
 
 /// Which formula says how many samples are enough.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Budget {
     /// [`num_trials_with_replacement`](super::num_trials_with_replacement): the textbook's `wˢ`.
     WithReplacement,
@@ -39,6 +54,11 @@ pub enum Budget {
 
 /// Where the threshold comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum ThresholdKind {
     /// It is [`RansacOptions::max_error_px`].
     Given,
@@ -62,6 +82,11 @@ pub enum ThresholdKind {
 /// assert_eq!(options.confidence, 0.999);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct RansacOptions {
     /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
     /// own, the unit of its errors. 1.

@@ -12,6 +12,11 @@ use std::collections::BTreeMap;
 
 /// Options of [`Reconstruction::localize`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct LocalizeOptions {
     /// Tests of the matches. Ratio 0.8, mutual.
     pub matching: MatchOptions,

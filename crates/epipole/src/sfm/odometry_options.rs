@@ -5,6 +5,11 @@ use crate::robust::RansacOptions;
 
 /// How to follow a camera.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct OdometryOptions {
     /// Thresholds, in pixels and degrees. Frames are nearer to each other than photographs, so
     /// that points are accepted under smaller angles: 0.3 degrees, and the start wants 1.

@@ -21,6 +21,11 @@ pub struct SfmInput {
 
 /// Options of [`reconstruct`](super::reconstruct).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct SfmOptions {
     /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
     /// registered. Its threshold is 2 pixels, and its seed is not looked at.

@@ -29,6 +29,11 @@ pub struct Photo {
 
 /// Options of [`photo_features`] and [`match_features`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct PhotoOptions {
     /// RootSIFT, up to 8192 features, faint ones too.
     pub features: FeatureOptions,

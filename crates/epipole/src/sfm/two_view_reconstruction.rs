@@ -14,6 +14,11 @@ const MAX_REPETITIONS: usize = 5;
 
 /// Which points of two views to keep, and how to refine them.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct TwoViewReconstructionOptions {
     /// Points whose rays meet at a smaller angle are left out, radians, ≥ 0.
     pub min_angle_rad: f64,

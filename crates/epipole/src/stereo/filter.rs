@@ -13,6 +13,11 @@ use crate::{Error, Result};
 /// assert_eq!(matcher.filter.left_right_max_px, Some(1));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct DisparityFilter {
     /// Percent by which the costs of all disparities two or more away from the best must be
     /// higher, 0 to 99; 0: no such test.

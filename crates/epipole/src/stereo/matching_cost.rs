@@ -22,6 +22,11 @@ const NUM_PLANES: usize = 3;
 /// What the cost is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum StereoCost {
     /// Hamming distance of the census transform over 5×5 pixels: immune to a change of
     /// brightness or contrast between the pictures.

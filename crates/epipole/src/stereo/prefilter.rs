@@ -5,6 +5,11 @@ use image::GrayImage;
 
 /// What is done to both pictures before blocks are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum StereoPrefilter {
     /// The horizontal Sobel derivative, limited to ± the cap: edges that cross the rows.
     #[default]

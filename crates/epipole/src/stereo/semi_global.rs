@@ -14,6 +14,11 @@ use std::ops::Range;
 
 /// How many directions the costs are gathered from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum StereoPaths {
     /// Along the row and the column, both ways.
     Four,
@@ -52,6 +57,11 @@ pub enum StereoPaths {
 /// # Ok(()) }
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct StereoSgm {
     /// The smallest disparity looked for, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,

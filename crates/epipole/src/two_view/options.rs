@@ -12,6 +12,11 @@ pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 
 /// How to judge a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct TwoViewOptions {
     /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
     /// 1.25 times its threshold, by the Sampson error. [`ThresholdKind::Noise`](crate::robust::ThresholdKind)

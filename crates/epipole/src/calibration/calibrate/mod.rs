@@ -22,6 +22,11 @@ pub(super) const WHAT: &str = "a calibration";
 
 /// Choices of [`calibrate`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct CalibrationOptions {
     /// The model of the lens.
     pub lens: LensKind,

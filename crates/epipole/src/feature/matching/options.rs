@@ -4,6 +4,11 @@ use crate::{Error, Result};
 
 /// Which nearest neighbors count as matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct MatchOptions {
     /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
     /// the test out. Lowe 2004, §7.1.

@@ -16,6 +16,11 @@ const MARGIN: u32 = RADIUS as u32 + 2;
 
 /// How [`detect_orb`] works.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct OrbOptions {
     /// At most so many features over all levels, ≥ 1.
     pub max_features: usize,

@@ -4,6 +4,11 @@ use crate::{Error, Result};
 
 /// How the 128 sums of a SIFT descriptor are scaled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum SiftNormalization {
     /// Lowe's: unit length, entries above 0.2 cut, unit length again.
     #[default]
@@ -20,6 +25,11 @@ pub enum SiftNormalization {
 /// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
 /// and fewer of the features are too small to be seen from further away.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct SiftOptions {
     /// At most so many features, the strongest; 0 means no limit.
     pub max_features: usize,

@@ -9,7 +9,7 @@ use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
 use super::parallel::{for_each, sum};
 
-pub use problem::{BundleProblem, BundleStep, ObservationTerms, PriorTerms};
+pub(crate) use problem::{BundleProblem, BundleStep, ObservationTerms, PriorTerms};
 
 #[derive(Clone)]
 struct CameraBlock<const C: usize, const S: usize> {
@@ -80,7 +80,7 @@ const LEAST_DAMPING: f64 = 1e-12;
 /// Cameras without observations and points without any stay where they are.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis", §6.1.
-pub struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> {
+pub(crate) struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> {
     problem: &'a B,
     /// Original observation numbers, sorted by point.
     order: Vec<u32>,
@@ -101,7 +101,7 @@ pub struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S
 
 impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a, C, S, B> {
     /// Sorts the observations and makes room for all blocks.
-    pub fn new(problem: &'a B) -> Self {
+    pub(crate) fn new(problem: &'a B) -> Self {
         let (num_cameras, num_points) = (problem.num_cameras(), problem.num_points());
         let num_groups = problem.num_groups();
         let observations = problem.observations();

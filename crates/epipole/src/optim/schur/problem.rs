@@ -5,41 +5,41 @@ use crate::optim::loss::RobustLoss;
 /// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
 /// freedom), what the cameras of its group share (`S`), and its point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObservationTerms<const C: usize, const S: usize> {
+pub(crate) struct ObservationTerms<const C: usize, const S: usize> {
     /// Predicted minus observed.
-    pub residual: [f64; 2],
+    pub(crate) residual: [f64; 2],
     /// ∂r/∂camera.
-    pub camera: [[f64; C]; 2],
+    pub(crate) camera: [[f64; C]; 2],
     /// ∂r/∂shared.
-    pub shared: [[f64; S]; 2],
+    pub(crate) shared: [[f64; S]; 2],
     /// ∂r/∂point.
-    pub point: [[f64; 3]; 2],
+    pub(crate) point: [[f64; 3]; 2],
 }
 
 /// Steps of all blocks, as the Schur complement solves for them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BundleStep<const C: usize, const S: usize> {
+pub(crate) struct BundleStep<const C: usize, const S: usize> {
     /// One a camera.
-    pub cameras: Vec<[f64; C]>,
+    pub(crate) cameras: Vec<[f64; C]>,
     /// What the cameras of a group share, one a group.
-    pub shared: Vec<[f64; S]>,
+    pub(crate) shared: Vec<[f64; S]>,
     /// One a point.
-    pub points: Vec<[f64; 3]>,
+    pub(crate) points: Vec<[f64; 3]>,
 }
 
 /// What is known of a camera besides what it saw, linearized: a residual and its Jacobian with respect to the
 /// camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PriorTerms<const C: usize> {
+pub(crate) struct PriorTerms<const C: usize> {
     /// Estimated minus known, in standard deviations.
-    pub residual: [f64; 3],
+    pub(crate) residual: [f64; 3],
     /// ∂r/∂camera.
-    pub camera: [[f64; C]; 3],
+    pub(crate) camera: [[f64; C]; 3],
 }
 
 /// A problem of cameras and points, where every residual of an observation has one of each. What several cameras
 /// share, as their lens, is a group; an observation belongs to one.
-pub trait BundleProblem<const C: usize, const S: usize>: Sync {
+pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     /// Cameras, groups and points.
     type Parameters: Clone + Sync;
 

@@ -8,6 +8,11 @@ use nalgebra::{Point3, Vector3};
 /// What keeps the reconstruction from drifting: position, orientation and scale of the world are
 /// not observable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Gauge {
     /// The first camera and one coordinate of another one's translation are held fixed: exactly
     /// the seven free dimensions.
@@ -19,6 +24,11 @@ pub enum Gauge {
 
 /// What to refine, and how.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct BundleOptions {
     /// When to stop.
     pub lm: LmOptions,
@@ -85,6 +95,11 @@ impl BundleOptions {
 /// Where a camera is, as something else has measured it, such as a receiver of satellite navigation: see
 /// [`local_from_geodetic`](crate::math::local_from_geodetic) for its degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct PositionPrior {
     /// The camera's center in the world.
     pub center_in_world: Point3<f64>,

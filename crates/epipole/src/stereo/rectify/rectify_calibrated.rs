@@ -13,6 +13,11 @@ use nalgebra::Vector2;
 
 /// Choices of [`rectify_calibrated`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct RectifyOptions {
     /// 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until
     /// every pixel of the photographs is shown. Between: in between.
