@@ -1,11 +1,7 @@
 //! The contract of the command line: one JSON object on standard output, sentences on standard
 //! error, exit statuses, nothing half-written.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, epipole, fails, moved, parse, path};
+use crate::common::{Folder, epipole, fails, moved, parse, path};
 use epipole::camera::RigidTransform;
 use serde_json::Value;
 use std::path::PathBuf;

@@ -1,10 +1,6 @@
 //! `epipole calibrate`, `undistort` and `manual`.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, epipole, fails, json, motion, numbers, path};
+use crate::common::{Folder, epipole, fails, json, motion, numbers, path};
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
 use image::{GrayImage, Luma};
 use nalgebra::{Point2, Point3, Vector3};

@@ -1,10 +1,6 @@
 //! `epipole stereo` against the exact depth of a rendered pair.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, fails, json, moved, path};
+use crate::common::{Folder, fails, json, moved, path};
 use epipole::camera::RigidTransform;
 use serde_json::Value;
 use std::path::Path;
@@ -216,7 +212,7 @@ fn a_wall_without_texture_gives_valid_files() {
         0.0
     );
     // Paths answer from smoothness, and it is said.
-    let said = String::from_utf8(common::epipole(&base).stderr).unwrap();
+    let said = String::from_utf8(crate::common::epipole(&base).stderr).unwrap();
     assert_eq!(said.matches("shows no texture").count(), 2, "{said}");
 }
 

@@ -1,51 +1,26 @@
 //! `epipole detect` and `epipole match` on pictures that have nothing to offer, or are none.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
+use crate::common::{Folder, epipole, path};
 use image::{GrayImage, Luma};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
-/// A folder for one test's files, removed with it.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("epipole-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn picture(&self, name: &str, width: u32, height: u32, gray: fn(u32, u32) -> u8) -> String {
-        let path = self.0.join(name);
-        let picture = GrayImage::from_fn(width, height, |u, v| Luma([gray(u, v)]));
-        picture.save(&path).unwrap();
-        text(&path)
-    }
-
-    fn bytes(&self, name: &str, bytes: &[u8]) -> String {
-        let path = self.0.join(name);
-        std::fs::write(&path, bytes).unwrap();
-        text(&path)
-    }
+fn picture(
+    folder: &Folder,
+    name: &str,
+    width: u32,
+    height: u32,
+    gray: fn(u32, u32) -> u8,
+) -> String {
+    let file = folder.file(name);
+    let picture = GrayImage::from_fn(width, height, |u, v| Luma([gray(u, v)]));
+    picture.save(&file).unwrap();
+    path(&file).to_owned()
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-fn text(path: &Path) -> String {
-    path.to_str().unwrap().to_owned()
-}
-
-fn epipole(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_epipole"))
-        .args(arguments)
-        .output()
-        .unwrap()
+fn bytes(folder: &Folder, name: &str, bytes: &[u8]) -> String {
+    let file = folder.file(name);
+    std::fs::write(&file, bytes).unwrap();
+    path(&file).to_owned()
 }
 
 /// Boxes of several sizes: corners and blobs.
@@ -67,11 +42,11 @@ fn a_picture_without_features_gives_an_empty_list() {
     let folder = Folder::new("nothing");
     let noise = |u: u32, v: u32| ((u * 7919 + v * 104_729) % 251) as u8;
     let pictures = [
-        folder.picture("constant.png", 90, 70, |_, _| 128),
-        folder.picture("dot.png", 1, 1, |_, _| 7),
-        folder.picture("tiny.png", 3, 2, noise),
-        folder.picture("row.png", 500, 1, noise),
-        folder.picture("column.png", 1, 500, noise),
+        picture(&folder, "constant.png", 90, 70, |_, _| 128),
+        picture(&folder, "dot.png", 1, 1, |_, _| 7),
+        picture(&folder, "tiny.png", 3, 2, noise),
+        picture(&folder, "row.png", 500, 1, noise),
+        picture(&folder, "column.png", 1, 500, noise),
     ];
     for picture in &pictures {
         for kind in KINDS {
@@ -92,8 +67,8 @@ fn a_picture_without_features_gives_an_empty_list() {
 #[test]
 fn nothing_matches_nothing() {
     let folder = Folder::new("no-match");
-    let flat = folder.picture("flat.png", 120, 100, |_, _| 50);
-    let boxed = folder.picture("boxes.png", 120, 100, boxes);
+    let flat = picture(&folder, "flat.png", 120, 100, |_, _| 50);
+    let boxed = picture(&folder, "boxes.png", 120, 100, boxes);
     for kind in KINDS {
         for pair in [[&flat, &boxed], [&boxed, &flat], [&flat, &flat]] {
             let arguments = [
@@ -116,7 +91,7 @@ fn nothing_matches_nothing() {
 #[test]
 fn a_picture_matches_itself() {
     let folder = Folder::new("itself");
-    let boxed = folder.picture("boxes.png", 120, 100, boxes);
+    let boxed = picture(&folder, "boxes.png", 120, 100, boxes);
     for kind in KINDS {
         let output = epipole(&[
             "match",
@@ -154,10 +129,10 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[test]
 fn files_that_are_no_whole_picture_are_named_in_a_sentence() {
     let folder = Folder::new("broken");
-    let whole = std::fs::read(folder.picture("whole.png", 120, 100, boxes)).unwrap();
-    let truncated = folder.bytes("truncated.png", &whole[..whole.len() * 2 / 3]);
-    let empty = folder.bytes("empty.png", &[]);
-    let words = folder.bytes("words.jpg", b"Dear reader, this is a letter.");
+    let whole = std::fs::read(picture(&folder, "whole.png", 120, 100, boxes)).unwrap();
+    let truncated = bytes(&folder, "truncated.png", &whole[..whole.len() * 2 / 3]);
+    let empty = bytes(&folder, "empty.png", &[]);
+    let words = bytes(&folder, "words.jpg", b"Dear reader, this is a letter.");
     // A header that promises 400 megapixels, with a correct checksum.
     let mut huge = whole;
     for at in [16, 20] {
@@ -165,8 +140,8 @@ fn files_that_are_no_whole_picture_are_named_in_a_sentence() {
     }
     let crc = crc32(&huge[12..29]);
     huge[29..33].copy_from_slice(&crc.to_be_bytes());
-    let huge = folder.bytes("huge.png", &huge);
-    let whole = folder.picture("whole.png", 120, 100, boxes);
+    let huge = bytes(&folder, "huge.png", &huge);
+    let whole = picture(&folder, "whole.png", 120, 100, boxes);
     for (file, name, expected) in [
         (&truncated, "truncated.png", "the image cannot be read"),
         (&empty, "empty.png", "the image cannot be read"),

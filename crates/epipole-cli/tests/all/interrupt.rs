@@ -5,11 +5,7 @@
 //! sentence on standard error that it heard it.
 
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, command, k, moved, parse, path};
+use crate::common::{Folder, command, k, moved, parse, path};
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;

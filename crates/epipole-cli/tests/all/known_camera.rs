@@ -1,11 +1,7 @@
 //! `epipole two-view`, `match` and `rectify` of photographs by a known camera, whatever its lens.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
-use common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
+use crate::common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
+use crate::common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
 use epipole::camera::{Camera, Lens, LensKind, RigidTransform, look_at};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
@@ -84,7 +80,7 @@ fn every_lens_gives_the_motion_between_its_photographs() {
         let found_motion = motion(&found["cam2_from_cam1"]);
         let e = found_motion.translation.vector.cross_matrix()
             * found_motion.rotation.to_rotation_matrix().into_inner();
-        let told = common::matrix(&found["model"]);
+        let told = crate::common::matrix(&found["model"]);
         let off = (told - e / e.norm())
             .norm()
             .min((told + e / e.norm()).norm());
@@ -126,7 +122,8 @@ fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
         let homography = two_view(&files, &file, "homography");
         assert_eq!(homography["configuration"], "planar");
         // Both are of the one plane.
-        let [one, other] = [&found, &homography].map(|found| common::matrix(&found["model"]));
+        let [one, other] =
+            [&found, &homography].map(|found| crate::common::matrix(&found["model"]));
         let off = (one - other).norm().min((one + other).norm());
         assert!(off < 0.02, "{kind:?}: {off}");
 

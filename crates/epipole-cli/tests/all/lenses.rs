@@ -1,11 +1,7 @@
 //! Photographs through a fisheye, from pixels to a model with its lens.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::lens::photographs;
-use common::{Folder, epipole, fails, json, motion, numbers, parse, path};
+use crate::common::lens::photographs;
+use crate::common::{Folder, epipole, fails, json, motion, numbers, parse, path};
 use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform, look_at};
 use epipole::sfm::{AlignmentKind, align_points};
 use nalgebra::{Point3, Vector3};

@@ -1,11 +1,7 @@
 //! `epipole odometry` on rendered frames whose cameras are known.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::lens;
-use common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
+use crate::common::lens;
+use crate::common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
 use epipole::camera::{LensKind, PosedCamera, RigidTransform, look_at};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;

@@ -1,10 +1,6 @@
 //! `epipole ba` and `posegraph` on problems whose optimum is known.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, fails, json, numbers, path};
+use crate::common::{Folder, fails, json, numbers, path};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::sfm::{BalCamera, BalProblem, BundleObservation};

@@ -1,11 +1,9 @@
 //! `epipole two-view` and `fit` where a pair is special: photographs of different shapes, cameras that only
 //! turned, searches that ended early.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, angle_deg, epipole, fails, json, k, motion, moved, numbers, parse, path};
+use crate::common::{
+    Folder, angle_deg, epipole, fails, json, k, motion, moved, numbers, parse, path,
+};
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use nalgebra::{Point2, Point3, Vector3};

@@ -1,10 +1,6 @@
 //! What commands do with photographs before they look at them: reduced, turned, freed of a lens, chosen from a video.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, epipole, exif, fails, json, moved, numbers, path};
+use crate::common::{Folder, epipole, exif, fails, json, moved, numbers, path};
 use epipole::camera::RigidTransform;
 use image::{RgbImage, imageops};
 use nalgebra::Vector3;

@@ -1,10 +1,6 @@
 //! `epipole sfm` on photographs of which it is known where they were taken, and on lenses that are not alike.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, exif, fails, json, motion, moved, path};
+use crate::common::{Folder, exif, fails, json, motion, moved, path};
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::{Geodetic, local_from_geodetic};
 use nalgebra::{Point3, Vector3};

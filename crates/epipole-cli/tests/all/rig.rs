@@ -1,11 +1,7 @@
 //! `epipole rectify --rig`: photographs of a calibrated stereo rig.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::lens::{self, KINDS, SIZE, camera_json, wall_photograph};
-use common::{Folder, epipole, fails, json, numbers, parse, path};
+use crate::common::lens::{self, KINDS, SIZE, camera_json, wall_photograph};
+use crate::common::{Folder, epipole, fails, json, numbers, parse, path};
 use epipole::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use serde_json::{Value, json};

@@ -1,10 +1,6 @@
 //! `epipole sfm` on rendered photographs whose cameras are known.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{Folder, fails, json, k, motion, moved, numbers, path};
+use crate::common::{Folder, fails, json, k, motion, moved, numbers, path};
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
 use nalgebra::{Point3, Vector3};

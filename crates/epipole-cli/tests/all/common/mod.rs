@@ -1,11 +1,5 @@
 //! What the tests of the command line share: folders, rendered photographs, runs of the binary.
 
-#![allow(
-    dead_code,
-    reason = "every test file is a program of its own and uses a part of this"
-)]
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
 pub(crate) mod exif;
 pub(crate) mod lens;
 
@@ -16,13 +10,21 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Number of folders that this process has made.
+static NUM_FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
 /// A folder for one test's files, removed with it.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
     pub(crate) fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("epipole-{name}-{}", std::process::id()));
+        let (process, n) = (
+            std::process::id(),
+            NUM_FOLDERS.fetch_add(1, Ordering::Relaxed),
+        );
+        let path = std::env::temp_dir().join(format!("epipole-{name}-{process}-{n}"));
         std::fs::create_dir_all(&path).unwrap();
         Self(path)
     }

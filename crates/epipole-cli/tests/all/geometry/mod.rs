@@ -1,14 +1,10 @@
 //! `epipole fit`, `two-view` and `rectify` against known geometry.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod fit;
 mod fit_options;
 mod photographs;
 
-use common::{
+use crate::common::{
     Folder, angle_deg, epipole, fails, json, k, matrix, motion, moved, numbers, parse, path,
 };
 use epipole::camera::{PosedCamera, RigidTransform};
