@@ -1,10 +1,6 @@
 //! Files that cannot be read: the Lab says so in words, and goes on with the others.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{finish, jpeg, png, sentences};
+use crate::common::{finish, jpeg, png, sentences};
 use epipole_lab::project::{Event, Project};
 use epipole_lab::tasks::Blob;
 use image::RgbImage;

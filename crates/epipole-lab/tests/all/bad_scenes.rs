@@ -1,10 +1,6 @@
 //! Photographs from which no scene can be made: the Lab says which, why, and what would help.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{finish, sentences, solved, steps_between};
+use crate::common::{finish, sentences, solved, steps_between};
 use epipole_lab::project::{Event, Fate, Project, Step};
 use epipole_lab::tasks::Sample;
 

@@ -1,11 +1,8 @@
 //! Results that come with a project, or with the sample: they are taken where they fit, and computed where they do not.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(feature = "compute")]
 
-mod common;
-
-use common::{finish, reopened, solved};
+use crate::common::{finish, reopened, solved};
 use epipole_lab::project::{About, COMPUTED_BY, Computed, Event, Project, Step, Task};
 use epipole_lab::tasks::{Answer, Blob, Sample};
 

@@ -1,11 +1,7 @@
 //! A camera from photographs of a board: the core's own, used for photographs of its size, and told in words where
 //! nothing comes of it.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{finish, jpeg, reopened};
+use crate::common::{finish, jpeg, reopened};
 use epipole::calibration::{
     Board, BoardView, CalibrationOptions, Keep, Pattern, Undistortion, calibrate, find_board,
     photograph_of_board,

@@ -1,10 +1,6 @@
 //! Whatever a reader does, in whatever order, the project stays sound, and undo brings everything back.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::answer;
+use crate::common::answer;
 use epipole_lab::project::{Anchor, Event, Measure, Project, Settings, Step};
 use epipole_lab::tasks::{Answer, Blob, Request, Sample};
 use proptest::prelude::*;

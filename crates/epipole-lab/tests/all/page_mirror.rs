@@ -1,9 +1,7 @@
 //! What assistive technology does to a widget of the page reaches it. The file under test belongs to the page, but asks
 //! nothing of a browser.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-#[path = "../src/web/mirror.rs"]
+#[path = "../../src/web/mirror.rs"]
 mod mirror;
 
 use egui::{Context, RawInput};

@@ -1,13 +1,10 @@
 //! What every step looks like, on a desktop and on a phone, light and dark: no control is cut off or covered by another
 //! one, no text is too pale, and pictures are there. `EPIPOLE_PICTURES=FOLDER` writes them.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(all(feature = "panels", feature = "compute"))]
 
-mod common;
-
-use common::desk::{Bench, rest};
-use common::raster::open;
+use crate::common::desk::{Bench, rest};
+use crate::common::raster::open;
 use egui::Rect;
 use egui_kittest::kittest::{NodeT, Queryable};
 use epipole_lab::panels::wear;
@@ -129,7 +126,7 @@ fn triangles_are_filled_once_and_to_the_last_pixel() {
     let square = Rect::from_min_max(egui::pos2(5.0, 4.0), egui::pos2(35.0, 26.0));
     let mut mesh = egui::Mesh::default();
     mesh.add_colored_rect(square, egui::Color32::from_black_alpha(128));
-    let picture = common::raster::of(&mesh, 40, 30);
+    let picture = crate::common::raster::of(&mesh, 40, 30);
     for (u, v, pixel) in picture.enumerate_pixels() {
         let inside = (5..35).contains(&u) && (4..26).contains(&v);
         let expected = if inside { 127 } else { 255 };

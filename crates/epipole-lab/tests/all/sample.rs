@@ -1,13 +1,9 @@
 //! The whole line, from photographs to files, on the sample; and that it is the core's own.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::depth::every_pixel_has_its_depth;
-use common::growing::it_grows_as_one_watches;
-use common::measured::{a_known_length_sets_the_scale, three_points_set_the_floor};
-use common::{exported, finish, sentences, solved, steps_between};
+use crate::common::depth::every_pixel_has_its_depth;
+use crate::common::growing::it_grows_as_one_watches;
+use crate::common::measured::{a_known_length_sets_the_scale, three_points_set_the_floor};
+use crate::common::{exported, finish, sentences, solved, steps_between};
 use epipole::camera::Intrinsics;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal};

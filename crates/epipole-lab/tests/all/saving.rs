@@ -1,10 +1,6 @@
 //! A project that is saved, and opened again.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
-
-use common::{png, reopened};
+use crate::common::{png, reopened};
 use epipole_lab::project::{Event, Project, RefineFocal};
 use epipole_lab::tasks::{Sample, Source};
 

@@ -1,9 +1,6 @@
 //! What takes long ends when it is told to, rather than running on for nobody.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(feature = "compute")]
-
-mod common;
 
 use epipole_lab::project::{About, Event, Project, Step};
 use epipole_lab::tasks::{Blob, Request, Sample, compute};
@@ -80,7 +77,7 @@ fn a_pair_and_a_file_are_asked_about_more_than_once_and_end_at_the_first_no() {
     });
     project.update(Event::Add(vec![(
         "file.jpg".to_owned(),
-        common::jpeg(&image, 1),
+        crate::common::jpeg(&image, 1),
     )]));
     let task = project.wanted()[0].clone();
     let file = project.request(&task).unwrap();

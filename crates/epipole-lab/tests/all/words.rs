@@ -1,11 +1,8 @@
 //! What is said of photographs of which nothing comes: once, and what would help.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(feature = "compute")]
 
-mod common;
-
-use common::{finish, solved};
+use crate::common::{finish, solved};
 use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::{Blob, Sample};
 

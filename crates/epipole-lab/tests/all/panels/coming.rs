@@ -1,7 +1,6 @@
 //! What comes from the place where the Lab runs: videos, the solved sample, and that computing broke down.
 
-use super::common;
-use common::desk::{Bench, click, open, rest};
+use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::panels::Arrival;
 
@@ -99,11 +98,13 @@ fn what_broke_down_is_told_and_tried_again() {
 #[test]
 fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
     use epipole_lab::tasks::Sample;
-    let computed = common::solved(Sample::Table).light_computed().to_bytes();
+    let computed = crate::common::solved(Sample::Table)
+        .light_computed()
+        .to_bytes();
     // Only photographs are rendered, or there is more to do.
     for (bytes, is_solved) in [(computed, true), (Vec::new(), false)] {
-        let mut bench = common::desk::open_with(
-            common::desk::Desk {
+        let mut bench = crate::common::desk::open_with(
+            crate::common::desk::Desk {
                 brings_sample: true,
                 ..Default::default()
             },

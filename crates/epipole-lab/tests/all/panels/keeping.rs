@@ -1,6 +1,6 @@
 //! A project that is kept where the Lab runs, by choice.
 
-use super::common::desk::{Bench, click, open, rest};
+use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::panels::{Arrival, Host, Kept};
 use epipole_lab::project::Step;

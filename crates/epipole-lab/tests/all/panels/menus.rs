@@ -1,6 +1,6 @@
 //! Menus and lists, by every way to choose.
 
-use super::common::desk::{Bench, open};
+use crate::common::desk::{Bench, open};
 use egui::accesskit::Role;
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};

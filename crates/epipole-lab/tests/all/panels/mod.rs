@@ -1,16 +1,12 @@
 //! The panels, operated by what they say: labels that a screen reader hears.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(all(feature = "panels", feature = "compute"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 
 mod coming;
 mod keeping;
 mod menus;
 
-use common::desk::{Bench, click, open, rest};
+use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::panels::Arrival;
 use epipole_lab::project::Step;
