@@ -8,7 +8,6 @@ mod common;
 mod depth;
 mod features;
 mod geometry;
-mod interrupt;
 mod known_camera;
 mod lenses;
 mod odometry;

@@ -5,7 +5,13 @@
 //! sentence on standard error that it heard it.
 
 #![cfg(unix)]
-use crate::common::{Folder, command, k, moved, parse, path};
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+#[allow(dead_code, reason = "the other tests use the rest")]
+#[path = "all/common/mod.rs"]
+mod common;
+
+use common::{Folder, command, k, moved, parse, path};
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
