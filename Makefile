@@ -36,8 +36,10 @@ check: setup-build ## format, lints, types, lock files and licenses, without run
 	cd web && npm run --silent check
 	node tests/tools/supply.mjs
 
+# Not the examples, which would be linked one by one: `check` types them, and tests run those of the library.
 test-rust: setup-build ## unit tests, documentation tests, Rust listings, figures, layers
-	cargo test --locked --workspace
+	cargo test --locked --workspace --tests
+	cargo test --locked --workspace --doc
 
 test-listings: setup-test ## the Python listings and the notebooks of the chapters
 	$(PYTHON) tests/listings/run.py

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-#[path = "../../epipole/tests/fuzz_formats/damage.rs"]
+#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
 mod damage;
 
 use crate::commands::sfm::positions;

@@ -1,0 +1,19 @@
+//! Tests of the command line as one program, so that what they share is compiled once.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod basics;
+mod calibrate;
+mod common;
+mod depth;
+mod features;
+mod geometry;
+mod known_camera;
+mod lenses;
+mod odometry;
+mod optimize;
+mod pairs;
+mod photos;
+mod positions;
+mod rig;
+mod sfm;

@@ -1,0 +1,263 @@
+//! `epipole sfm` on rendered photographs whose cameras are known.
+
+use crate::common::{Folder, fails, json, k, motion, moved, numbers, path};
+use epipole::camera::{PosedCamera, RigidTransform};
+use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
+use nalgebra::{Point3, Vector3};
+use serde_json::Value;
+
+const SIZE: (u32, u32) = (400, 300);
+
+/// A camera that goes around the table while it looks at it.
+fn around(n: usize) -> PosedCamera {
+    let angle = 0.1 * (n as f64 - 2.0);
+    // Turns about a point 1.3 m in front of the camera.
+    let pivot = Vector3::new(0.0, 0.0, 1.3);
+    let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+    let shift = pivot - turn * pivot;
+    moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
+}
+
+fn centers(cameras: &[PosedCamera]) -> Vec<Point3<f64>> {
+    cameras.iter().map(PosedCamera::center_in_world).collect()
+}
+
+/// Lines that are no comments.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.starts_with('#'))
+}
+
+/// The lens of these photographs is not in their data, and the guess is 4 % off: it is refined, and said.
+#[test]
+fn an_unknown_focal_length_is_refined() {
+    let folder = Folder::new("sfm-focal");
+    let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
+    folder.photographs("photos", &cameras, SIZE);
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let truth = cameras[0].intrinsics.fu_px();
+    let run = |more: &[&str]| {
+        let result = json(&[&["sfm", path(&photos), "-o", path(&out)], more].concat());
+        let found = result["images"][0]["focal_px"].as_f64().unwrap();
+        let refined = result["focal_refined"].as_bool().unwrap();
+        (
+            found,
+            refined,
+            result["mean_reprojection_px"].as_f64().unwrap(),
+        )
+    };
+    let guess = 480.0;
+    let (kept, refined, guessed_px) = run(&["--keep-focal"]);
+    assert!(!refined && (kept - guess).abs() < 1e-9);
+    let (found, refined, refined_px) = run(&[]);
+    println!("truth {truth}: found {found}, {guessed_px} px, then {refined_px} px");
+    assert!(
+        refined && (found / truth - 1.0).abs() < 0.05,
+        "{found} of {truth}"
+    );
+    assert!((found / truth - 1.0).abs() < 0.5 * (guess / truth - 1.0).abs());
+    assert!(refined_px < guessed_px);
+}
+
+/// One set of defaults: `detect` finds, and `match` matches, just what `sfm` does.
+#[test]
+fn commands_find_the_same_features() {
+    let folder = Folder::new("sfm-features");
+    let cameras: Vec<PosedCamera> = (0..2).map(around).collect();
+    folder.photographs("photos", &cameras, SIZE);
+    let files = [0, 1].map(|n| folder.file(&format!("photos/{n}.png")));
+    let options = epipole::sfm::PhotoOptions::default();
+    let features = files.each_ref().map(|file| {
+        let photo = epipole::sfm::Photo {
+            image: image::open(file).unwrap().to_rgb8(),
+            ..epipole::sfm::Photo::default()
+        };
+        epipole::sfm::photo_features(&photo, &options, &mut ()).unwrap()
+    });
+    let places = |rows: &Value| -> Vec<(f64, f64)> {
+        let rows = rows.as_array().unwrap().iter().map(numbers);
+        rows.map(|row| (row[0], row[1])).collect()
+    };
+    let found = json(&["detect", path(&files[0])]);
+    let expected: Vec<_> = (features[0].keypoints.iter()).map(|k| (k.u, k.v)).collect();
+    assert!(expected.len() > 100);
+    assert_eq!(places(&found["keypoints"]), expected);
+    let matched = json(&["match", path(&files[0]), path(&files[1])]);
+    let expected = epipole::sfm::match_pair(&features[0], &features[1], &options, &mut ()).unwrap();
+    let expected: Vec<_> = (expected.iter())
+        .map(|found| (found.index1 as f64, found.index2 as f64))
+        .collect();
+    assert!(expected.len() > 50);
+    assert_eq!(places(&matched["matches"]), expected);
+}
+
+/// What the command line says of features, matches and the reconstruction reaches it.
+#[test]
+fn every_step_of_a_reconstruction_can_be_set() {
+    let folder = Folder::new("sfm-set");
+    let cameras: Vec<PosedCamera> = (0..3).map(around).collect();
+    folder.photographs("photos", &cameras, SIZE);
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let k = k(&cameras[0]);
+    let run = |more: &[&str]| {
+        let arguments = ["sfm", path(&photos), "--k", &k, "-o", path(&out)];
+        json(&[&arguments[..], more].concat())["num_points"]
+            .as_u64()
+            .unwrap()
+    };
+    let default = run(&[]);
+    for fewer in [
+        &["--features", "orb", "--max-features", "500"][..],
+        &["--max-features", "300"],
+        &["--contrast-threshold", "0.06"],
+        &["--ratio", "0.6"],
+        &["--max-error-px", "0.2"],
+        &["--min-angle-deg", "8"],
+        &["--max-reprojection-error-px", "0.3"],
+        &["--neighbors", "1"],
+    ] {
+        let count = run(fewer);
+        assert!(
+            count < default && count > 10,
+            "{fewer:?}: {count} of {default}"
+        );
+    }
+    // Other ways to find the pairs' geometry find it, too.
+    for other in [
+        &["--max-error-px", "auto"][..],
+        &["--sampler", "prosac"],
+        &["--score", "inliers"],
+        &["--budget", "with-replacement", "--confidence", "0.9"],
+        &["--min-iterations", "1000", "--inner-iterations", "8"],
+        &["--local-optimization=false", "--max-iterations", "5000"],
+    ] {
+        let count = run(other);
+        assert!(2 * count > default, "{other:?}: {count} of {default}");
+    }
+    std::fs::remove_dir_all(&out).unwrap();
+    let arguments = ["sfm", path(&photos), "--k", &k, "-o", path(&out)];
+    let many = [&arguments[..], &["--min-inliers", "100000"]].concat();
+    fails(&folder, &many, 1, "no two photographs");
+    let wrong = [&arguments[..], &["--min-angle-deg", "0"]].concat();
+    fails(&folder, &wrong, 2, "--min-angle-deg");
+}
+
+#[test]
+fn photographs_become_cameras_and_points() {
+    let folder = Folder::new("sfm");
+    let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
+    folder.photographs("photos", &cameras, SIZE);
+    // What is no photograph is passed over.
+    folder.write("photos/notes.txt", "not a photograph");
+    let (photos, out) = (folder.file("photos"), folder.file("out"));
+    let result = json(&[
+        "sfm",
+        path(&photos),
+        "--k",
+        &k(&cameras[0]),
+        "-o",
+        path(&out),
+    ]);
+    assert_eq!(
+        (&result["num_registered"], &result["num_images"]),
+        (&5.into(), &5.into())
+    );
+    assert_eq!(result["complete"], true);
+    assert!(result["mean_reprojection_px"].as_f64().unwrap() < 0.7);
+    let images = result["images"].as_array().unwrap();
+    let mut found = Vec::new();
+    for (n, image) in images.iter().enumerate() {
+        assert_eq!(image["name"], format!("{n}.png"));
+        let cam_from_world = motion(&image["cam_from_world"]);
+        found.push(Point3::from(cam_from_world.inverse().translation.vector));
+    }
+    let kind = AlignmentKind::Similarity;
+    let (errors, _) = absolute_trajectory_error(&found, &centers(&cameras), kind).unwrap();
+    // The cameras go half a meter.
+    assert!(errors.max < 0.005, "{errors:?}");
+
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let camera = read("cameras.txt");
+    let words: Vec<&str> = lines(&camera).next().unwrap().split(' ').collect();
+    assert_eq!(words[2..4], ["400", "300"]);
+    // The format has pixel centers at halves, we at integers.
+    let center: Vec<f64> = words[words.len() - 2..]
+        .iter()
+        .map(|w| w.parse().unwrap())
+        .collect();
+    let ours = cameras[0].intrinsics.principal_point();
+    let names: Vec<String> = lines(&read("images.txt"))
+        .step_by(2)
+        .map(|line| line.split(' ').nth(9).unwrap().to_owned())
+        .collect();
+    assert_eq!(names, ["0.png", "1.png", "2.png", "3.png", "4.png"]);
+    if words[1] == "PINHOLE" {
+        assert!((center[0] - ours.x - 0.5).abs() < 1e-9 && (center[1] - ours.y - 0.5).abs() < 1e-9);
+    }
+    let points = lines(&read("points3D.txt")).count();
+    assert_eq!(result["num_points"].as_u64(), Some(points as u64));
+    assert!(points > 200, "{points}");
+    let ply = std::fs::read(out.join("points.ply")).unwrap();
+    let header = format!("element vertex {points}\n");
+    assert!(ply.windows(header.len()).any(|w| w == header.as_bytes()));
+    assert_eq!(
+        std::fs::read_dir(&out).unwrap().count(),
+        4,
+        "no part is left behind"
+    );
+}
+
+#[test]
+fn photographs_that_do_not_fit_together_are_refused() {
+    let folder = Folder::new("sfm-bad");
+    folder.photographs("photos", &[around(0)], SIZE);
+    std::fs::create_dir(folder.file("empty")).unwrap();
+    let photo = folder.file("photos/0.png");
+    let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
+    folder.photograph("back.png", &moved(SIZE, &back), SIZE);
+    let (out, back) = (folder.file("out"), folder.file("back.png"));
+    let blank = [
+        folder.blank("blank1.png", SIZE),
+        folder.blank("blank2.png", SIZE),
+    ];
+    let sfm = |files: &[&str]| {
+        let options = ["--focal-px", "500", "-o", path(&out)];
+        [&["sfm"], files, &options]
+            .concat()
+            .into_iter()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    let empty = folder.file("empty");
+    let missing = folder.file("missing.png");
+    for (files, expected) in [
+        (vec![path(&photo)], "needs at least 2, but there is only 1"),
+        (
+            vec![path(&photo), path(&back)],
+            "no two photographs show enough of the same thing",
+        ),
+        (
+            vec![path(&blank[0]), path(&blank[1])],
+            "no two photographs show enough of the same thing; blank1.png: it has only 0 features",
+        ),
+        (
+            vec![path(&photo), path(&photo)],
+            "no two photographs can begin a reconstruction; 0.png: it was taken from nearly the same place",
+        ),
+        (
+            vec![path(&empty)],
+            "there are no photographs in this folder",
+        ),
+        (
+            vec![path(&photo), path(&missing)],
+            "missing.png: there is no such file",
+        ),
+    ] {
+        let arguments = sfm(&files);
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        fails(&folder, &arguments, 1, expected);
+    }
+    fails(&folder, &["sfm", "-o", path(&out)], 2, "required");
+    fails(&folder, &["sfm", path(&photo)], 2, "--output");
+    let wrong = ["sfm", path(&photo), "-o", path(&out), "--focal-px", "-3"];
+    fails(&folder, &wrong, 2, "-3");
+}

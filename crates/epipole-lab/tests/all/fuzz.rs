@@ -1,0 +1,161 @@
+//! Whatever a reader does, in whatever order, the project stays sound, and undo brings everything back.
+
+use crate::common::answer;
+use epipole_lab::project::{Anchor, Event, Measure, Project, Settings, Step};
+use epipole_lab::tasks::{Answer, Blob, Request, Sample};
+use proptest::prelude::*;
+
+fn length() -> impl Strategy<Value = Option<f64>> {
+    prop_oneof![
+        Just(None),
+        any::<f64>().prop_map(Some),
+        (0.1..10.0).prop_map(Some)
+    ]
+}
+
+fn settings() -> impl Strategy<Value = Settings> {
+    (
+        any::<f64>(),
+        any::<u32>(),
+        any::<f32>(),
+        any::<f64>(),
+        any::<u32>(),
+    )
+        .prop_map(|(megapixels, features, ratio, error, enough)| {
+            let mut settings = Settings {
+                max_megapixels: megapixels,
+                ..Settings::default()
+            };
+            settings.features.max_features = features;
+            settings.features.contrast = ratio;
+            settings.matching.ratio = ratio;
+            settings.pairs.max_error_px = error;
+            settings.sfm.min_num_inliers = enough;
+            settings.calibration.board.columns = features;
+            settings.calibration.board.rows = enough;
+            settings.calibration.square_m = error;
+            settings.depth.range_px =
+                (features % 2 == 0).then_some([features as i32, enough as i32]);
+            settings
+        })
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    let id = 0..14_u32;
+    let anchor = || (0..14_u32, 0..9_u32).prop_map(|(photo, keypoint)| Anchor { photo, keypoint });
+    prop_oneof![
+        ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(name, bytes)| Event::Add(vec![(name, Blob::from(bytes))])),
+        ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(name, bytes)| Event::Begin(vec![(name, Blob::from(bytes))])),
+        prop::option::of([anchor(), anchor(), anchor()]).prop_map(Event::Floor),
+        (0..Sample::ALL.len()).prop_map(|n| Event::OpenSample(Sample::ALL[n])),
+        id.clone().prop_map(Event::Remove),
+        Just(Event::Clear),
+        ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
+            .prop_map(|(name, bytes)| Event::AddBoards(vec![(name, Blob::from(bytes))])),
+        Just(Event::OpenBoards),
+        Just(Event::ClearBoards),
+        any::<bool>().prop_map(Event::UseCalibration),
+        (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
+        (id.clone(), length()).prop_map(|(id, f)| Event::Focal(id, f)),
+        id.clone().prop_map(Event::Earlier),
+        settings().prop_map(Event::Set),
+        (anchor(), anchor(), length()).prop_map(|(a, b, length_m)| Event::Measure(Measure {
+            ends: [a, b],
+            length_m
+        })),
+        (0..4_usize, length()).prop_map(|(n, m)| Event::Length(n, m)),
+        (0..4_usize).prop_map(Event::Forget),
+        (id.clone(), id.clone(), any::<bool>())
+            .prop_map(|(a, b, is_part)| Event::Dense(a, b, is_part)),
+        Just(Event::Undo),
+        Just(Event::Redo),
+        (0..9_usize).prop_map(|n| Event::Show(Step::ALL[n])),
+        id.clone().prop_map(Event::Look),
+        (id.clone(), id).prop_map(|(a, b)| Event::LookAtPair(a, b)),
+        any::<usize>().prop_map(Event::LookAtComponent),
+        any::<bool>().prop_map(Event::Pause),
+        Just(Event::TryAgain),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn events_in_any_order(events in prop::collection::vec(event(), 0..40)) {
+        let mut project = Project::default();
+        for event in events {
+            project.update(event);
+            let document = project.document();
+            let names: std::collections::BTreeSet<_> = document.photos.iter().map(|p| &p.name).collect();
+            prop_assert_eq!(names.len(), document.photos.len());
+            prop_assert_eq!(document.settings.clone().checked(), document.settings.clone());
+            prop_assert!(!project.describe().is_empty());
+            prop_assert!(!project.describe().contains("NaN"));
+            for photo in &document.photos {
+                prop_assert!(!project.fate_words(photo).is_empty());
+            }
+            for photo in &document.boards {
+                prop_assert!(!project.board_words(photo).is_empty());
+            }
+            let names: std::collections::BTreeSet<_> = document.boards.iter().map(|p| &p.name).collect();
+            prop_assert_eq!(names.len(), document.boards.len());
+            for task in project.wanted() {
+                prop_assert!(project.request(&task).is_some());
+            }
+        }
+        let last = project.document().clone();
+        let mut undone = 0;
+        while project.can_undo() {
+            project.update(Event::Undo);
+            undone += 1;
+        }
+        let document = project.document();
+        prop_assert!(document.photos.is_empty() && document.boards.is_empty() || undone >= 200);
+        for _ in 0..undone {
+            project.update(Event::Redo);
+        }
+        prop_assert_eq!(project.document(), &last);
+    }
+
+    #[test]
+    fn what_is_saved_opens_as_the_same(events in prop::collection::vec(event(), 0..30)) {
+        let mut project = Project::default();
+        for event in events {
+            project.update(event);
+        }
+        let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
+            return Err(TestCaseError::fail("it cannot be saved"));
+        };
+        let Ok(Answer::Opened { project: saved, files, .. }) = answer(&Request::Open { archive }) else {
+            return Err(TestCaseError::fail("it cannot be opened"));
+        };
+        let mut again = Project::default();
+        again.update(Event::OpenProject(Box::new(saved), files));
+        let (a, b) = (project.document(), again.document());
+        prop_assert_eq!(&a.settings, &b.settings);
+        prop_assert_eq!(a.measures.len(), b.measures.len());
+        let plain = |p: &epipole_lab::project::Given| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px);
+        let photos = |d: &epipole_lab::project::Document| d.photos.iter().map(plain).collect::<Vec<_>>();
+        prop_assert_eq!(photos(a), photos(b));
+        let boards = |d: &epipole_lab::project::Document| d.boards.iter().map(plain).collect::<Vec<_>>();
+        prop_assert_eq!(boards(a), boards(b));
+        prop_assert_eq!(a.dense.len(), b.dense.len());
+    }
+
+    #[test]
+    fn bytes_that_are_no_request_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        // Whatever they happen to mean, there is an answer or a sentence.
+        let result = epipole_lab::tasks::compute(&bytes, &mut |_| std::ops::ControlFlow::Continue(()));
+        if let Err(sentence) = result {
+            prop_assert!(!sentence.is_empty());
+        }
+        let mut project = Project::default();
+        project.update(Event::OpenSample(Sample::Alone));
+        let task = project.wanted()[0].clone();
+        project.done(task.key, Ok(bytes));
+        prop_assert!(!project.describe().is_empty());
+    }
+}

@@ -1,0 +1,19 @@
+//! Tests of the Lab as one program, so that the core and the toolkit are linked once.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bad_files;
+mod bad_scenes;
+mod brought;
+mod calibrate;
+mod fuzz;
+mod page_mirror;
+mod panels;
+mod pictures;
+mod sample;
+mod saving;
+mod stop;
+mod words;

@@ -1,0 +1,135 @@
+//! What every step looks like, on a desktop and on a phone, light and dark: no control is cut off or covered by another
+//! one, no text is too pale, and pictures are there. `EPIPOLE_PICTURES=FOLDER` writes them.
+
+#![cfg(all(feature = "panels", feature = "compute"))]
+
+use crate::common::desk::{Bench, rest};
+use crate::common::raster::open;
+use egui::Rect;
+use egui_kittest::kittest::{NodeT, Queryable};
+use epipole_lab::panels::wear;
+use epipole_lab::project::Step;
+use image::RgbImage;
+use std::collections::BTreeSet;
+
+/// Everything that can be pressed or turned, with its name and its place.
+fn controls(bench: &Bench<'_>) -> Vec<(String, Rect)> {
+    use egui::accesskit::Role;
+    let is_control = |role| {
+        matches!(
+            role,
+            Role::Button
+                | Role::CheckBox
+                | Role::RadioButton
+                | Role::Slider
+                | Role::SpinButton
+                | Role::ComboBox
+                | Role::Link
+        )
+    };
+    let nodes = bench.query_all_by(move |node| is_control(node.role()));
+    nodes
+        .map(|node| {
+            let name = node.accesskit_node().label().unwrap_or_default();
+            (name, node.rect())
+        })
+        .collect()
+}
+
+/// No two controls cover each other by more than a hair, and none reaches beyond the left or right of the screen: what is
+/// below can be scrolled to.
+fn check_places(bench: &Bench<'_>, what: &str, width: f32) {
+    let mut all = controls(bench);
+    // Small photographs are under the panel of knobs where they scroll away.
+    let is_card = |name: &str| name.starts_with("table-") || name.starts_with("board-");
+    all.retain(|(name, _)| !is_card(name));
+    assert!(all.len() > 8, "{what}: {all:?}");
+    let mut in_row = false;
+    for (name, place) in &all {
+        // On a phone the steps are one row that scrolls.
+        let is_step = Step::ALL.iter().any(|step| step.title() == name);
+        in_row |= is_step;
+        if !is_step {
+            let inside = place.left() >= -0.5 && place.right() <= width + 0.5;
+            assert!(inside, "{what}: {name} reaches from {place}");
+        }
+    }
+    assert!(in_row);
+    for (n, (name, place)) in all.iter().enumerate() {
+        for (other, theirs) in &all[n + 1..] {
+            let common = place.shrink(1.0).intersect(theirs.shrink(1.0));
+            // A slider holds the field that shows its number.
+            let is_one = name == other || name.is_empty() || other.is_empty();
+            assert!(
+                is_one || !common.is_positive(),
+                "{what}: {name} {place} covers {other} {theirs}"
+            );
+        }
+    }
+}
+
+/// How many colors there are in the left half of the space for pictures.
+fn num_colors(picture: &RgbImage) -> usize {
+    let colors: BTreeSet<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
+    colors.len()
+}
+
+fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
+    let (mut bench, raster) = open(width, height, scale);
+    rest(&mut bench);
+    for theme in ["light", "dark"] {
+        wear(&bench.ctx, theme);
+        for step in Step::ALL {
+            let name = format!("{screen}-{theme}-{}", step.name());
+            // One that is out of sight is pressed, too.
+            let button = bench.get_all_by_label(step.title()).next().unwrap();
+            button.click_accesskit();
+            bench.run_steps(3);
+            if step == Step::Calibrate && bench.query_by_label("Open the sample").is_some() {
+                bench.get_by_label("Open the sample").click();
+                bench.run_steps(3);
+            }
+            rest(&mut bench);
+            let picture = raster.picture(&bench);
+            save(&picture, &name);
+            check_places(&bench, &name, width);
+            assert!(
+                num_colors(&picture) > 500,
+                "{name}: {}",
+                num_colors(&picture)
+            );
+        }
+    }
+}
+
+fn save(picture: &RgbImage, name: &str) {
+    if let Some(folder) = std::env::var_os("EPIPOLE_PICTURES") {
+        let folder = std::path::PathBuf::from(folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        picture.save(folder.join(format!("{name}.png"))).unwrap();
+    }
+}
+
+#[test]
+fn on_a_desktop() {
+    go_through(1280.0, 720.0, 1.0, "desktop");
+}
+
+#[test]
+fn on_a_phone() {
+    go_through(390.0, 760.0, 2.0, "phone");
+}
+
+#[test]
+fn triangles_are_filled_once_and_to_the_last_pixel() {
+    // Two triangles make a square, half transparent: no seam between them, nothing beyond it.
+    let square = Rect::from_min_max(egui::pos2(5.0, 4.0), egui::pos2(35.0, 26.0));
+    let mut mesh = egui::Mesh::default();
+    mesh.add_colored_rect(square, egui::Color32::from_black_alpha(128));
+    let picture = crate::common::raster::of(&mesh, 40, 30);
+    for (u, v, pixel) in picture.enumerate_pixels() {
+        let inside = (5..35).contains(&u) && (4..26).contains(&v);
+        let expected = if inside { 127 } else { 255 };
+        assert_eq!(pixel.0, [expected; 3], "({u}, {v})");
+    }
+}

@@ -1,0 +1,98 @@
+//! Whatever stands in a file: an answer or an error, never a panic, and nothing in the answer that is no number.
+//!
+//! Each format starts from files that are right and damages them. A thousand cases a format run with the tests;
+//! `EPIPOLE_FUZZ_CASES=1000000 cargo test --release -p epipole --test all fuzz_formats` runs a million.
+
+mod damage;
+mod pictures;
+mod written;
+
+use damage::{config, damage_bytes, damage_text, some_damage};
+use epipole::Error;
+use epipole::optim::{LmOptions, RobustLoss};
+use epipole::sfm::{BalProblem, PoseGraph, adjust_bal};
+use epipole::stereo::DisparityImage;
+use proptest::prelude::*;
+
+const BAL: [&str; 2] = [
+    "1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 -10\n",
+    "2 3 5\n0 0 -3.3e1 2.6e2\n0 1 8 9\n1 0 1 -2\n1 1 7.5 0\n1 2 -4 4\n\
+     1e-2 -2e-3 3e-3 0.1 0.2 -1 400 -1e-7 2e-13\n-0.01 0 0 0.5 0 -1 380 0 0\n\
+     0.1 0.2 -5\n-1 0.4 -6\n0.3 -0.2 -4\n",
+];
+
+const G2O: [&str; 3] = [
+    "VERTEX_SE2 5 0 0 0\nVERTEX_SE2 9 1.5 0 0.25\nFIX 5\nEDGE_SE2 5 9 1 0 0 4 0.5 0 3 0 2\n",
+    "# two\n\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 -2\n\
+     EDGE_SE3:QUAT 0 1 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
+    "VERTEX_SIM3:QUAT 0 0 0 0 0 0 0 1 1\nVERTEX_SIM3:QUAT 1 1 0 0 0 0 0 1 2\n\
+     EDGE_SIM3:QUAT 0 1 1 0 0 0 0 0 1 2 1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
+];
+
+/// An error of a text names a line of it.
+fn is_told(error: &Error, text: &str) -> bool {
+    match error {
+        Error::Malformed { line, .. } => *line >= 1 && *line <= text.lines().count().max(1) + 1,
+        Error::TooFew { .. } => true,
+        _ => false,
+    }
+}
+
+#[test]
+fn the_texts_to_damage_are_right() {
+    assert!(BAL.iter().all(|text| BalProblem::parse(text).is_ok()));
+    assert!(G2O.iter().all(|text| PoseGraph::parse_g2o(text).is_ok()));
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn bal(which in 0..BAL.len(), changes in some_damage()) {
+        let text = damage_text(BAL[which], &changes);
+        match BalProblem::parse(&text) {
+            Ok(mut problem) => {
+                prop_assert_eq!(&BalProblem::parse(&problem.to_text()).unwrap(), &problem);
+                let options = LmOptions { max_iterations: 3, ..LmOptions::default() };
+                let solved = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut ());
+                if solved.is_ok() {
+                    // What comes out can be read again: all of it is finite.
+                    prop_assert!(BalProblem::parse(&problem.to_text()).is_ok());
+                }
+            }
+            Err(error) => prop_assert!(is_told(&error, &text), "{} of {:?}", error, text),
+        }
+    }
+
+    #[test]
+    fn g2o(which in 0..G2O.len(), changes in some_damage()) {
+        let text = damage_text(G2O[which], &changes);
+        match PoseGraph::parse_g2o(&text) {
+            Ok(mut graph) => {
+                let again = PoseGraph::parse_g2o(&graph.to_g2o());
+                prop_assert_eq!(again.map(|graph| graph.size()), Ok(graph.size()));
+                let options = LmOptions { max_iterations: 3, ..LmOptions::default() };
+                if graph.optimize(&options, RobustLoss::Trivial, &mut ()).is_ok() {
+                    prop_assert!(PoseGraph::parse_g2o(&graph.to_g2o()).is_ok());
+                }
+            }
+            Err(error) => prop_assert!(is_told(&error, &text), "{} of {:?}", error, text),
+        }
+    }
+
+    #[test]
+    fn pfm(width in 0..5_u32, height in 0..4_u32, changes in some_damage()) {
+        let values: Vec<f32> = (0..width * height).map(|i| i as f32 * 0.75 - 1.0).collect();
+        let right = DisparityImage::from_raw(width, height, values).unwrap().to_pfm();
+        prop_assert!(DisparityImage::from_pfm(&right).is_ok());
+        match DisparityImage::from_pfm(&damage_bytes(&right, &changes)) {
+            Ok(read) => {
+                prop_assert!(read.as_raw().iter().all(|d| d.is_finite() || d.is_nan()));
+                let again = DisparityImage::from_pfm(&read.to_pfm()).unwrap();
+                let bits = |image: &DisparityImage| image.as_raw().iter().map(|d| if d.is_nan() { 0 } else { d.to_bits() }).collect::<Vec<_>>();
+                prop_assert_eq!(bits(&again), bits(&read));
+            }
+            Err(error) => prop_assert!(matches!(error, Error::BadImage { .. }), "{}", error),
+        }
+    }
+}
