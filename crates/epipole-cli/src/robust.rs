@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Progress;
 use clap::{ArgAction, Args, ValueEnum};
+use epipole::Error;
 use epipole::progress::{Monitor, Stage};
 use epipole::robust::{
     Budget, Estimator, Ransac, RansacOptions, RansacReport, SamplerKind, ScoreKind, Step,
@@ -181,16 +182,22 @@ impl RobustArguments {
         }
         let mut run = Ransac::new(estimator, options)?;
         let progress = Progress::new(context, Stage::RobustEstimation.words());
+        let mut is_interrupted = false;
         while let Step::Trial(trial) = run.step() {
             if trial.iteration.is_multiple_of(SAMPLES_PER_LOOK) {
                 progress.set(trial.iteration as f64 / run.expected_iterations() as f64);
             }
             if interrupt::requested() {
+                is_interrupted = true;
                 break;
             }
         }
         drop(progress);
-        let report = run.finish()?;
+        let report = match run.finish() {
+            // No sample has given a model yet.
+            Err(Error::NoConsensus { .. }) if is_interrupted => Err(Error::Canceled),
+            finished => finished,
+        }?;
         self.warn(&report, context);
         Ok(report)
     }

@@ -13,6 +13,7 @@ mod invariance_of_points;
 mod names;
 mod nist_strd;
 mod odometry_real;
+mod options_in_files;
 mod p3p_extremes;
 mod pose_graph_real;
 mod pose_with_focal;
