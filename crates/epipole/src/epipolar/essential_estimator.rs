@@ -4,6 +4,7 @@ use super::RelativePose;
 use super::estimate_fundamental::refuse_collinear;
 use super::five_point::{pose_in_front, solve};
 use super::lens_matches::LensMatches;
+use super::observed_matches::ObservedMatches;
 use super::other_motion::other_motion_of_plane;
 use super::pinhole_matches::PinholeMatches;
 use super::refine_pose::Steps;
@@ -13,7 +14,7 @@ use crate::Error;
 use crate::Result;
 use crate::camera::{Camera, Observation};
 use crate::math::random::Random;
-use crate::robust::{Data, Estimator, Evidence, MatchSet, ObservedMatches, Problem, Support};
+use crate::robust::{Data, Estimator, Evidence, MatchSet, Problem, Support};
 use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).

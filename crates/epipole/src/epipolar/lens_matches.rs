@@ -2,6 +2,7 @@
 
 use super::RelativePose;
 use super::essential::signed_depths;
+use super::observed_matches::ObservedMatches;
 use super::refine::flatten;
 use super::refine_pose::{SampsonErrors, Steps, refine_pose};
 use super::sampson::EntrySums;
@@ -9,7 +10,7 @@ use super::sight::{Candidate, Sight};
 use crate::camera::{Observation, RigidTransform};
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss, Subset};
-use crate::robust::{Data, MatchSet, ObservedMatches, Support};
+use crate::robust::{Data, MatchSet, Support};
 use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
 /// Rays that pass each other by the errors of so many pixels may be parallel.

@@ -23,6 +23,7 @@ pub(crate) mod judge;
 mod lens_matches;
 mod lines;
 mod normalize;
+mod observed_matches;
 mod other_motion;
 mod pinhole_matches;
 mod plane_recovery;
@@ -63,6 +64,7 @@ pub use from_cameras::{
 pub use lens_matches::tangent_sampson_px;
 pub use lines::{epipolar_line1, epipolar_line2};
 pub use normalize::Normalization;
+pub(crate) use observed_matches::ObservedMatches;
 pub use refine::refine_fundamental;
 pub(crate) use refine::scaled as scaled_loss;
 pub use refine_relative_pose::refine_relative_pose;

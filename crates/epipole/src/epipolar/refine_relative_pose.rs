@@ -3,11 +3,12 @@
 use super::RelativePose;
 use super::coordinates::{CommonFrame, Coordinates};
 use super::lens_matches::LensMatches;
+use super::observed_matches::ObservedMatches;
 use super::refine::{NO_ERROR_AT_THE_START, scaled};
 use super::refine_pose::{ErrorsInFrame, RaysInFrame, Steps, refine_pose};
 use crate::camera::Camera;
 use crate::optim::{LmOptions, RobustLoss, Subset};
-use crate::robust::{MatchSet, ObservedMatches};
+use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::Point2;
 

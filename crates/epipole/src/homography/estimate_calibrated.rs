@@ -5,11 +5,10 @@ use super::estimate_homography;
 use crate::Error;
 use crate::Result;
 use crate::camera::{Camera, Observation};
+use crate::epipolar::ObservedMatches;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use crate::progress::Monitor;
-use crate::robust::{
-    Data, Estimator, MatchSet, ObservedMatches, Problem, RansacOptions, RansacReport, ransac,
-};
+use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
 /// Homographies of rays, for RANSAC: four matches a sample, errors in the pixels of image 2.

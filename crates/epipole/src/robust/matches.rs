@@ -64,7 +64,7 @@ impl MatchSet {
     }
 
     /// As [`new`](Self::new), without the matches that are not usable.
-    pub(super) fn of_usable(
+    pub(crate) fn of_usable(
         pixels1: &[Point2<f64>],
         pixels2: &[Point2<f64>],
         is_usable: impl Fn(usize) -> bool,

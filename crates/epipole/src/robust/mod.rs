@@ -21,7 +21,6 @@ mod line;
 mod line_huber;
 mod matches;
 mod noise;
-mod observed_matches;
 mod options;
 mod run;
 mod sampler;
@@ -40,7 +39,6 @@ pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;
 pub use matches::{FARTHEST_PX, MatchSet};
-pub(crate) use observed_matches::ObservedMatches;
 pub use options::{
     Budget, RansacOptions, RansacReport, SamplerKind, ScoreKind, StopReason, ThresholdKind,
 };

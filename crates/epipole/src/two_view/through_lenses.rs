@@ -6,11 +6,11 @@ use super::report::{Configuration, TwoViewModel, TwoViewReport};
 use super::turn::find_explaining_turn;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics, Observation, RigidTransform};
-use crate::epipolar::{estimate_relative_pose, tangent_sampson_px};
+use crate::epipolar::{ObservedMatches, estimate_relative_pose, tangent_sampson_px};
 use crate::homography::{decompose_homography, estimate_homography_calibrated};
 use crate::math::order::at_rank;
 use crate::progress::Monitor;
-use crate::robust::{ObservedMatches, RansacOptions, RansacReport};
+use crate::robust::{RansacOptions, RansacReport};
 use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 
 /// Maximum number of samples of four matches: where a homography explains nearly all, a tenth is plenty.

@@ -6,7 +6,8 @@ use super::pairs::inliers_of;
 use super::rotation::estimate_rotation;
 use super::turn_through_lenses::find_turn_through_lenses;
 use crate::camera::Camera;
-use crate::robust::{ObservedMatches, RansacOptions};
+use crate::epipolar::ObservedMatches;
+use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use nalgebra::Point2;
 

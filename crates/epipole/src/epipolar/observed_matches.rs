@@ -1,8 +1,8 @@
 //! Matches with the rays of both cameras.
 
-use super::MatchSet;
 use crate::Result;
 use crate::camera::{Camera, Observation};
+use crate::robust::MatchSet;
 use nalgebra::Point2;
 
 /// Different matches that both lenses see, and their observations in images 1 and 2, in the order of the set.
