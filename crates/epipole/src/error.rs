@@ -15,7 +15,7 @@ pub enum Error {
         what: &'static str,
         /// The smallest sufficient number.
         needed: usize,
-        /// How many there were.
+        /// Number given.
         got: usize,
     },
     /// A NaN or an infinity among the inputs.
@@ -65,7 +65,7 @@ pub enum Error {
     NoConsensus {
         /// The smallest acceptable number of inliers.
         needed: usize,
-        /// How many data there were.
+        /// Number of data.
         got: usize,
         /// Samples drawn.
         iterations: usize,
@@ -73,7 +73,7 @@ pub enum Error {
     /// Bytes that are no image, or not a whole one.
     #[error("the image cannot be read: {why}")]
     BadImage {
-        /// What is wrong, in words.
+        /// The problem, in words.
         why: String,
     },
     /// An image with more pixels than the caller allows.
@@ -94,7 +94,7 @@ pub enum Error {
         what: &'static str,
         /// The line, counted from 1.
         line: usize,
-        /// What is wrong there.
+        /// The problem there.
         why: String,
     },
 }

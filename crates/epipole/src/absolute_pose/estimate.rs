@@ -26,7 +26,7 @@ pub struct AbsolutePoseEstimator {
     unique: Unique,
 }
 
-/// What the errors are computed from.
+/// Source of the errors.
 #[derive(Debug, Clone)]
 enum Sight {
     Pinhole(Intrinsics),

@@ -1,4 +1,4 @@
-//! Where a camera stands, from points whose places are known.
+//! Pose of a camera from known points.
 
 mod dlt;
 mod estimate;

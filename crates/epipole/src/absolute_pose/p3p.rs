@@ -234,7 +234,7 @@ pub(crate) fn solve(
     count
 }
 
-/// Where a line meets a conic, as far as all three coordinates are positive.
+/// Intersections of a line and a conic with three positive coordinates.
 #[inline]
 fn meet(line: &[f64; 3], conic: &Conic, points: &mut [[f64; 3]; 2]) -> usize {
     // The largest coefficient is eliminated: coordinate k = −(l_i d_i + l_j d_j)/l_k.

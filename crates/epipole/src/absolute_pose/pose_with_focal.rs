@@ -3,7 +3,7 @@
 use crate::camera::RigidTransform;
 use nalgebra::{Matrix3, Vector3};
 
-/// Where a camera is, and its focal length.
+/// Pose and focal length of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AbsolutePoseWithFocal {
     /// The pose.

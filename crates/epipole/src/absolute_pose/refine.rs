@@ -7,7 +7,7 @@ use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset,
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector2, Vector3};
 
-/// How far a point's image is from the pixel where it was seen; infinite behind the camera.
+/// Reprojection error, pixels; infinite behind the camera.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
 ///

@@ -1,4 +1,4 @@
-//! What is wrong with a set of views, though a camera came out of it.
+//! Warnings about a set of views.
 
 use super::calibrated_view::CalibratedView;
 use nalgebra::Vector3;

@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// What is printed on a board.
+/// Pattern of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pattern {
     /// Black and white squares; the marks are the inner corners, where four squares meet.
@@ -77,7 +77,7 @@ impl Board {
         })
     }
 
-    /// What is printed on it.
+    /// Its pattern.
     pub fn pattern(&self) -> Pattern {
         self.pattern
     }
@@ -97,7 +97,7 @@ impl Board {
         self.square_m
     }
 
-    /// How many marks there are.
+    /// Number of marks.
     pub fn num_marks(&self) -> usize {
         self.columns * self.rows
     }
@@ -113,7 +113,7 @@ impl Board {
     }
 }
 
-/// Where the marks of a board are seen in one photograph.
+/// Marks of a board seen in one photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoardView {
     /// For each mark of the board, row by row, its pixel, or `None` where something hides it.
@@ -127,7 +127,7 @@ impl BoardView {
         marks.filter_map(|(mark, pixel)| pixel.map(|pixel| (mark, pixel)))
     }
 
-    /// How many marks are seen.
+    /// Number of marks seen.
     pub fn num_seen(&self) -> usize {
         self.seen().count()
     }

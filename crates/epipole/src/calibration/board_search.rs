@@ -7,10 +7,10 @@ const WHOLE: f64 = 0.8;
 /// So many times the marks are another grid, and not the same one with a stray corner.
 const MORE: f64 = 1.25;
 
-/// What a search for a board came to.
+/// Result of a search for a board.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BoardSearch {
-    /// Where its marks are.
+    /// Its marks.
     Found(BoardView),
     /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is of another size.
     Partial {
@@ -18,7 +18,7 @@ pub enum BoardSearch {
         columns: usize,
         /// Marks along the shorter side.
         rows: usize,
-        /// How many marks were seen.
+        /// Number of marks seen.
         num_seen: usize,
     },
     /// Nothing like it.

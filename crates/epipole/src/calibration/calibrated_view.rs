@@ -2,10 +2,10 @@
 
 use crate::camera::RigidTransform;
 
-/// What was found out about one view.
+/// Calibration result of one view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CalibratedView {
-    /// Where the board was, meters.
+    /// Pose of the board, meters.
     pub cam_from_board: RigidTransform,
     /// Root mean square of its reprojection errors, pixels.
     pub rms_px: f64,

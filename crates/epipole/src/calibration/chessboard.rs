@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 const LEAST_SHARE: f64 = 0.5;
 /// Corners in each of the outermost rows and columns, so that there is no doubt which they are.
 const LEAST_IN_A_LINE: usize = 2;
-/// How far an edge may turn from one corner to the next: the cosine of some 30°.
+/// Maximum turn of an edge from one corner to the next: the cosine of some 30°.
 const ALONG: f64 = 0.87;
 /// Within this share of the distance to the next corner there must be nothing but the four squares.
 const CLEAR: f64 = 0.36;

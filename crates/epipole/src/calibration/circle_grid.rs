@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// Of a grid's disks so many must be found.
 const LEAST_SHARE: f64 = 0.6;
-/// How far a disk may be from where its neighbors predict it, as a share of a step.
+/// Maximum distance of a disk from the prediction of its neighbors, as a share of a step.
 const NEAR: f64 = 0.3;
 /// Disks next to each other have areas that differ by this factor at most.
 const AREAS: core::ops::Range<f64> = 0.4..2.5;

@@ -1,4 +1,4 @@
-//! How much of the image the boards reach.
+//! Share of the image that the boards cover.
 
 use super::BoardView;
 use nalgebra::Point2;

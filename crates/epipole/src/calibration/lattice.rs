@@ -85,7 +85,7 @@ impl Lattice {
         (count > 0.0).then(|| sum / count)
     }
 
-    /// How far a point is from where its row and its column expect it, as a share of a step; the lower median of all
+    /// Distance of a point from the prediction of its row and column, as a share of a step; the lower median of all
     /// that can be said.
     fn strayed(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
         let mut shares = Vec::new();

@@ -8,7 +8,7 @@ use crate::math::Geodetic;
 use image::metadata::Orientation;
 use image::{DynamicImage, RgbImage};
 
-/// What [`prepare_photo`] does to a photograph.
+/// Options of [`prepare_photo`].
 #[derive(Debug, Clone, Copy)]
 pub struct PrepareOptions<'a> {
     /// At most so many pixels are left.
@@ -35,7 +35,7 @@ pub struct PreparedPhoto {
     pub image: RgbImage,
     /// A first guess of the focal length from the EXIF data, pixels of `image`.
     pub focal_px: Option<f64>,
-    /// Where it was taken, from the EXIF data.
+    /// Position of the camera, from the EXIF data.
     pub place: Option<Geodetic>,
     /// K, pixels of `image`, if the distortion of a known lens was removed.
     pub intrinsics: Option<Intrinsics>,

@@ -1,4 +1,4 @@
-//! What the solver sees of a calibration: one camera or two, the board's pose in every view, the pixels.
+//! A calibration as a least-squares problem: one camera or two, the board's pose in every view, the pixels.
 
 use crate::camera::moving_pose::PoseState;
 use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};

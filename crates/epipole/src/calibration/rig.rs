@@ -1,4 +1,4 @@
-//! How two calibrated cameras stand beside each other.
+//! Relative pose of two calibrated cameras.
 
 use super::calibrate::{WHAT, check, marks, observations};
 use super::problem::{Problem, SHARED, State, camera_numbers, pose_state, strict};

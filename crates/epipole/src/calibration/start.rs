@@ -1,4 +1,4 @@
-//! Where a calibration begins.
+//! Initialization of a calibration.
 
 use super::closed_form::{focals_from_planes, intrinsics_from_planes};
 use super::{Board, BoardView};

@@ -125,7 +125,7 @@ pub fn photograph_of_board(
     image
 }
 
-/// Where the marks are seen.
+/// Pixels of the marks.
 #[cfg(test)]
 pub(crate) fn true_view(
     board: &Board,

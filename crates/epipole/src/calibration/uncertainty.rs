@@ -1,4 +1,4 @@
-//! How sure each number is.
+//! Uncertainty of each number.
 
 use super::problem::{Problem, SHARED, State};
 use crate::optim::BundleProblem;

@@ -5,7 +5,7 @@ use crate::stereo::{PixelMap, PixelRect, border_outline, farthest_ray, flat};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
 
-/// What an undistorted photograph keeps.
+/// Area that an undistorted photograph keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Keep {
     /// Only what was photographed: no black borders; something at the edges is lost.

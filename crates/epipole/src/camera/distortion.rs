@@ -65,7 +65,7 @@ impl Distortion {
         *self == Self::NONE
     }
 
-    /// Where the ray through (x, y, 1) is seen, in the same normalized coordinates.
+    /// Distorted position of the ray (x, y, 1), in normalized coordinates.
     ///
     /// ```
     /// use epipole::camera::Distortion;

@@ -25,7 +25,7 @@ impl Division {
         (1.0 - 4.0 * self.k * ray.coords.norm_squared()).sqrt()
     }
 
-    /// Where the ray through (x, y, 1) is seen, in the same normalized coordinates; NaN where it is not.
+    /// Distorted position of the ray (x, y, 1), in normalized coordinates; NaN where it is not seen.
     ///
     /// ```
     /// use epipole::camera::Division;

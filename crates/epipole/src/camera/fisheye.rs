@@ -33,7 +33,7 @@ impl Fisheye {
         )
     }
 
-    /// Where a ray is seen, in units of the focal length; `None` for no ray at all and straight backwards.
+    /// Distorted position of a ray, in units of the focal length; `None` for no ray at all and straight backwards.
     ///
     /// ```
     /// use epipole::camera::Fisheye;

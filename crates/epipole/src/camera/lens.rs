@@ -4,7 +4,7 @@ use super::{Distortion, Division, Fisheye, Intrinsics, LensKind, RationalDistort
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Vector3};
 
-/// What a lens does to rays.
+/// Lens distortion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -26,7 +26,7 @@ const NOT_FINITE: Error = Error::NotFinite {
     what: "every coefficient of the lens distortion",
 };
 
-/// As many coefficients as any model has.
+/// Maximum number of coefficients of a model.
 pub(crate) const MAX_COEFFICIENTS: usize = 8;
 
 impl Lens {
@@ -137,7 +137,7 @@ impl Lens {
         Self::of(self.kind(), numbers)
     }
 
-    /// Where a point of the camera frame is seen, in units of the focal length. `None` for what the lens does
+    /// Distorted position of a point of the camera frame, in units of the focal length. `None` for what the lens does
     /// not see: points behind the camera, except through a fisheye.
     ///
     /// ```

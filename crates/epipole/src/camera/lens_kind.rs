@@ -20,7 +20,7 @@ pub enum LensKind {
 }
 
 impl LensKind {
-    /// How many numbers the model has.
+    /// Number of coefficients of the model.
     pub fn num_coefficients(self) -> usize {
         match self {
             Self::Brown => 5,

@@ -51,7 +51,7 @@ impl Observation {
             })
     }
 
-    /// Where it is seen.
+    /// Its pixel.
     pub fn pixel(&self) -> Point2<f64> {
         self.pixel
     }

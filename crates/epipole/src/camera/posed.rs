@@ -7,7 +7,7 @@ use nalgebra::{Matrix3x4, Point2, Point3, Vector3};
 /// A pinhole camera in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosedCamera {
-    /// How rays become pixels.
+    /// K.
     pub intrinsics: Intrinsics,
     /// `x_in_cam = cam_from_world * x_in_world`.
     pub cam_from_world: RigidTransform,

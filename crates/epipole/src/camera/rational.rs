@@ -41,7 +41,7 @@ impl RationalDistortion {
         (factor, (above_slope - factor * below_slope) / below)
     }
 
-    /// Where the ray through (x, y, 1) is seen, in the same normalized coordinates.
+    /// Distorted position of the ray (x, y, 1), in normalized coordinates.
     ///
     /// ```
     /// use epipole::camera::{Distortion, RationalDistortion};

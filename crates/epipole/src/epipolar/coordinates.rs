@@ -16,7 +16,7 @@ pub(crate) type Lanes = [f64; LANES];
 pub(crate) struct Coordinates {
     groups: Vec<[Lanes; 4]>,
     len: usize,
-    /// How much each match counts; empty if all count alike.
+    /// Weight of each match; empty if all are equal.
     weights: Vec<f64>,
 }
 

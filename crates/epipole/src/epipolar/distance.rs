@@ -1,4 +1,4 @@
-//! How far a match is from an epipolar geometry.
+//! Distances of a match from an epipolar geometry.
 
 use crate::math::scaling::power_of_two;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};

@@ -139,9 +139,9 @@ pub(crate) fn rotations_and_direction(
 pub struct SelectedPose {
     /// The motion with the most points in front; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
-    /// How many points it puts in front of both cameras.
+    /// Number of points in front of both cameras.
     pub num_in_front: usize,
-    /// How many the second best does.
+    /// Number of points that the second best motion puts in front of both cameras.
     pub second_num_in_front: usize,
 }
 

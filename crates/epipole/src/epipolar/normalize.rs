@@ -76,7 +76,7 @@ impl Normalization {
         }
     }
 
-    /// Where a point goes.
+    /// Image of a point.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::from((p - self.centroid) * self.scale)
     }

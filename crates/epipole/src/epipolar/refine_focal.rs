@@ -9,7 +9,7 @@ use crate::camera::cross_matrix;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
-/// How the rays of cameras that share a focal length become coordinates of the common frame.
+/// Map from rays of cameras that share a focal length to coordinates of the common frame.
 #[derive(Debug, Clone)]
 pub(crate) struct FocalCenters {
     /// Coordinates of the frame as pixels about the principal point, of images 1 and 2.

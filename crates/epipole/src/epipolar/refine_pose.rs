@@ -21,7 +21,7 @@ pub(super) trait SampsonErrors {
     fn cost(&self, matrix: &Matrix3<f64>) -> f64;
 }
 
-/// How rays become coordinates of the common frame: `F = A2ᵀ E A1`.
+/// Map from rays to coordinates of the common frame: `F = A2ᵀ E A1`.
 #[derive(Debug, Clone)]
 pub(crate) struct RaysInFrame {
     a1: Matrix3<f64>,

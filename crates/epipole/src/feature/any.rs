@@ -30,7 +30,7 @@ impl AnyDescriptors {
 pub struct AnyFeatures {
     /// Where.
     pub keypoints: Vec<Keypoint>,
-    /// What it looks like there.
+    /// Its descriptor.
     pub descriptors: AnyDescriptors,
 }
 

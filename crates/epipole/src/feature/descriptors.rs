@@ -58,7 +58,7 @@ impl Descriptors {
         })
     }
 
-    /// How many descriptors there are.
+    /// Number of descriptors.
     pub fn len(&self) -> usize {
         let total = match &self.values {
             Values::Bytes(values) => values.len(),

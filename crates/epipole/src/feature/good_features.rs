@@ -5,7 +5,7 @@ use super::{Keypoint, StructureTensorOptions, harris_response, min_eigenvalue_re
 use crate::imaging::GrayImage32;
 use crate::{Error, Result};
 
-/// How much of a corner a pixel is.
+/// Measure of corners.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -34,7 +34,7 @@ pub struct Grid {
     pub rows: usize,
 }
 
-/// What [`good_features_to_track`] looks for.
+/// Options of [`good_features_to_track`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -50,7 +50,7 @@ pub struct GoodFeaturesOptions {
     pub min_distance_px: f64,
     /// The measure.
     pub measure: CornerMeasure,
-    /// How the structure tensor is made.
+    /// Options of the structure tensor.
     pub tensor: StructureTensorOptions,
     /// With a grid and a limit, each cell first gives its share of the strongest; what the poor
     /// cells leave goes to the strongest of the rest.

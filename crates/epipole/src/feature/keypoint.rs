@@ -14,7 +14,7 @@ pub struct Keypoint {
     pub scale_px: f32,
     /// Direction, `atan2(v, u)` with v down, in (−π, π]; 0 for detectors without orientation.
     pub angle_rad: f32,
-    /// How strongly the detector answered; larger is better.
+    /// Response of the detector; larger is better.
     pub response: f32,
     /// Octave of the pyramid, or level, where it was found.
     pub octave: i32,

@@ -1,4 +1,4 @@
-//! What to look for in photographs: the kinds of feature, and the one set of defaults for them.
+//! Kinds of features, and the one set of defaults for them.
 
 use super::{
     CornerMeasure, GoodFeaturesOptions, OrbOptions, SiftNormalization, SiftOptions,
@@ -25,7 +25,7 @@ pub enum FeatureKind {
     Harris,
 }
 
-/// How features of a photograph are found. The default is what every command and
+/// Options of feature detection. The default is what every command and
 /// [`PhotoOptions`](crate::sfm::PhotoOptions) start from; [`MatchOptions`](super::MatchOptions) and
 /// [`RansacOptions`](crate::robust::RansacOptions) are its companions for matches and models.
 ///
@@ -45,7 +45,7 @@ pub struct FeatureOptions {
     pub kind: FeatureKind,
     /// At most so many, the strongest; 0 means no limit. 8192.
     pub max_features: usize,
-    /// How strong a feature must be, for gray values in [0, 1]; `None` for what suits the kind. Of
+    /// Minimum response of a feature, for gray values in [0, 1]; `None` for what suits the kind. Of
     /// SIFT [`SiftOptions::contrast_threshold`], 0.02: faint ones, too. Of ORB
     /// [`OrbOptions::fast_threshold`], 20/255. Of Harris' corners the share of the strongest,
     /// [`GoodFeaturesOptions::quality`], 0.01.
@@ -133,7 +133,7 @@ impl FeatureOptions {
         }
     }
 
-    /// What they are for ORB.
+    /// The options of ORB.
     pub(super) fn orb(&self) -> OrbOptions {
         OrbOptions {
             max_features: match self.max_features {
@@ -148,7 +148,7 @@ impl FeatureOptions {
         }
     }
 
-    /// What they are for Harris' corners.
+    /// The options of Harris' corners.
     pub(super) fn harris(&self) -> GoodFeaturesOptions {
         let default = GoodFeaturesOptions::default();
         GoodFeaturesOptions {

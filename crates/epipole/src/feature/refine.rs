@@ -4,7 +4,7 @@ use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// How [`refine_corners`] searches.
+/// Options of [`refine_corners`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -39,7 +39,7 @@ pub enum Scaling {
     OpenCv,
 }
 
-/// How a structure tensor is made.
+/// Options of a structure tensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -53,7 +53,7 @@ pub struct StructureTensorOptions {
     pub window: Window,
     /// The units.
     pub scaling: Scaling,
-    /// What lies beyond the image; derivatives beyond a constant border count as 0.
+    /// Border of the image; derivatives beyond a constant border count as 0.
     pub border: Border,
 }
 
@@ -70,7 +70,7 @@ impl Default for StructureTensorOptions {
 }
 
 impl StructureTensorOptions {
-    /// What derivatives are multiplied by; `block` as [`window_kernel`] has it.
+    /// Weights of the derivatives; `block` as [`window_kernel`] has it.
     pub(super) fn scale(&self, block: f32) -> f32 {
         match self.scaling {
             Scaling::Textbook => 1.0,

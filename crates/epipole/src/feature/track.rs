@@ -8,7 +8,7 @@ use crate::imaging::{
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// How [`track_lucas_kanade`] searches.
+/// Options of [`track_lucas_kanade`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -49,11 +49,11 @@ impl Default for TrackOptions {
 /// A point that was followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track {
-    /// Where it is in the second image, pixels.
+    /// Position in the second image, pixels.
     pub point: Point2<f64>,
     /// Mean absolute difference of gray values between the two windows.
     pub residual: f32,
-    /// How far from its start the way back ended, pixels; `None` if that was not asked for.
+    /// Distance between its start and the point tracked back, pixels; `None` if that was not asked for.
     pub forward_backward_px: Option<f64>,
 }
 

@@ -208,7 +208,7 @@ impl StructureTensor {
     }
 }
 
-/// How much a window changes under every shift by whole pixels up to a reach.
+/// Change of a window under every shift by whole pixels up to a reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShiftSurface {
     reach: usize,
@@ -232,7 +232,7 @@ impl ShiftSurface {
     }
 }
 
-/// How much a window changes when it is shifted, `E(Δ) = Σ (I(p + Δ) − I(p))²` over the pixels p
+/// Change of a window when it is shifted, `E(Δ) = Σ (I(p + Δ) − I(p))²` over the pixels p
 /// of the window, for every Δ of whole pixels up to a reach.
 ///
 /// * `center`: column and row of the window's middle, within the image

@@ -79,7 +79,7 @@ pub(crate) fn homography_row(which: usize, [u1, v1, u2, v2]: [f64; 4]) -> [f64; 
     }
 }
 
-/// Where H sends a pixel; `None` if that is infinitely far away.
+/// Image of a pixel under H; `None` if that is infinitely far away.
 ///
 /// Source: Hartley & Zisserman 2004, §2.3.
 ///
@@ -121,7 +121,7 @@ pub fn transfer_error_sq(
     }
 }
 
-/// How far H sends a pixel from its match, in image 2: `‖x2 − H x1‖`, pixels.
+/// Transfer error of a match, in image 2: `‖x2 − H x1‖`, pixels.
 ///
 /// Infinite if H sends the pixel infinitely far away.
 ///

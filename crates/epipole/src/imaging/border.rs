@@ -1,4 +1,4 @@
-//! What an image holds beyond its edge.
+//! Values of an image beyond its edge.
 
 use super::GrayImage32;
 

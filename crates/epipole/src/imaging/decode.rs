@@ -10,7 +10,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbImage};
 use std::borrow::Cow;
 use std::io::Cursor;
 
-/// What [`decode_gray`] and [`decode_rgb`] accept.
+/// Options of [`decode_gray`] and [`decode_rgb`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",

@@ -1,4 +1,4 @@
-//! What the camera wrote into the file: a first guess of the focal length, and where it was.
+//! EXIF data: a guess of the focal length, and the position.
 
 use crate::math::Geodetic;
 use exif::{Exif, In, Reader, Tag, Value};
@@ -6,7 +6,7 @@ use exif::{Exif, In, Reader, Tag, Value};
 /// Diagonal of a 36 mm × 24 mm frame, squared, mm².
 const FULL_FRAME_DIAGONAL_SQ: f64 = 36.0 * 36.0 + 24.0 * 24.0;
 
-/// What is in an EXIF block.
+/// Contents of an EXIF block.
 pub(crate) struct Facts(Exif);
 
 impl Facts {

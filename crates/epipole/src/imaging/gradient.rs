@@ -103,7 +103,7 @@ impl DerivativeFilter {
         }
     }
 
-    /// What the filter answers to a ramp that rises by one gray value per pixel.
+    /// Response of the filter to a ramp that rises by one gray value per pixel.
     ///
     /// ```
     /// assert_eq!(epipole::imaging::DerivativeFilter::Sobel3.gain(), 8.0);

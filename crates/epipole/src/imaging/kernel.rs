@@ -39,7 +39,7 @@ impl<'a> Kernel<'a> {
     }
 }
 
-/// Where a row of results goes.
+/// Destination of a row of results.
 pub(crate) enum Row<'a> {
     /// Over what is there.
     Over(&'a mut [f32]),

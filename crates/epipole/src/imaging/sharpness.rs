@@ -1,4 +1,4 @@
-//! How sharp a photograph is, beside others of the same thing.
+//! Sharpness of a photograph, relative to others of the same scene.
 
 use super::{GrayImage32, laplacian_pyramid};
 

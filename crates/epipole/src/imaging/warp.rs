@@ -5,7 +5,7 @@ use super::{Border, GrayImage32, sample_bicubic, sample_bilinear};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Matrix3};
 
-/// How a warp reads between pixels.
+/// Interpolation between pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -20,7 +20,7 @@ pub enum Interpolation {
     Bicubic,
 }
 
-/// Where a warp gets its pixels, and how many.
+/// Options of a warp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -32,9 +32,9 @@ pub struct WarpOptions {
     pub width: u32,
     /// Height of the result, pixels.
     pub height: u32,
-    /// How to read between pixels.
+    /// Interpolation between pixels.
     pub interpolation: Interpolation,
-    /// What lies beyond the image.
+    /// Border of the image.
     pub border: Border,
 }
 

@@ -96,7 +96,7 @@ dispatched! {
     }
 }
 
-/// What a kernel weighs.
+/// Input of a kernel.
 trait Taps<const L: usize> {
     /// L values of tap k, from pixel x on.
     fn at(&self, k: usize, x: usize) -> &[f32; L];

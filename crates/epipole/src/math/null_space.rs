@@ -17,7 +17,7 @@ pub(crate) fn null_space<const K: usize, const N: usize, const D: usize>(
 pub(crate) struct Reflections<const K: usize, const N: usize> {
     vectors: [[f64; N]; K],
     scales: [f64; K],
-    /// How much of each row the rows before it leave: the size of the diagonal of L.
+    /// Part of each row that the rows before it leave: the size of the diagonal of L.
     pub(crate) left: [f64; K],
 }
 

@@ -3,7 +3,7 @@
 use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
 
-/// What the loop needs to know of a problem: linearize, solve, step, measure.
+/// A problem as the loop sees it: linearize, solve, step, measure.
 ///
 /// Implementations keep their matrices between calls, so that a loop allocates nothing after its
 /// first iteration.
@@ -41,7 +41,7 @@ pub(crate) struct Linearization {
 /// A solution of the damped normal equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DampedStep {
-    /// How much the quadratic model says the cost will decrease: `½ δᵀ(λ D δ − Jᵀr)`.
+    /// Decrease of the cost that the quadratic model predicts: `½ δᵀ(λ D δ − Jᵀr)`.
     pub predicted_decrease: f64,
     /// The length of δ.
     pub norm: f64,
@@ -65,7 +65,7 @@ pub struct LmOptions {
     pub cost_tolerance: f64,
     /// The first λ, relative to the diagonal of `JᵀJ`.
     pub initial_damping: f64,
-    /// How many steps in a row may raise the cost before the loop returns to the best place and
+    /// Maximum number of steps in a row that raise the cost before the loop returns to the best place and
     /// tries smaller ones. 0, a cost that never rises, suits most problems; on pose graphs the
     /// full step first bends the trajectory and only the next one stretches it into place.
     pub patience: usize,

@@ -1,4 +1,4 @@
-//! How many samples must be drawn.
+//! Number of samples to draw.
 
 use crate::{Error, Result};
 

@@ -1,4 +1,4 @@
-//! What data without any structure would show.
+//! Support of models among data without structure.
 
 use crate::math::order::at_rank;
 

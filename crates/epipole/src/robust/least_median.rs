@@ -38,7 +38,7 @@ impl Default for LeastMedianOptions {
     }
 }
 
-/// What [`least_median`] has found.
+/// Result of [`least_median`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeastMedian<M> {
     /// The model, fitted to its inliers.

@@ -128,7 +128,7 @@ impl MatchSet {
         Self::new(pixels1, pixels2)
     }
 
-    /// How many different matches there are.
+    /// Number of different matches.
     pub fn len(&self) -> usize {
         self.u1.len()
     }
@@ -151,7 +151,7 @@ impl MatchSet {
         [&self.u1, &self.v1, &self.u2, &self.v2]
     }
 
-    /// That there are enough matches to find `what` in.
+    /// Checks that there are enough matches to find `what` in.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than `needed`.
@@ -178,7 +178,7 @@ impl MatchSet {
             .fold(0.0, f64::max)
     }
 
-    /// How much each match counts where models are judged; `None` if all count alike.
+    /// Weight of each match where models are scored; `None` if all are equal.
     ///
     /// At most one of the matches that meet in a pixel can be right, so together they have few votes.
     /// Counted one by one, those of a pixel that half of all matches lead to would outvote everything:
@@ -200,7 +200,7 @@ impl MatchSet {
         })
     }
 
-    /// How many of these matches can be right at most: their different pixels, of the image with
+    /// Upper bound on the number of right matches: their different pixels, of the image with
     /// fewer.
     ///
     /// Source: Schönberger & Frahm 2016, COLMAP's support by unique inliers.
@@ -216,7 +216,7 @@ impl MatchSet {
         pixels.iter().map(count).min().unwrap_or(0)
     }
 
-    /// How these matches relate to the ones given.
+    /// Relation of these matches to the given ones.
     pub fn unique(&self) -> &Unique {
         &self.unique
     }

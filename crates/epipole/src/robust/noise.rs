@@ -1,4 +1,4 @@
-//! How large the errors of good data are, where nobody knows which data are good.
+//! Scale of the errors of inliers that are not known.
 
 use super::Estimator;
 use super::chance::UNKNOWN_CHANCE;

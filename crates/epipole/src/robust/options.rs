@@ -1,8 +1,8 @@
-//! What the loop is asked, and what it answers.
+//! Options and report of the loop.
 
 use crate::{Error, Result};
 
-/// How samples are drawn.
+/// Sampling strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -20,7 +20,7 @@ pub enum SamplerKind {
     Prosac,
 }
 
-/// How a model is judged. Scores count from 0 (nothing fits) to the number of data.
+/// Scoring function. Scores count from 0 (nothing fits) to the number of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -52,7 +52,7 @@ pub enum Budget {
     WithoutReplacement,
 }
 
-/// Where the threshold comes from.
+/// Source of the threshold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -74,7 +74,7 @@ pub enum ThresholdKind {
     Noise,
 }
 
-/// How to run [`Ransac`](super::Ransac).
+/// Options of [`Ransac`](super::Ransac).
 ///
 /// ```
 /// use epipole::robust::RansacOptions;
@@ -91,7 +91,7 @@ pub struct RansacOptions {
     /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
     /// own, the unit of its errors. 1.
     pub max_error_px: f64,
-    /// Where the threshold comes from. Given.
+    /// Source of the threshold. Given.
     pub threshold: ThresholdKind,
     /// The probability that one sample at least is free of outliers, in (0, 1). 0.999.
     pub confidence: f64,
@@ -103,9 +103,9 @@ pub struct RansacOptions {
     pub max_iterations: usize,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
-    /// How samples are drawn. Uniform.
+    /// Sampling strategy. Uniform.
     pub sampler: SamplerKind,
-    /// How a model is judged. MSAC.
+    /// Scoring function. MSAC.
     pub score: ScoreKind,
     /// Whether a promising model is improved from its inliers at once, and the best one at the
     /// end. True.
@@ -200,7 +200,7 @@ pub enum StopReason {
     Interrupted,
 }
 
-/// What [`Ransac`](super::Ransac) found.
+/// Result of [`Ransac`](super::Ransac).
 #[derive(Debug, Clone, PartialEq)]
 pub struct RansacReport<M> {
     /// The best model. With [`ScoreKind::Msac`] its last refinement weighs errors by how large those of
@@ -208,7 +208,7 @@ pub struct RansacReport<M> {
     pub model: M,
     /// For each datum given, whether it is within the threshold of `model`.
     pub inliers: Vec<bool>,
-    /// How many of `inliers` are true.
+    /// Number of `inliers` that are true.
     pub num_inliers: usize,
     /// The same, with equal data counted once, and for F, E and H matches that meet in a pixel of an
     /// image, too. This number, not `num_inliers`, says how well the model is supported.
@@ -228,7 +228,7 @@ pub struct RansacReport<M> {
     /// logarithm ([`log10_false_alarms`](super::log10_false_alarms)): below 0, or the support says
     /// nothing. `None` if the estimator does not know the chance of a datum.
     pub log10_false_alarms: Option<f64>,
-    /// How many times a model was improved from its inliers.
+    /// Number of times a model was improved from its inliers.
     pub refinements: usize,
     /// Why the loop ended.
     pub stop: StopReason,

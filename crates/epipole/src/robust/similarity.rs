@@ -19,7 +19,7 @@ pub struct PlaneSimilarity {
 }
 
 impl PlaneSimilarity {
-    /// Where a point goes.
+    /// Image of a point.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::new(
             self.a * p.x - self.b * p.y + self.tu,
@@ -27,7 +27,7 @@ impl PlaneSimilarity {
         )
     }
 
-    /// How many times longer lengths become.
+    /// Scale factor of lengths.
     pub fn scale(&self) -> f64 {
         libm::hypot(self.a, self.b)
     }

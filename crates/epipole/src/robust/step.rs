@@ -1,8 +1,8 @@
-//! What a step of the loop says about itself.
+//! Description of a step of the loop.
 
 use super::StopReason;
 
-/// What one step did.
+/// A step of the loop.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step<'a, M> {
     /// A sample was drawn.
@@ -18,7 +18,7 @@ pub struct Trial<'a, M> {
     pub iteration: usize,
     /// The data drawn, as indices into the data given.
     pub sample: &'a [usize],
-    /// How many models the sample gave.
+    /// Number of models of the sample.
     pub num_models: usize,
     /// The best of them, if any.
     pub model: Option<M>,

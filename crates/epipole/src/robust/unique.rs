@@ -2,7 +2,7 @@
 
 use crate::math::order::order_by;
 
-/// As many as any datum has: a point and its pixel.
+/// Maximum number of values of a datum: a point and its pixel.
 const MAX_COORDINATES: usize = 5;
 
 /// Which data are repetitions of others.
@@ -69,7 +69,7 @@ impl Unique {
         Self { first, place }
     }
 
-    /// How many different data there are.
+    /// Number of different data.
     pub fn len(&self) -> usize {
         self.first.len()
     }
@@ -89,7 +89,7 @@ impl Unique {
         &self.place
     }
 
-    /// How many of the given data are left out.
+    /// Number of the given data that are left out.
     pub fn num_left_out(&self) -> usize {
         self.place.iter().filter(|place| place.is_none()).count()
     }

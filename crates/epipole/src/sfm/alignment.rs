@@ -6,7 +6,7 @@ use crate::math::{Svd3, svd3};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, Rotation3, Similarity3, Translation3, UnitQuaternion, Vector3};
 
-/// What may differ between two frames.
+/// Transformation between two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AlignmentKind {
     /// Position and orientation.

@@ -18,7 +18,7 @@ fn malformed(line: usize, why: String) -> Error {
     }
 }
 
-/// What a file writes of a pose: its tags and its numbers.
+/// A pose in a file: tags and numbers.
 trait Written<const D: usize>: Sized {
     const VERTEX: &'static str;
     const EDGE: &'static str;

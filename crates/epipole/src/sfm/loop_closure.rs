@@ -18,7 +18,7 @@ pub struct LoopClosure {
     /// The later camera in the frame of the earlier one, with the ratio of their scales: points
     /// that both reconstructed obey `x_in_from = from_from_to * x_in_to`.
     pub from_from_to: Similarity3<f64>,
-    /// How much it weighs beside one step of odometry.
+    /// Weight relative to one step of odometry.
     pub weight: f64,
 }
 
@@ -29,7 +29,7 @@ pub struct ClosedPath {
     pub world_from_cam: Vec<RigidTransform>,
     /// By how much lengths around each frame have to be multiplied.
     pub scale: Vec<f64>,
-    /// How the optimization went.
+    /// Report of the optimization.
     pub report: PoseGraphReport,
 }
 
@@ -147,7 +147,7 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
     }
 }
 
-/// What closing a loop may change about the frames of a path.
+/// Degrees of freedom of the frames of a path when a loop is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LoopMotion {
     /// Position and orientation, SE(3): right where the scale is measured, as by a stereo rig.

@@ -18,7 +18,7 @@ use std::collections::VecDeque;
 /// What is asked for, as an error of too few says.
 const OF_FRAMES: &str = "the path of a camera from frames";
 
-/// How often everything is refined at the end, at most.
+/// Maximum number of refinements at the end.
 const FINAL_ADJUSTMENTS: usize = 10;
 
 /// A focal length that changes by less than this share has arrived.

@@ -3,7 +3,7 @@
 use super::options::SfmOptions;
 use crate::robust::RansacOptions;
 
-/// How to follow a camera.
+/// Options of odometry.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::reconstruction::Reconstruction;
 use crate::camera::RigidTransform;
 
-/// Where the camera went.
+/// Path of the camera.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OdometryResult {
     /// `world_from_cam` of each frame, `None` where it was lost. The first frame that was found is

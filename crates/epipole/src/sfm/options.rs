@@ -155,7 +155,7 @@ pub(super) fn check(
     })
 }
 
-/// How pairs are tested.
+/// Options of the test of pairs.
 pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
     RansacOptions {
         seed: options.seed,

@@ -51,7 +51,7 @@ pub struct PhotoOptions {
 pub struct PhotoFeatures {
     /// Size, keypoints and their colors.
     pub image: SfmImage,
-    /// What the keypoints look like, in the same order.
+    /// Descriptors of the keypoints, in the same order.
     pub descriptors: AnyDescriptors,
     /// The keypoints once more, with their scales and directions.
     pub keypoints: Vec<Keypoint>,
@@ -156,7 +156,7 @@ pub fn match_rectified(
     Ok(matches)
 }
 
-/// How far a rectification may be off.
+/// Maximum row error of a rectification.
 const MAX_ROW_ERROR_PX: f64 = 2.0;
 
 /// Matches between the features of two photographs.

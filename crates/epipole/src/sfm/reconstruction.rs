@@ -1,4 +1,4 @@
-//! What structure from motion finds: cameras, points, and which saw which.
+//! Result of structure from motion: cameras, points and tracks.
 
 use super::bundle::{Bundle, BundleObservation, PositionPrior};
 use super::tracks::TrackElement;
@@ -14,25 +14,25 @@ pub struct SfmImage {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Where its keypoints are, pixels.
+    /// Positions of its keypoints, pixels.
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.
     pub colors: Vec<[u8; 3]>,
     /// Its lens, of [`SfmOptions::lenses`](super::SfmOptions::lenses): photographs with the same number share what is
     /// refined of it. 0.
     pub lens: usize,
-    /// Where it was taken, if that is known.
+    /// Position of the camera, if known.
     pub position: Option<PositionPrior>,
 }
 
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScenePoint {
-    /// Where it is, in the world.
+    /// Position in the world.
     pub position: Point3<f64>,
     /// Mean color of its keypoints; gray if none is known.
     pub color: [u8; 3],
-    /// Where it was seen: at least two elements, sorted by image.
+    /// Observations: at least two elements, sorted by image.
     pub track: Vec<TrackElement>,
     /// Root mean square of its reprojection errors, pixels.
     pub error_px: f64,
@@ -196,7 +196,7 @@ impl Lenses {
         })
     }
 
-    /// What each number stands for.
+    /// Lens of each number.
     pub(super) fn names(&self) -> &[usize] {
         &self.0
     }

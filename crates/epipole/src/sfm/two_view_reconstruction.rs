@@ -9,7 +9,7 @@ use crate::triangulation::{triangulate_optimal, triangulation_angle_rad};
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3};
 
-/// How often the rest is refined again after points were left out.
+/// Number of refinements after points were left out.
 const MAX_REPETITIONS: usize = 5;
 
 /// Which points of two views to keep, and how to refine them.
@@ -67,7 +67,7 @@ pub struct TwoViewReconstruction {
     pub rms_before_px: f64,
     /// The same after the refinement.
     pub rms_px: f64,
-    /// How the refinement went; the last one, where it was repeated.
+    /// Report of the refinement; of the last one, where it was repeated.
     pub report: LmReport,
 }
 

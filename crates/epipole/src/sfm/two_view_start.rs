@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, Point2};
 pub struct VerifiedPair {
     /// The matches that passed.
     pub pair: PairMatches,
-    /// How the camera moved; |t| = 1.
+    /// Motion of the camera; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
     /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane and a pure

@@ -40,7 +40,7 @@ impl Views {
         }
     }
 
-    /// How one keypoint was seen; `None` where its lens sees no ray.
+    /// View of a keypoint; `None` where its lens sees no ray.
     pub(super) fn of(&self, image: usize, keypoint: usize) -> Option<View<'_>> {
         match &self.observed {
             None => Some(View::Pixel(self.pixels[image][keypoint])),

@@ -46,12 +46,12 @@ use image::{GrayImage, ImageBuffer, Luma};
 pub struct StereoBm {
     /// The smallest disparity looked for, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,
-    /// How many disparities are looked for, from the smallest on; 1 to 4096.
+    /// Number of disparities, from the smallest on; 1 to 4096.
     pub num_disparities: u32,
     /// Side of the window, pixels; odd, at most the picture's shorter side. The sums must fit 15
     /// bits: `2 prefilter_cap window² ≤ 32766`, so at most 21 with a cap of 31.
     pub window_px: u32,
-    /// What is compared.
+    /// Prefilter.
     pub prefilter: StereoPrefilter,
     /// Pre-filtered values are limited to plus or minus this, 1 to 63.
     pub prefilter_cap: u8,

@@ -1,4 +1,4 @@
-//! How unlike a left pixel is to each candidate of the right row, in eight bits.
+//! Matching costs of a left pixel and each candidate of the right row, in eight bits.
 //!
 //! Two measures that fail in different places are added: the Hamming distance of census bits
 //! (0…24, blind to brightness and contrast), and the difference of gray that sampling cannot
@@ -19,7 +19,7 @@ use image::GrayImage;
 const RADIUS: usize = 2;
 const NUM_PLANES: usize = 3;
 
-/// What the cost is made of.
+/// Kind of matching cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -193,7 +193,7 @@ impl<'a> CostRows<'a> {
     }
 }
 
-/// What [`compare`] adds up.
+/// Sums of [`compare`].
 const CENSUS: u8 = 1;
 const GRAY: u8 = 2;
 const BOTH: u8 = CENSUS | GRAY;

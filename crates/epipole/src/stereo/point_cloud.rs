@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Point3, Vector4};
 pub struct PointCloud {
     /// In the frame and unit of whatever made them.
     pub points: Vec<Point3<f64>>,
-    /// As many as points, or none.
+    /// One a point, or none.
     pub colors: Vec<[u8; 3]>,
 }
 

@@ -3,7 +3,7 @@
 use crate::math::simd::dispatched;
 use image::GrayImage;
 
-/// What is done to both pictures before blocks are compared.
+/// Filter of both images before blocks are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",

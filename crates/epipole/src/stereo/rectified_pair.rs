@@ -140,7 +140,7 @@ impl<'a> RectifiedPair<'a> {
         &self.pictures
     }
 
-    /// How many pixels of the first picture its photograph fills.
+    /// Number of pixels of the first image that its photograph fills.
     pub fn num_shown(&self) -> usize {
         self.shown.iter().filter(|is_shown| **is_shown).count()
     }

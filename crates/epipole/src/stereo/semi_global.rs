@@ -12,7 +12,7 @@ use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::Range;
 
-/// How many directions the costs are gathered from.
+/// Number of directions of the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -65,9 +65,9 @@ pub enum StereoPaths {
 pub struct StereoSgm {
     /// The smallest disparity looked for, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,
-    /// How many disparities are looked for, from the smallest on; 1 to 4096.
+    /// Number of disparities, from the smallest on; 1 to 4096.
     pub num_disparities: u32,
-    /// What is compared.
+    /// Matching cost.
     pub cost: StereoCost,
     /// The largest cost of a difference of gray values, 1 to 63.
     pub gray_cap: u8,

@@ -14,7 +14,7 @@ use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Where the points of a world lie.
+/// Structure of the points of a world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Structure {
     /// Anywhere in a cube of this half side, meters.
@@ -106,7 +106,7 @@ fn in_picture(pixel: &Point2<f64>) -> bool {
         && (0.0..=f64::from(HEIGHT - 1)).contains(&pixel.y)
 }
 
-/// Where a camera sees a point, if that is in its picture.
+/// Pixel where a camera sees a point, if that is in its image.
 fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
     camera.project(x_in_world).ok().filter(in_picture)
 }
@@ -137,7 +137,7 @@ fn draw_points(
     Ok(points)
 }
 
-/// What is measured of a pixel: with noise, or wrong.
+/// Measurement of a pixel: with noise, or wrong.
 fn measured(
     random: &mut Random,
     pixel: &Point2<f64>,

@@ -6,7 +6,7 @@ use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Where the cameras of a world stand.
+/// Positions of the cameras of a world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Path {
     /// On an arc around the world's origin, looking at it; `span_rad` = 2π closes the circle.
@@ -25,16 +25,16 @@ pub enum Path {
     },
 }
 
-/// What a [`MultiViewProblem`] shall be like.
+/// Options of a [`MultiViewProblem`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MultiViewProblemOptions {
     /// Number of cameras, at least 2.
     pub num_cameras: usize,
     /// Number of points; each is seen by at least two cameras.
     pub num_points: usize,
-    /// Where the points lie, around the world's origin.
+    /// Structure of the points, around the world's origin.
     pub structure: Structure,
-    /// Where the cameras stand.
+    /// Positions of the cameras.
     pub path: Path,
     /// Part of the observations that are made, 0 to 1; 1 for every point in every picture.
     pub visible_fraction: f64,

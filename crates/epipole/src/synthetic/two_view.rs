@@ -8,12 +8,12 @@ use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3};
 
-/// What a [`TwoViewProblem`] shall be like.
+/// Options of a [`TwoViewProblem`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoViewProblemOptions {
     /// Number of matches, inliers and outliers together.
     pub num_points: usize,
-    /// Where the points lie, around the world's origin.
+    /// Structure of the points, around the world's origin.
     pub structure: Structure,
     /// Distance between the camera centers, meters; 0 for a camera that only turns.
     pub baseline_m: f64,

@@ -59,7 +59,7 @@ struct Meeting {
     turned: Vector3<f64>,
     /// Of length 1, in the frame of camera 2.
     ray2: Vector3<f64>,
-    /// How far along both rays they pass each other nearest, in units of `size`.
+    /// Distances along both rays of the points where they pass nearest, in units of `size`.
     depths: [f64; 2],
 }
 

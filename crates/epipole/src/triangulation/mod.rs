@@ -29,7 +29,7 @@ const NO_BASELINE: crate::Error = crate::Error::Degenerate {
     why: "the cameras stand at the same place",
 };
 
-/// What a method says of a point so far away that its coordinates are beyond the range of numbers.
+/// Error for a point so far away that its coordinates are beyond the range of numbers.
 const BEYOND_NUMBERS: crate::Error = crate::Error::NotFinite {
     what: "each coordinate of the point",
 };

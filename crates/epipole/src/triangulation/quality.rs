@@ -1,4 +1,4 @@
-//! How well a point is determined.
+//! Uncertainty of a point.
 
 use crate::camera::PosedCamera;
 use crate::math::scaling::power_of_two;

@@ -1,4 +1,4 @@
-//! Where to start a search that wrong pixels must not lead astray.
+//! Initial points for a search that is robust to wrong pixels.
 
 use super::midpoint::triangulate_weighted_midpoint;
 use super::nview_problem::Problem;

@@ -1,4 +1,4 @@
-//! What the inliers of F leave open.
+//! Degeneracies of the inliers of F.
 
 use super::TwoViewOptions;
 use super::pairs::inliers_of;
@@ -16,16 +16,16 @@ pub enum Degeneracy {
     /// Nearly all inliers are where they were in image 1, but for noise: the camera hardly moved, or the matches are
     /// of something that moves with it.
     Unmoved {
-        /// How many of them.
+        /// Number of them.
         num_unmoved: usize,
-        /// How many inliers there are.
+        /// Number of inliers.
         num_inliers: usize,
     },
     /// A homography explains nearly all inliers: they show a plane, or the camera only turned.
     Homography {
-        /// How many of them it explains.
+        /// Number of them that it explains.
         num_explained: usize,
-        /// How many inliers there are.
+        /// Number of inliers.
         num_inliers: usize,
     },
 }

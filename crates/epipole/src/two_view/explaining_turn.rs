@@ -10,9 +10,9 @@ use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
 pub struct ExplainingTurn {
     /// The turn; its translation is zero.
     pub cam2_from_cam1: RigidTransform,
-    /// How many of the inliers it explains.
+    /// Number of inliers that it explains.
     pub num_explained: usize,
-    /// How many inliers there are.
+    /// Number of inliers.
     pub num_inliers: usize,
 }
 
@@ -66,7 +66,7 @@ pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
     )
 }
 
-/// What a turn does to pixels: `K2 R K1⁻¹`.
+/// Homography of a turn, in pixels: `K2 R K1⁻¹`.
 pub(super) fn homography_of_turn(
     rotation: &Matrix3<f64>,
     [k1, k2]: [&Intrinsics; 2],

@@ -1,4 +1,4 @@
-//! How a pair of views is judged.
+//! Options of the choice among models of two views.
 
 use crate::homography::homography_sampson_sq;
 use crate::robust::RansacOptions;
@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Point2};
 /// less straight, than the one pixel of [`RansacOptions`] would have it.
 pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 
-/// How to judge a pair.
+/// Options of the choice among models of two views.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -105,7 +105,7 @@ impl TwoViewOptions {
         homography_sampson_sq(h, p1, p2) < reach_px * reach_px
     }
 
-    /// How far a match may be from a homography, pixels, by the Sampson error.
+    /// Maximum Sampson error of a homography, pixels.
     pub(super) fn reach_in_two_dimensions_px(&self) -> f64 {
         TWO_DIMENSIONS * self.ransac.max_error_px
     }

@@ -1,4 +1,4 @@
-//! What is found out about two views.
+//! Result of the choice among models of two views.
 
 use super::TwoViewOptions;
 use super::pairs::Pairs;
@@ -8,7 +8,7 @@ use crate::homography::homography_sampson_px;
 use crate::robust::{RansacReport, StopReason};
 use nalgebra::{Matrix3, Point2};
 
-/// What two views show.
+/// Configuration of two views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Configuration {
     /// A moving camera and a scene with depth: F or E says all.
@@ -33,10 +33,10 @@ pub enum TwoViewModel {
     Homography(Matrix3<f64>),
 }
 
-/// What was found out about two views.
+/// Result of the choice among models of two views.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewReport {
-    /// What they show.
+    /// Configuration of the views.
     pub configuration: Configuration,
     /// The matrix chosen.
     pub model: TwoViewModel,
@@ -54,7 +54,7 @@ pub struct TwoViewReport {
     /// For each match given, whether it fits `model`: within `max_error_px` of F or E, by the Sampson error,
     /// and within 1.25 times as much of H, which has to fit in two dimensions.
     pub inliers: Vec<bool>,
-    /// How many do.
+    /// Number of `inliers` that are true.
     pub num_inliers: usize,
     /// Matches that were left out: an infinite coordinate, or one beyond 10⁹ pixels.
     pub num_left_out: usize,

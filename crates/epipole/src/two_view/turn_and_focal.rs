@@ -34,9 +34,9 @@ pub struct TurnAndFocal {
     pub cam2_from_cam1: RigidTransform,
     /// The focal lengths of both cameras are so many times those given.
     pub focal_factor: f64,
-    /// How many of the different matches it explains.
+    /// Number of different matches that it explains.
     pub num_explained: usize,
-    /// How many different matches there are.
+    /// Number of different matches.
     pub num_inliers: usize,
 }
 

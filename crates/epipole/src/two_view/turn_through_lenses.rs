@@ -6,7 +6,7 @@ use super::rotation::align_rays;
 use crate::camera::Observation;
 use nalgebra::{Matrix3, Vector3};
 
-/// How often the turn is found again from the half of the matches that fits it best.
+/// Number of concentration steps on the half of the matches that fits best.
 const ROUNDS: usize = 10;
 
 /// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras of any lens; errors are in image 2.

@@ -13,7 +13,7 @@ type Polynomial = [f64; DEGREE + 1];
 /// A quadratic form in three ratios and 1.
 type Quadric = SMatrix<f64, 4, 4>;
 
-/// What multiplies y, w and 1 in an equation.
+/// Coefficients of y, w and 1 in an equation.
 type Row = [Polynomial; 3];
 
 /// An extremum of the polynomial this near to zero is taken for a root: noise makes pairs of roots complex.
@@ -98,7 +98,7 @@ struct Elimination {
     products: [Row; 3],
     /// An equation without them.
     linear: Row,
-    /// How well the four equations tell y², y w and w² apart.
+    /// Conditioning of the four equations for y², y w and w².
     distinctness: f64,
 }
 

@@ -59,7 +59,7 @@ pub struct Calibration {
     pub coverage: f64,
     /// For each view given, what was found; `None` where none was given.
     pub views: Vec<Option<CalibratedView>>,
-    /// What makes the result less sure than the errors say.
+    /// Warnings: causes of uncertainty that the errors do not show.
     pub warnings: Vec<CalibrationWarning>,
 }
 

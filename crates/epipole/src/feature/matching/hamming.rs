@@ -22,7 +22,7 @@ pub struct BinaryDescriptors {
 }
 
 impl BinaryDescriptors {
-    /// How many there are.
+    /// Number of descriptors.
     pub fn len(&self) -> usize {
         self.bits.len()
     }

@@ -105,7 +105,7 @@ impl Default for Eight {
     }
 }
 
-/// What was found so far, both ways.
+/// Results so far, in both directions.
 pub(super) struct State {
     rows: Vec<Eight>,
     columns: Vec<(i32, usize)>,

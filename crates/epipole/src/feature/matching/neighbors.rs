@@ -29,7 +29,7 @@ pub(super) struct Found {
     pub(super) columns: Vec<usize>,
 }
 
-/// What a walk over the second list found for a piece of the first.
+/// Neighbors in the second list of a piece of the first.
 pub(super) struct Scanned<D> {
     /// Nearest index, its squared distance, that of the second nearest.
     pub(super) rows: Vec<(usize, D, D)>,

@@ -101,7 +101,7 @@ pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Ke
     found
 }
 
-/// Where a parabola through three values peaks, within half a sample of the middle one.
+/// Peak of the parabola through three values, within half a sample of the middle one.
 fn vertex(before: f64, middle: f64, after: f64) -> f64 {
     let curvature = before - 2.0 * middle + after;
     if curvature < 0.0 {

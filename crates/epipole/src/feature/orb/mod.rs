@@ -14,7 +14,7 @@ use pattern::{Pattern, RADIUS};
 /// Pixels along a level's edge without corners: the descriptor's disc must fit.
 const MARGIN: u32 = RADIUS as u32 + 2;
 
-/// How [`detect_orb`] works.
+/// Options of [`detect_orb`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -28,7 +28,7 @@ pub struct OrbOptions {
     pub scale_factor: f64,
     /// Levels of the pyramid, 1 to 16.
     pub num_levels: usize,
-    /// How much brighter or darker nine neighbors in a row must be, for gray values in [0, 1].
+    /// Minimum contrast of nine neighbors in a row, for gray values in [0, 1].
     pub fast_threshold: f32,
     /// Take every direction to be 0: for cameras held upright.
     pub upright: bool,
@@ -52,7 +52,7 @@ impl Default for OrbOptions {
 pub struct BinaryFeatures {
     /// Where.
     pub keypoints: Vec<Keypoint>,
-    /// What it looks like there.
+    /// Its descriptor.
     pub descriptors: BinaryDescriptors,
 }
 

@@ -18,7 +18,7 @@ use crate::progress::{self, Monitor, Stage};
 pub struct Features {
     /// Where.
     pub keypoints: Vec<Keypoint>,
-    /// What it looks like there.
+    /// Its descriptor.
     pub descriptors: Descriptors,
 }
 
@@ -99,7 +99,7 @@ pub fn detect_sift(
     Ok(collect(&found, options.max_features))
 }
 
-/// How many extrema are described between two reports.
+/// Number of extrema described between two reports.
 const DESCRIBED_AT_ONCE: usize = 512;
 
 /// The features at one extremum: one for each of its directions.
@@ -134,7 +134,7 @@ fn describe(
         .collect()
 }
 
-/// What is known about the weakest feature that can still be among those returned, so that weaker
+/// Bound on the weakest feature that can still be among those returned, so that weaker
 /// ones need no descriptor.
 struct Strongest {
     limit: usize,

@@ -2,7 +2,7 @@
 
 use crate::{Error, Result};
 
-/// How the 128 sums of a SIFT descriptor are scaled.
+/// Scaling of the 128 sums of a SIFT descriptor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -21,7 +21,7 @@ pub enum SiftNormalization {
     Root,
 }
 
-/// How [`detect_sift`](super::detect_sift) works. The defaults are Lowe's, as OpenCV takes them, but for the blur that
+/// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as OpenCV takes them, but for the blur that
 /// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
 /// and fewer of the features are too small to be seen from further away.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ pub struct SiftOptions {
     pub orientation_peak_ratio: f32,
     /// Take every direction to be 0: for cameras held upright.
     pub upright: bool,
-    /// How descriptors are scaled.
+    /// Scaling of descriptors.
     pub normalization: SiftNormalization,
 }
 

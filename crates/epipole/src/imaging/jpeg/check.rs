@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::scan::Scan;
 use super::tables::Tables;
 
-/// How the file of a sound picture ends.
+/// End of an intact file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::imaging) enum End {
     /// With the marker that belongs there.

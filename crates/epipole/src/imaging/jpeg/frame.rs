@@ -1,4 +1,4 @@
-//! What a frame header says of the picture (ITU-T T.81, annex B.2.2).
+//! Frame headers (ITU-T T.81, annex B.2.2).
 
 /// A picture of eight bits a channel.
 pub(super) struct Frame {

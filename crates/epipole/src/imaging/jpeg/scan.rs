@@ -6,7 +6,7 @@ use super::flaw::Flaw;
 use super::frame::Frame;
 use super::tables::Tables;
 
-/// What a scan header says.
+/// A scan header.
 pub(super) struct Scan {
     parts: Vec<Part>,
     /// The first of its coefficients.

@@ -47,7 +47,7 @@ struct PointBlock<const S: usize> {
     groups: Vec<GroupOfPoint<S>>,
 }
 
-/// What all observations of a group say of what it shares.
+/// Sums over the observations of a group, by its shared parameters.
 #[derive(Clone)]
 struct GroupBlock<const S: usize> {
     hessian: [[f64; S]; S],
@@ -92,7 +92,7 @@ pub(crate) struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProbl
     cameras: Vec<CameraBlock<C, S>>,
     points: Vec<PointBlock<S>>,
     groups: Vec<GroupBlock<S>>,
-    /// So many of the `S` that a group shares are looked at: those behind are held.
+    /// Number of shared parameters that are free; the rest are fixed.
     width: usize,
     reduced: Vec<f64>,
     right: Vec<f64>,
@@ -441,7 +441,7 @@ impl<const S: usize> GroupBlock<S> {
     }
 }
 
-/// Where a group stands among those of a point; it is added where it is new.
+/// Index of a group among those of a point; new groups are added.
 fn place_of<const S: usize>(group: u32, groups: &mut Vec<GroupOfPoint<S>>) -> usize {
     let place = groups.iter().position(|known| known.group == group);
     place.unwrap_or_else(|| {

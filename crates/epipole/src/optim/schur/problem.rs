@@ -21,7 +21,7 @@ pub(crate) struct ObservationTerms<const C: usize, const S: usize> {
 pub(crate) struct BundleStep<const C: usize, const S: usize> {
     /// One a camera.
     pub(crate) cameras: Vec<[f64; C]>,
-    /// What the cameras of a group share, one a group.
+    /// Shared parameters of the cameras of a group, one set a group.
     pub(crate) shared: Vec<[f64; S]>,
     /// One a point.
     pub(crate) points: Vec<[f64; 3]>,
@@ -79,7 +79,7 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn held_shared(&self) -> [bool; S] {
         [false; S]
     }
-    /// What is known of a camera besides what it saw. Nothing by default.
+    /// Prior of a camera. None by default.
     fn prior(&self, _parameters: &Self::Parameters, _camera: usize) -> Option<PriorTerms<C>> {
         None
     }

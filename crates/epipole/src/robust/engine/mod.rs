@@ -257,7 +257,7 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.problem()
     }
 
-    /// What a support is worth, as [`ScoreKind`] defines it.
+    /// Score of a support, as [`ScoreKind`] defines it.
     fn score(&self, support: &Support) -> f64 {
         match self.options.score {
             ScoreKind::InlierCount => support.num_inliers as f64,

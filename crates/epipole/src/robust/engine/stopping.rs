@@ -7,7 +7,7 @@ use crate::robust::options::HARDLY_CHANCE;
 use crate::robust::{Budget, Estimator, StopReason};
 
 impl<E: Estimator> Ransac<E> {
-    /// How many samples the new best model asks for.
+    /// Number of samples that the new best model requires.
     ///
     /// Where the data come in order of quality, the samples of the best of them are enough as soon as
     /// all-inlier samples of these are as likely as asked. Any first part of the data will do in which

@@ -1,4 +1,4 @@
-//! What is refined of a lens.
+//! Refined parameters of a lens.
 
 use super::options::BundleOptions;
 use super::scene::Bundle;

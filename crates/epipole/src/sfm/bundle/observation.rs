@@ -10,7 +10,7 @@ pub struct BundleObservation {
     pub camera: usize,
     /// Index of the point.
     pub point: usize,
-    /// Where it was seen, pixels.
+    /// Observed pixel.
     pub pixel: Point2<f64>,
 }
 

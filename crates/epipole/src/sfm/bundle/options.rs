@@ -1,4 +1,4 @@
-//! What a bundle adjustment refines, and what it is told besides.
+//! Options of bundle adjustment.
 
 use crate::camera::{LensKind, MAX_COEFFICIENTS};
 use crate::optim::{LmOptions, RobustLoss};
@@ -22,7 +22,7 @@ pub enum Gauge {
     Free,
 }
 
-/// What to refine, and how.
+/// Options of [`adjust_bundle`](super::adjust_bundle).
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",

@@ -1,4 +1,4 @@
-//! What the solver sees of a bundle: residuals, their derivatives, and steps.
+//! A bundle as a least-squares problem: residuals, derivatives and steps.
 
 use super::lens_state::LensState;
 use super::options::BundleOptions;

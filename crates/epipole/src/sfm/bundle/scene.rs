@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector2};
 pub struct Sensor {
     /// From the frame of the camera to that of the sensor; it is not refined.
     pub sensor_from_camera: RigidTransform,
-    /// How the sensor's rays become pixels.
+    /// Intrinsics of the sensor.
     pub intrinsics: Intrinsics,
     /// Its lens, as in [`Bundle::lens_of_camera`].
     pub lens: usize,
@@ -24,13 +24,13 @@ pub struct Sensor {
 pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<PosedCamera>,
-    /// What each lens does to rays; missing entries bend nothing.
+    /// Lenses; missing entries have no distortion.
     pub lenses: Vec<Lens>,
     /// The lens of each camera; missing entries are 0.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
-    /// What was seen where.
+    /// Observations.
     pub observations: Vec<BundleObservation>,
     /// Further cameras bolted to each camera.
     pub sensors: Vec<Sensor>,
@@ -88,7 +88,7 @@ impl Bundle {
     }
 }
 
-/// What made an observation.
+/// Source of an observation.
 pub(super) struct Eye<'a> {
     pub(super) intrinsics: &'a Intrinsics,
     pub(super) lens: usize,

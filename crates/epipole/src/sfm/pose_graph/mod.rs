@@ -101,7 +101,7 @@ impl<T: GraphPose<D>, const D: usize> GraphProblem<D> for Problem<'_, T, D> {
     }
 }
 
-/// How an optimization of a pose graph went.
+/// Report of the optimization of a pose graph.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseGraphReport {
     /// `Σ eᵀ Ω e` at the start.

@@ -18,7 +18,7 @@ const FOLDS: Error = Error::Degenerate {
           edges, or with another model of the lens",
 };
 
-/// What a photograph covers in the rectified frame, in units of the focal length.
+/// Area of a photograph in the rectified frame, in units of the focal length.
 pub(crate) struct Outline {
     /// The rectangle between the innermost points of the four sides; of a photograph that stands slanted it may be
     /// empty, its end before its begin.

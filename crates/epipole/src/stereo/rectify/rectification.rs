@@ -36,7 +36,7 @@ pub struct Rectification {
 }
 
 impl Rectification {
-    /// Where pixel `pixel` of photograph 0 or 1 lies in the rectified picture.
+    /// Position in the rectified image of `pixel` of photograph 0 or 1.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1, [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the

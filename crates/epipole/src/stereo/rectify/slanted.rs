@@ -65,7 +65,7 @@ pub(super) fn inscribed(
     }))
 }
 
-/// What two ranges share; its end may lie before its begin.
+/// Intersection of two ranges; its end may lie before its begin.
 fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].min(b[1])]
 }
