@@ -31,7 +31,7 @@ pub enum Role {
     Inlier,
     /// Data that disagree.
     Outlier,
-    /// What is really so.
+    /// Ground truth.
     Truth,
     /// Something to compare with.
     Reference,

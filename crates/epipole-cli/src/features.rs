@@ -43,17 +43,17 @@ impl From<Kind> for FeatureKind {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features")]
 pub(crate) struct FeatureArguments {
-    /// Which features to look for.
+    /// Kind of features.
     #[arg(long, value_enum, default_value_t = Kind::Rootsift)]
     pub(crate) features: Kind,
-    /// At most so many features an image, the strongest; 0 for no limit.
+    /// Keep the N strongest features per image (0: all).
     #[arg(long, default_value_t = FeatureOptions::default().max_features, value_name = "N")]
     pub(crate) max_features: usize,
-    /// How strong a feature must be, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB, 0.01 of the
+    /// Minimum response of a feature, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB, 0.01 of the
     /// strongest for Harris].
     #[arg(long, value_name = "C", value_parser = above_0_up_to_1)]
     pub(crate) contrast_threshold: Option<f32>,
-    /// Take no direction from the features: for cameras held upright.
+    /// Assume upright features (skip orientation).
     #[arg(long)]
     pub(crate) upright: bool,
     #[command(flatten)]
@@ -91,7 +91,7 @@ pub(crate) struct MatchArguments {
     /// The nearest descriptor must be closer than this share of the second nearest.
     #[arg(long, default_value_t = 0.8, value_name = "SHARE", value_parser = above_0_up_to_1)]
     pub(crate) ratio: f32,
-    /// Each must be the other's nearest; --mutual=false to do without.
+    /// Require mutual nearest neighbors; --mutual=false to disable.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) mutual: bool,
     /// No feature of the second photograph in two matches, the closest stays; --unique=false to do without. Mutual matches

@@ -69,8 +69,8 @@ pub(crate) fn name(path: &Path) -> String {
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
-    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for photographs of its size, also those
-    /// that were taken upright. They stay as they are; results are of the rays that their pixels see.
+    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images stay distorted, and
+    /// results are of rays.
     #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
     camera_file: Option<PathBuf>,
 }

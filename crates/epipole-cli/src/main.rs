@@ -43,13 +43,13 @@ struct Cli {
     /// Print exactly one JSON object on standard output.
     #[arg(long, global = true, display_order = LAST)]
     json: bool,
-    /// Print no progress and no warnings.
+    /// Suppress progress and warnings.
     #[arg(long, global = true, display_order = LAST)]
     quiet: bool,
-    /// Seed of every random choice; equal seeds give equal results.
+    /// Random seed; equal seeds give equal results.
     #[arg(long, global = true, display_order = LAST, default_value_t = 0, value_name = "N")]
     seed: u64,
-    /// Number of threads; all processors if not given.
+    /// Number of threads [default: all cores].
     #[arg(long, global = true, display_order = LAST, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     #[command(subcommand)]

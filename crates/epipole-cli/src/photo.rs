@@ -16,8 +16,8 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Photographs")]
 pub(crate) struct SizeArguments {
-    /// Reduce photographs to at most so many megapixels. Results are in pixels of the reduced ones; --k and --focal-px
-    /// stay those of the files.
+    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k and --focal-px are
+    /// of the file.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub(crate) max_megapixels: Option<f64>,
 }

@@ -45,7 +45,7 @@ impl fmt::Display for MaxError {
 /// The word for a threshold that is to be found.
 const AUTO: &str = "auto";
 
-/// How a model is judged.
+/// Scoring function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Score {
     /// By the squared errors of its inliers.
@@ -76,13 +76,13 @@ pub(crate) struct RobustArguments {
     /// Samples drawn at most.
     #[arg(long, default_value_t = RansacOptions::default().max_iterations as u32, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_iterations: u32,
-    /// Samples drawn even if fewer would do.
+    /// Minimum number of samples.
     #[arg(long, default_value_t = RansacOptions::default().min_iterations as u32, value_name = "N")]
     min_iterations: u32,
     /// How samples are drawn.
     #[arg(long, value_enum, default_value = "uniform")]
     sampler: Sampler,
-    /// How a model is judged.
+    /// Scoring function.
     #[arg(long, value_enum, default_value = "msac")]
     score: Score,
     /// Which formula says how many samples are enough.

@@ -54,8 +54,8 @@ pub(crate) struct Arguments {
     frames: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
-    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for frames of its size. They stay as they
-    /// are; the path is that of the rays which their pixels see. The frames of a rig are rectified already.
+    /// Camera file written by `epipole calibrate`, for frames of its size. Frames stay distorted. Not for rigs, whose
+    /// frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
     #[command(flatten)]

@@ -31,7 +31,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Reconstruct cameras and points from photographs of one thing.
+/// Reconstruct a scene from photos.
 #[derive(Debug, Args)]
 #[command(
     mut_arg("max_error_px", |argument| argument.help(
@@ -56,8 +56,8 @@ pub(crate) struct Arguments {
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Write the photographs as cameras.txt speaks of them, too (upright, reduced, with --undistort without distortion), into OUT/images,
-    /// for programs that go on from there. Files that were changed become JPEGs, also by name.
+    /// Also write the images that cameras.txt describes (upright, downscaled, undistorted by --undistort) to OUT/images.
+    /// Changed images become JPEG files.
     #[arg(long)]
     images: bool,
     #[command(flatten)]

@@ -38,7 +38,7 @@ impl Default for FeatureOptions {
 pub struct MatchOptions {
     /// The nearest descriptor must be closer than this share of the second nearest.
     pub ratio: f32,
-    /// Each must be the other's nearest.
+    /// Require mutual nearest neighbors.
     pub mutual: bool,
 }
 

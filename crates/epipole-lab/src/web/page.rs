@@ -1,4 +1,4 @@
-//! What the page calls, and what it calls the page for.
+//! The wasm interface: exports for the page, imports from it.
 
 use super::mirror::{Mirror, Wish};
 use crate::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare, wear};

@@ -178,7 +178,7 @@ impl<'a> Shade<'a> {
         }
         let soft = self.lighting.ambient([n.x as f32, n.y as f32, n.z as f32]);
         let key = self.lighting.color.map(|channel| channel * lit as f32);
-        // What is enclosed is lit by warm neighbors: the shade loses blue before red.
+        // Ambient light in corners is warm: shade loses blue before red.
         let shade = [open * (1.1 - 0.1 * open), open, open * (0.9 + 0.1 * open)];
         [
             key[0] + soft[0] * shade[0],

@@ -20,7 +20,7 @@ struct Seen<'a> {
     lights: &'a [LightMap],
     origin: Vector3<f64>,
     local_from_cam: Matrix3<f64>,
-    /// How many times larger it is than it was built.
+    /// Scale relative to the modeled size.
     scale: f64,
     /// Pixels that may show it: columns and rows, both ends included.
     columns: (i64, i64),

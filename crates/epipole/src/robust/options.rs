@@ -95,7 +95,7 @@ pub struct RansacOptions {
     pub threshold: ThresholdKind,
     /// The probability that one sample at least is free of outliers, in (0, 1). 0.999.
     pub confidence: f64,
-    /// Samples drawn even if fewer would do, unless [`max_iterations`](Self::max_iterations) is
+    /// Minimum number of samples, unless [`max_iterations`](Self::max_iterations) is
     /// lower. 200: the number that the share of inliers asks for takes every sample without
     /// outliers for a good start, but with noise only some of them lead to the best model.
     pub min_iterations: usize,

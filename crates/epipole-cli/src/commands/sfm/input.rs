@@ -26,12 +26,12 @@ pub(super) struct InputArguments {
     /// by --camera, by its EXIF data, or to be guessed.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
-    /// A camera that `epipole calibrate` wrote, whatever the model of its lens, for photographs of its size, also those
-    /// that were taken upright. They stay as they are, up to their borders, and cameras.txt tells the lens.
+    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images stay distorted, and
+    /// cameras.txt has the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
-    /// Free the photographs of --camera of its distortion first: cameras.txt then tells pinhole cameras, for programs that
-    /// know no others. What a flat picture cannot keep is lost: of a fisheye the border.
+    /// Undistort the images of --camera first: cameras.txt then has pinhole cameras, for programs that know no others.
+    /// The border of a fisheye is lost.
     #[arg(long, requires = "camera_file")]
     undistort: bool,
     #[command(flatten)]

@@ -7,7 +7,7 @@ use super::question::{Answer, Candidate};
 pub(super) struct Rules {
     /// The nearest must be closer than this share of the second nearest; 1 leaves the test out.
     pub(super) max_ratio: f32,
-    /// Each must be the other's nearest.
+    /// Require mutual nearest neighbors.
     pub(super) is_mutual: bool,
 }
 

@@ -77,7 +77,7 @@ const STAGES: [Stage; 7] = [
     Stage::Surface,
 ];
 
-/// Who says how long the focal length is.
+/// Source of the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FocalFrom {
     /// The photographs are rendered with it.

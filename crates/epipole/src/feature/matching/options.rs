@@ -13,7 +13,7 @@ pub struct MatchOptions {
     /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
     /// the test out. Lowe 2004, §7.1.
     pub max_ratio: Option<f32>,
-    /// Each must be the other's nearest.
+    /// Require mutual nearest neighbors.
     pub mutual: bool,
     /// The largest distance, ≥ 0; `None` for any.
     pub max_distance: Option<f32>,
