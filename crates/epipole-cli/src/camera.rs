@@ -6,7 +6,7 @@ use crate::photo::Photo;
 use clap::Args;
 use epipole::camera::Intrinsics;
 
-/// How the intrinsics of photographs are given.
+/// Options of the intrinsics of photos.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub(crate) struct CameraArguments {
     /// Focal lengths and principal point in pixels.
@@ -52,7 +52,7 @@ impl CameraArguments {
     }
 }
 
-/// How the intrinsics of two photographs are given.
+/// Options of the intrinsics of two photos.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct PairArguments {
     #[command(flatten)]
@@ -134,7 +134,7 @@ pub(crate) fn some_unknown(guesses: &[Guess]) -> bool {
     guesses.iter().any(|guess| !guess.from_exif)
 }
 
-/// What was guessed for some photographs. `None` if nothing was.
+/// Warning about guessed focal lengths; `None` without guesses.
 pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     let first = guesses.first()?;
     let num_exif = guesses.iter().filter(|guess| guess.from_exif).count();

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::report::Report;
 use clap::Subcommand;
 
-/// What `epipole` can do.
+/// Commands of `epipole`.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Detect(detect::Arguments),

@@ -1,4 +1,4 @@
-//! What every command is told besides its own arguments.
+//! Settings shared by all commands.
 
 /// The global options that commands use.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// What is said of work that ended so.
+/// Warning about interrupted work.
 pub(crate) const ENDED_EARLY: &str = "ended early; the result is what there was";
 
 /// The exit status of a program that Ctrl-C ended, as shells tell it.

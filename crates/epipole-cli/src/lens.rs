@@ -50,7 +50,7 @@ pub(crate) fn fields(camera: &Camera) -> [(&'static str, Value); 3] {
     ]
 }
 
-/// What share of a photograph a lens bends no ray to: beyond the fold of its model, or beyond straight backwards.
+/// Share of an image that has no rays: beyond the fold of its model, or beyond straight backwards.
 pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     const SIDE: u32 = 24;
     let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;

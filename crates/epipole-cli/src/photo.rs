@@ -12,7 +12,7 @@ use epipole::math::Geodetic;
 use image::{GrayImage, RgbImage};
 use std::path::Path;
 
-/// How large photographs are.
+/// Size of photos.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Photographs")]
 pub(crate) struct SizeArguments {
@@ -35,7 +35,7 @@ pub(crate) struct Photo {
     pub(crate) color: RgbImage,
     /// First guess of the focal length from EXIF, pixels.
     pub(crate) focal_px: Option<f64>,
-    /// Where it was taken, from EXIF.
+    /// Position from EXIF.
     pub(crate) place: Option<Geodetic>,
     /// K, if the camera is known, or if the distortion of its lens was removed.
     pub(crate) k: Option<Intrinsics>,

@@ -16,11 +16,11 @@ enum Loss {
     Truncated,
 }
 
-/// How errors count, and when the steps end. How many steps there are at most is each command's own.
+/// Loss and convergence. The maximum number of iterations is each command's own.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Least squares")]
 pub(crate) struct RefinementArguments {
-    /// How large errors count.
+    /// Loss function.
     #[arg(long, value_enum, default_value = "none")]
     loss: Loss,
     /// From which error on the loss is no longer a square: pixels, or standard deviations of a measurement.
@@ -35,10 +35,10 @@ pub(crate) struct RefinementArguments {
     /// Done when a step lowers the cost by less than this share.
     #[arg(long, default_value = "1e-9", value_name = "SHARE", value_parser = not_negative)]
     cost_tolerance: f64,
-    /// How much the first step is damped, in shares of the diagonal; of a pose graph at most 1e-12.
+    /// Initial damping, relative to the diagonal; of a pose graph at most 1e-12.
     #[arg(long, default_value = "1e-4", value_name = "L", value_parser = positive)]
     initial_damping: f64,
-    /// How many steps in a row may raise the cost before smaller ones are tried; of a pose graph at least 3.
+    /// Maximum number of steps in a row that raise the cost; of a pose graph at least 3.
     #[arg(long, default_value_t = LmOptions::default().patience, value_name = "N")]
     patience: usize,
 }
@@ -56,7 +56,7 @@ impl RefinementArguments {
         }
     }
 
-    /// How errors count.
+    /// Loss function.
     pub(crate) fn loss(&self) -> RobustLoss {
         let width = self.loss_width;
         match self.loss {

@@ -1,4 +1,4 @@
-//! What a command found: fields for scripts, a table for people.
+//! Result of a command: fields for scripts, a table for people.
 
 use serde::Serialize;
 use serde_json::{Map, Value};

@@ -16,7 +16,7 @@ use std::fmt;
 /// Number of samples between two moves of the bar.
 const SAMPLES_PER_LOOK: usize = 64;
 
-/// How samples are drawn.
+/// Sampling strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Sampler {
     /// All data alike.
@@ -63,7 +63,7 @@ pub(crate) enum BudgetFormula {
     WithReplacement,
 }
 
-/// How to tell good data from bad: what all commands that do share.
+/// Options of robust estimation, shared by all commands.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Inliers")]
 pub(crate) struct RobustArguments {
@@ -79,7 +79,7 @@ pub(crate) struct RobustArguments {
     /// Minimum number of samples.
     #[arg(long, default_value_t = RansacOptions::default().min_iterations as u32, value_name = "N")]
     min_iterations: u32,
-    /// How samples are drawn.
+    /// Sampling strategy.
     #[arg(long, value_enum, default_value = "uniform")]
     sampler: Sampler,
     /// Scoring function.

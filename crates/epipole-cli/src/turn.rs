@@ -22,7 +22,7 @@ pub(crate) fn find_turn(
     find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging(ransac))
 }
 
-/// What there is to warn of.
+/// Warning about a turn that explains the inliers.
 pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     format!(
         "a camera that only turned explains {} of the {} inliers: whether and in which direction it \
@@ -55,7 +55,7 @@ pub(crate) fn sentence_of_other_focal(
     }))
 }
 
-/// What the inliers of F leave open, as a sentence, where they do: neither a plane nor a turn determines it.
+/// Warning about inliers that do not determine F: neither a plane nor a turn determines it.
 pub(crate) fn left_open(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

@@ -103,10 +103,10 @@ impl Outcome {
     }
 }
 
-/// What ends a loop that Ctrl-C ends, as a word for scripts.
+/// Termination of a canceled loop, as a word for scripts.
 pub(super) const CANCELED: &str = "canceled";
 
-/// What is wrong with the file, where the problem has no cost to begin with.
+/// Error for a problem without an initial cost.
 fn cannot_begin(error: Error, path: &Path) -> Failure {
     match error {
         Error::NotFinite { .. } => Failure::new(

@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     /// The marks of the board.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = marks)]
     board: (usize, usize),
-    /// What is printed on it.
+    /// Pattern of the board.
     #[arg(long, value_enum, default_value = "chessboard")]
     pattern: Printed,
     /// The side of a square, or the distance of two rows of disks; the unit of all places.

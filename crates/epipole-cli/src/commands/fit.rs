@@ -52,7 +52,7 @@ enum Model {
     pixel, and Sampson errors of fundamental and essential."
 )]
 pub(crate) struct Arguments {
-    /// What to fit.
+    /// Model to fit.
     #[arg(long, value_enum)]
     model: Model,
     /// A text file with one match a line.
@@ -73,7 +73,7 @@ pub(crate) struct Arguments {
     robust: RobustArguments,
 }
 
-/// What was found, whatever the model.
+/// Result of any model.
 struct Found {
     model: Vec<f64>,
     inliers: Vec<bool>,

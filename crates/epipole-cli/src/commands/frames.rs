@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     /// Frames of one size, PNG, JPEG or WebP, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
     frames: Vec<PathBuf>,
-    /// How many are chosen.
+    /// Number of frames to choose.
     #[arg(long, default_value_t = 20, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     num_frames: u32,
     /// The folder for the result.

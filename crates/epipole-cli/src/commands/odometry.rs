@@ -89,7 +89,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// How the path is followed.
+    /// Options of odometry.
     ///
     /// * `some_unknown`: whether the focal length is but a guess
     fn options(&self, context: &Context, some_unknown: bool) -> OdometryOptions {
@@ -109,7 +109,7 @@ const MAX_FEATURES: &str = "3000";
 const DETECTED: f32 = 0.5;
 const MATCHED: f32 = 0.7;
 
-/// What all steps share.
+/// State shared by all steps.
 struct Work<'a> {
     arguments: &'a Arguments,
     context: &'a Context,
@@ -176,7 +176,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 impl Work<'_> {
-    /// How the path is followed, and what is told of the camera.
+    /// Options of odometry and of the camera.
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
         let mut options = (self.arguments).options(self.context, some_unknown(guesses));

@@ -69,7 +69,7 @@ pub(crate) struct Arguments {
     robust: RobustArguments,
 }
 
-/// How to rectify, whichever way it was found.
+/// Rectification from any source.
 struct Found {
     homographies: [Matrix3<f64>; 2],
     maps: [PixelMap; 2],
@@ -79,7 +79,7 @@ struct Found {
 }
 
 impl Arguments {
-    /// How the results are to be.
+    /// Options of the rectification.
     fn shape(&self) -> RectifyOptions {
         RectifyOptions {
             alpha: self.alpha,

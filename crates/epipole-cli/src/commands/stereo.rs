@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// The largest disparity looked for, pixels.
     #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(i32).range(-8191..=8192), allow_hyphen_values = true)]
     max_disparity: i32,
-    /// How to match.
+    /// Matcher.
     #[arg(long, value_enum, default_value = "sgm")]
     method: Method,
     /// Give every pixel a value, from its surroundings if need be.

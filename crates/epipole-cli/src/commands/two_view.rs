@@ -80,7 +80,7 @@ pub(crate) struct Arguments {
     judging: JudgingArguments,
 }
 
-/// How the models are judged.
+/// Options of the choice among models.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Configuration")]
 struct JudgingArguments {
@@ -96,7 +96,7 @@ struct JudgingArguments {
 }
 
 impl Arguments {
-    /// How the core is to judge.
+    /// Options of the core.
     fn options(&self, context: &Context) -> TwoViewOptions {
         TwoViewOptions {
             ransac: self.robust.options(context),

@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     /// The photographs are by the right camera of the file.
     #[arg(long)]
     right: bool,
-    /// What to keep.
+    /// Area to keep.
     #[arg(long, value_enum, default_value = "valid")]
     keep: Kept,
     /// The folder for the result.

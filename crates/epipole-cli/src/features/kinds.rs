@@ -5,7 +5,7 @@ use crate::matrices::not_negative;
 use clap::Args;
 use epipole::feature::FeatureOptions;
 
-/// What only one of the kinds knows.
+/// Options of one kind of features.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features of one kind")]
 pub(super) struct KindArguments {

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What was found in photographs of one camera, in their order.
+/// Boards found in the photos of one camera, in their order.
 pub(super) struct Photographs {
     pub(super) names: Vec<String>,
     pub(super) views: Vec<Option<BoardView>>,

@@ -1,4 +1,4 @@
-//! How a reconstruction grows: what `epipole sfm` asks beyond features and matches.
+//! Options of incremental reconstruction.
 
 use super::refined::RefinedArguments;
 use crate::context::Context;
@@ -17,7 +17,7 @@ enum Lenses {
     Each,
 }
 
-/// What a photograph or a point must have to be accepted; of `epipole odometry` too, whose numbers differ.
+/// Acceptance thresholds of images and points; also of `epipole odometry`, with other defaults.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(crate) struct AcceptArguments {
@@ -58,7 +58,7 @@ impl AcceptArguments {
     }
 }
 
-/// What is refined, and what must be accepted.
+/// Refined parameters and acceptance thresholds.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {

@@ -49,13 +49,13 @@ fn focal(text: &str) -> Result<Focal, String> {
     }
 }
 
-/// What was read.
+/// Input that was read.
 pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Of the photographs that keep the distortion of a known lens.
     pub(super) lenses: Vec<Option<KeptLens>>,
-    /// Where the files of the photographs say that they were taken.
+    /// Positions from the files of the photos.
     pub(super) places: Vec<Option<Geodetic>>,
     /// Of the focal lengths that nobody gave.
     pub(super) guesses: Vec<Guess>,

@@ -1,4 +1,4 @@
-//! What `epipole sfm` writes: the model, and the photographs that it speaks of.
+//! Output of `epipole sfm`: the model and its images.
 
 use super::input::Used;
 use crate::failure::Failure;
@@ -8,7 +8,7 @@ use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Where the photographs come to stand as they were used.
+/// Folder of the images as they were used.
 pub(super) struct Pictures<'a> {
     used: &'a [Used],
     folder: PathBuf,

@@ -1,4 +1,4 @@
-//! Where photographs were taken, if that is known.
+//! Known positions of photos.
 
 use crate::failure::Failure;
 use crate::files;
@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Positions")]
 pub(super) struct PositionArguments {
-    /// Where photographs were taken: a file of lines NAME X Y Z in meters, with a standard deviation behind if it is
+    /// Positions of the photos: a file of lines NAME X Y Z in meters, with a standard deviation behind if it is
     /// another than --position-sigma-m; or "exif" for what the photographs say. Three that are not on one line give the
     /// result their frame and meters; some may be wrong.
     #[arg(long, value_name = "FILE|exif")]
@@ -29,19 +29,19 @@ pub(super) struct PositionArguments {
     position_sigma_m: f64,
 }
 
-/// What a line of the file says of a photograph.
+/// A line of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Line {
     pub(crate) numbers: [f64; 3],
     pub(crate) sigma_m: f64,
 }
 
-/// What is known of all.
+/// Positions of all photos.
 #[derive(Debug, Default)]
 pub(super) struct Positions {
     /// Of meters, if the positions were degrees.
     pub(super) origin: Option<Geodetic>,
-    /// How many photographs have one.
+    /// Number of photos with a position.
     pub(super) num_known: usize,
 }
 
@@ -222,7 +222,7 @@ impl Positions {
     }
 }
 
-/// How far photographs stand from where they are said to, root of the mean square, if they stand there at all.
+/// Root mean square distance of the cameras from their known positions, if the model is placed.
 pub(super) fn rms_m(found: &Reconstruction, photos: &[Photo]) -> Option<f64> {
     let off_sq: Vec<f64> = (found.cameras.iter().zip(photos))
         .filter_map(|(camera, photo)| {

@@ -1,11 +1,11 @@
-//! What of the lenses is refined, by `epipole sfm` and `epipole odometry`.
+//! Refined lens parameters of `epipole sfm` and `epipole odometry`.
 
 use crate::context::Context;
 use clap::Args;
 use epipole::camera::{Lens, LensKind};
 use epipole::sfm::SfmOptions;
 
-/// What of the lenses is refined.
+/// Refined lens parameters.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(crate) struct RefinedArguments {

@@ -59,7 +59,7 @@ impl KeepArguments {
     }
 }
 
-/// How far the two directions may disagree; none: as far as they like.
+/// Maximum left-right disagreement; none: any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LeftRight(Option<u32>);
 
@@ -75,7 +75,7 @@ fn left_right(text: &str) -> Result<LeftRight, String> {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Semi-global matching")]
 pub(super) struct SgmArguments {
-    /// What is compared [default: both].
+    /// Matching cost [default: both].
     #[arg(long, value_enum)]
     cost: Option<Cost>,
     /// The largest cost of a difference of gray values, 1 to 63 [default: 30].
@@ -111,10 +111,10 @@ pub(super) struct BmArguments {
     /// The side of the window, pixels, odd [default: 15].
     #[arg(long, value_name = "PX")]
     window_px: Option<u32>,
-    /// What is compared [default: x-sobel].
+    /// Prefilter [default: x-sobel].
     #[arg(long, value_enum)]
     prefilter: Option<Prefilter>,
-    /// What is compared is limited to plus or minus this, 1 to 63 [default: 31].
+    /// Limit of the prefiltered values, 1 to 63 [default: 31].
     #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
     prefilter_cap: Option<u8>,
     /// The smallest mean over a window of what is compared in the left picture; 0: no such test [default: 0.5].

@@ -22,7 +22,7 @@ use epipole::two_view::{
 };
 use nalgebra::Matrix3;
 
-/// What was found, whatever the model.
+/// Result of any model.
 pub(super) struct Found {
     pub(super) kind: &'static str,
     pub(super) model: Matrix3<f64>,
@@ -79,7 +79,7 @@ impl Found {
         }
     }
 
-    /// Where a camera that only turned explains it all.
+    /// Records a turn that explains the inliers.
     pub(super) fn turned(&mut self, turn: &ExplainingTurn) {
         self.configuration = "panoramic";
         self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
@@ -356,7 +356,7 @@ fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool 
     report.could_be_chance() || report.num_unique_inliers < options.min_num_inliers
 }
 
-/// What the views show, if it is enough to be anything.
+/// Configuration of the views, if the model is significant.
 fn configuration<M>(
     report: &RansacReport<M>,
     otherwise: &'static str,
