@@ -105,8 +105,8 @@ pub fn estimate_two_view(
 /// decomposition of H, whichever fits more matches with the points in front of both cameras; often two
 /// motions do equally well.
 ///
-/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`] are of rays then,
-/// `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in the pixels of the distorted images.
+/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`] are of rays then
+/// ([`TwoViewReport::is_of_rays`]), `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in the pixels of the distorted images.
 ///
 /// # Errors
 /// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if no model

@@ -40,6 +40,8 @@ pub struct TwoViewReport {
     pub configuration: Configuration,
     /// The matrix chosen.
     pub model: TwoViewModel,
+    /// Whether `model` and `homography` are of rays, not of pixels: through lenses other than pinholes.
+    pub is_of_rays: bool,
     /// F, where the pair has one: that of the motion for calibrated views of a plane, `None` for
     /// uncalibrated ones and for turns.
     pub fundamental: Option<Matrix3<f64>>,
@@ -76,6 +78,7 @@ impl TwoViewReport {
         Self {
             configuration: Configuration::Degenerate,
             model: TwoViewModel::Homography(Matrix3::identity() / 3.0_f64.sqrt()),
+            is_of_rays: false,
             fundamental: None,
             homography: None,
             cam2_from_cam1: None,
@@ -122,9 +125,12 @@ impl TwoViewReport {
         }
     }
 
-    /// The mean Sampson error of the inliers, pixels. `None` without inliers, or if the pair has no F
-    /// to measure by.
+    /// The mean Sampson error of the inliers, pixels. `None` without inliers, if the pair has no F
+    /// to measure by, and for a model of rays.
     pub fn mean_error_px(&self, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Option<f64> {
+        if self.is_of_rays {
+            return None;
+        }
         let (mut total, mut count) = (0.0, 0);
         for ((p1, p2), _) in pixels1
             .iter()

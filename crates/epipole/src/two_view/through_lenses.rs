@@ -56,6 +56,7 @@ pub(super) fn estimate_through_lenses(
     let mut found = TwoViewReport {
         configuration: Configuration::General,
         model: TwoViewModel::Essential(epipolar.model.essential()),
+        is_of_rays: true,
         fundamental: None,
         homography: None,
         cam2_from_cam1: Some(motion),
@@ -257,6 +258,7 @@ mod tests {
                 estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap()
             };
             let general = run(&step, room);
+            assert!(general.is_of_rays);
             assert_eq!(general.configuration, Configuration::General, "{lens:?}");
             let found = general.cam2_from_cam1.unwrap();
             let off = found.rotation.angle_to(&step.rotation).to_degrees();
