@@ -80,7 +80,7 @@ struct Search<'a> {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
@@ -93,7 +93,8 @@ struct Search<'a> {
 /// // Whoever believes 480 px sees a plane.
 /// let guess = Intrinsics::centered(480.0, 640, 480)?;
 /// let options = TwoViewOptions::default();
-/// let report = estimate_two_view_calibrated(&p1, &p2, &guess, &guess, &options, &mut ())?;
+/// let camera = Camera::pinhole(guess, 640, 480);
+/// let report = estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
 /// let turn = find_turn_and_focal(&p1, &p2, &guess, &guess, &report.inliers, &options)?.unwrap();
 /// assert!((turn.focal_factor - 600.0 / 480.0).abs() < 1e-3);
