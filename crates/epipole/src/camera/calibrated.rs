@@ -44,6 +44,11 @@ impl Camera {
         self.lens.is_none()
     }
 
+    /// Whether both of two cameras are pinholes.
+    pub(crate) fn are_pinholes(cameras: [&Self; 2]) -> bool {
+        cameras.into_iter().all(Self::is_pinhole)
+    }
+
     /// The pixel where a point of the camera frame is seen.
     ///
     /// # Errors

@@ -52,7 +52,7 @@ impl EssentialEstimator {
         pixels2: &[Point2<f64>],
         cameras: [&Camera; 2],
     ) -> Result<Self> {
-        if cameras.iter().all(|camera| camera.is_pinhole()) {
+        if Camera::are_pinholes(cameras) {
             let matches = MatchSet::new(pixels1, pixels2)?;
             matches.at_least(5, NAME)?;
             refuse_collinear(&matches, NAME)?;

@@ -13,7 +13,7 @@ use crate::optim::{LmOptions, RobustLoss, Subset};
 use crate::robust::{Data, MatchSet, Support};
 use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
-/// Rays that pass each other by the errors of so many pixels may be parallel.
+/// Maximum distance of rays that may be parallel, pixels.
 const PARALLEL_PX: f64 = 2.0;
 
 /// A match: two rays of length 1, and how they move with their pixels.
@@ -21,7 +21,7 @@ const PARALLEL_PX: f64 = 2.0;
 struct RayPair {
     rays: [Vector3<f64>; 2],
     by_px: [Matrix3x2<f64>; 2],
-    /// The squared sine of an angle between the rays that is noise.
+    /// Squared sine of the angle below which the rays may be parallel.
     noise_sq: f64,
 }
 

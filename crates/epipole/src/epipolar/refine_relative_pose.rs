@@ -60,7 +60,7 @@ pub fn refine_relative_pose(
     matches.at_least(5, "a refined relative pose")?;
     loss.check()?;
     let options = LmOptions::default();
-    let refined = if cameras.iter().all(|camera| camera.is_pinhole()) {
+    let refined = if Camera::are_pinholes(cameras) {
         let frame = CommonFrame::new(&matches);
         let errors = ErrorsInFrame {
             coordinates: &Coordinates::pixels(&matches).mapped(&frame),

@@ -16,6 +16,14 @@ pub enum AnyDescriptors {
 }
 
 impl AnyDescriptors {
+    /// Number of descriptors.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Vectors(descriptors) => descriptors.len(),
+            Self::Bits(descriptors) => descriptors.len(),
+        }
+    }
+
     /// The numbers; `None` for bits.
     pub fn as_vectors(&self) -> Option<&Descriptors> {
         match self {

@@ -197,7 +197,7 @@ pub fn estimate_homography_calibrated(
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
-    if cameras.iter().all(|camera| camera.is_pinhole()) {
+    if Camera::are_pinholes(cameras) {
         let report = estimate_homography(pixels1, pixels2, options, monitor)?;
         let [k1, k2] = cameras.map(|camera| camera.intrinsics);
         let of_rays = k2.inverse_matrix() * report.model * k1.matrix();

@@ -1,5 +1,6 @@
 //! The pose of a new photo in a reconstruction.
 
+use super::options::SfmOptions;
 use super::photos::PhotoFeatures;
 use super::reconstruction::Reconstruction;
 use crate::absolute_pose::estimate_absolute_pose;
@@ -27,11 +28,13 @@ pub struct LocalizeOptions {
 }
 
 impl Default for LocalizeOptions {
+    /// Thresholds of [`SfmOptions`].
     fn default() -> Self {
+        let sfm = SfmOptions::default();
         Self {
             matching: MatchOptions::default(),
-            ransac: RansacOptions::default().within(6.0),
-            min_num_inliers: 15,
+            ransac: RansacOptions::default().within(sfm.max_registration_error_px),
+            min_num_inliers: sfm.min_num_inliers,
         }
     }
 }
@@ -59,7 +62,7 @@ impl Reconstruction {
     ///   [`Stage::RobustEstimation`](crate::progress::Stage::RobustEstimation)
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for features of another number of images, [`Error::OutOfRange`] for a track with a
+    /// [`Error::SizeMismatch`] for features of another number of images and for keypoints without descriptors, [`Error::OutOfRange`] for a track with a
     /// keypoint that is not there, [`Error::TooFew`] where fewer than [`LocalizeOptions::min_num_inliers`] points are
     /// matched or agree with a pose, and as [`match_any_descriptors`] and [`estimate_absolute_pose`].
     ///
@@ -115,6 +118,16 @@ impl Reconstruction {
                 first: self.cameras.len(),
                 second: features.len(),
             });
+        }
+        for known in features.iter().chain([photo]) {
+            let (first, second) = (known.image.keypoints.len(), known.descriptors.len());
+            if first != second {
+                return Err(Error::SizeMismatch {
+                    what: "the lists of keypoints and of their descriptors",
+                    first,
+                    second,
+                });
+            }
         }
         let matches = self.match_points(features, photo, options, monitor)?;
         let enough = |got: usize| match got < options.min_num_inliers {
@@ -189,3 +202,57 @@ impl Reconstruction {
 
 /// Share of the work after which all is matched.
 const MATCHED: f32 = 0.8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Intrinsics;
+    use crate::feature::{AnyDescriptors, Descriptors};
+    use crate::sfm::{ScenePoint, SfmImage, TrackElement};
+    use nalgebra::{Point2, Point3};
+
+    fn features(num_keypoints: usize, num_descriptors: u8) -> PhotoFeatures {
+        let values = (0..num_descriptors).flat_map(|i| [i, 255 - i]).collect();
+        PhotoFeatures {
+            image: SfmImage {
+                keypoints: vec![Point2::new(1.0, 2.0); num_keypoints],
+                ..SfmImage::default()
+            },
+            descriptors: AnyDescriptors::Vectors(Descriptors::from_bytes(2, values).unwrap()),
+            keypoints: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn features_that_do_not_fit_are_refused() {
+        let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480).unwrap(), 640, 480);
+        let track = vec![TrackElement {
+            image: 0,
+            keypoint: 7,
+        }];
+        let point = ScenePoint {
+            position: Point3::origin(),
+            color: [128; 3],
+            track,
+            error_px: 0.0,
+        };
+        let found = Reconstruction {
+            cameras: vec![None],
+            points: vec![point],
+            ..Reconstruction::default()
+        };
+        let run = |known: &[PhotoFeatures], photo: &PhotoFeatures| {
+            let options = LocalizeOptions::default();
+            found.localize(known, photo, &camera, &options, &mut ())
+        };
+        let size = |result| matches!(result, Err(Error::SizeMismatch { .. }));
+        assert!(size(run(&[], &features(3, 3))));
+        assert!(size(run(&[features(8, 8)], &features(3, 4))));
+        assert!(size(run(&[features(8, 7)], &features(3, 3))));
+        let missing = run(&[features(5, 5)], &features(3, 3));
+        assert!(matches!(missing, Err(Error::OutOfRange { .. })));
+        // No image is registered, so no point is matched.
+        let few = run(&[features(8, 8)], &features(3, 3));
+        assert!(matches!(few, Err(Error::TooFew { got: 0, .. })));
+    }
+}

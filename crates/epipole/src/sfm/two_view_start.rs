@@ -189,7 +189,7 @@ fn find_plane(
     cameras: [&Camera; 2],
     judging: &TwoViewOptions,
 ) -> Option<RansacReport<Matrix3<f64>>> {
-    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+    if !Camera::are_pinholes(cameras) {
         return find_plane_through_lenses(pixels1, pixels2, cameras, judging);
     }
     let flat = estimate_homography(pixels1, pixels2, &judging.ransac, &mut ()).ok();

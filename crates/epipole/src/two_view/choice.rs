@@ -140,7 +140,7 @@ pub fn estimate_two_view_calibrated(
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReport> {
     options.check()?;
-    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+    if !Camera::are_pinholes(cameras) {
         return estimate_through_lenses(pixels1, pixels2, cameras, options, monitor);
     }
     let [k1, k2] = cameras.map(|camera| &camera.intrinsics);

@@ -58,7 +58,7 @@ pub fn find_explaining_turn(
 ) -> Result<Option<ExplainingTurn>> {
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
-    if !cameras.iter().all(|camera| camera.is_pinhole()) {
+    if !Camera::are_pinholes(cameras) {
         let [seen1, seen2] = ObservedMatches::new(&in1, &in2, cameras)?.seen;
         let pairs: Vec<_> = seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect();
         return Ok(find_turn_through_lenses(&pairs, options));
