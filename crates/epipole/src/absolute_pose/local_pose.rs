@@ -29,7 +29,7 @@ impl Pivot {
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for (x, depth) in points {
             let nearness = nearest / depth;
-            // What is behind the camera ends the search before it begins.
+            // Points behind the camera make the initial cost infinite; they move no pivot.
             if nearness > 0.0 {
                 sum += x * (nearness * nearness);
                 total += nearness * nearness;

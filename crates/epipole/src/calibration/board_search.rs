@@ -4,7 +4,7 @@ use super::{Board, BoardView};
 
 /// A grid of which this share of the marks is seen is no chance.
 const WHOLE: f64 = 0.8;
-/// So many times the marks are another grid, and not the same one with a stray corner.
+/// Ratio of marks above which a grid is another one, not the same with a stray corner.
 const MORE: f64 = 1.25;
 
 /// Result of a search for a board.

@@ -17,7 +17,7 @@ pub(in crate::imaging) enum End {
 /// Passes over a JPEG file; over its markers only if its picture is larger than `max_pixels`.
 ///
 /// # Errors
-/// What is wrong, in words, if its data are damaged.
+/// The damage to its data in words, if there is any.
 pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, String> {
     let mut tables = Tables::default();
     let mut frame: Option<Frame> = None;
