@@ -129,11 +129,9 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
             room.response = separable_filter(&room.frame, &kernel, &kernel, Border::Reflect101)?;
         }
         HARRIS => {
-            let options = StructureTensorOptions {
-                window: Window::Box(3),
-                scaling: epipole::feature::Scaling::OpenCv,
-                ..StructureTensorOptions::default()
-            };
+            let options = StructureTensorOptions::default()
+                .with_window(Window::Box(3))
+                .with_scaling(epipole::feature::Scaling::OpenCv);
             room.response = harris_response(&room.frame, 0.04, &options)?;
         }
         MATCH => {

@@ -63,13 +63,11 @@ pub(crate) struct FeatureArguments {
 impl FeatureArguments {
     /// The same for the core.
     pub(crate) fn options(&self) -> FeatureOptions {
-        let common = FeatureOptions {
-            kind: self.features.into(),
-            max_features: self.max_features,
-            contrast_threshold: self.contrast_threshold,
-            upright: self.upright,
-            ..FeatureOptions::default()
-        };
+        let common = FeatureOptions::default()
+            .with_kind(self.features.into())
+            .with_max_features(self.max_features)
+            .with_contrast_threshold(self.contrast_threshold)
+            .with_upright(self.upright);
         self.kinds.options(common)
     }
 
@@ -125,12 +123,11 @@ fn not_negative(text: &str) -> Result<f32, String> {
 impl MatchArguments {
     /// The same for the core.
     pub(crate) fn options(&self) -> MatchOptions {
-        MatchOptions {
-            max_ratio: Some(self.ratio),
-            mutual: self.mutual,
-            max_distance: self.max_distance,
-            unique: self.unique,
-        }
+        MatchOptions::default()
+            .with_max_ratio(Some(self.ratio))
+            .with_mutual(self.mutual)
+            .with_max_distance(self.max_distance)
+            .with_unique(self.unique)
     }
 
     /// Matches the features of two photographs, the least ambiguous first: some samplers make use of it.

@@ -90,10 +90,9 @@ impl Photo {
         size: SizeArguments,
         undistortion: Option<&Undistortion>,
     ) -> Result<Self, Failure> {
-        let options = PrepareOptions {
-            max_pixels: size.max_pixels(),
-            undistortion,
-        };
+        let options = PrepareOptions::default()
+            .with_max_pixels(size.max_pixels())
+            .with_undistortion(undistortion);
         let photo = prepare_photo(&bytes(path)?, &options)
             .map_err(|error| Failure::from(error).about(path))?;
         Ok(Self::from(photo))
@@ -108,10 +107,9 @@ impl Photo {
         size: SizeArguments,
         camera: &Camera,
     ) -> Result<Self, Failure> {
-        let options = PrepareOptions {
-            max_pixels: size.max_pixels(),
-            undistortion: None,
-        };
+        let options = PrepareOptions::default()
+            .with_max_pixels(size.max_pixels())
+            .with_undistortion(None);
         let about = |error: epipole::Error| Failure::from(error).about(path);
         let prepared = prepare_photo(&bytes(path)?, &options).map_err(about)?;
         let its_own = prepared.camera(camera).map_err(about)?;
@@ -141,10 +139,7 @@ impl Photo {
     /// # Errors
     /// As [`Photo::read`].
     pub(crate) fn of_sensor(path: &Path) -> Result<GrayImage32, Failure> {
-        let as_stored = DecodeOptions {
-            apply_orientation: false,
-            ..DecodeOptions::default()
-        };
+        let as_stored = DecodeOptions::default().with_apply_orientation(false);
         let decoded = decode_rgb(&bytes(path)?, &as_stored);
         let decoded = decoded.map_err(|error| Failure::from(error).about(path))?;
         Ok(photo_to_gray(&decoded.image))

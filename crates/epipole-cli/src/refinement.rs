@@ -46,14 +46,13 @@ pub(crate) struct RefinementArguments {
 impl RefinementArguments {
     /// The same for the core.
     pub(crate) fn options(&self, max_iterations: usize) -> LmOptions {
-        LmOptions {
-            max_iterations,
-            gradient_tolerance: self.gradient_tolerance,
-            step_tolerance: self.step_tolerance,
-            cost_tolerance: self.cost_tolerance,
-            initial_damping: self.initial_damping,
-            patience: self.patience,
-        }
+        LmOptions::default()
+            .with_max_iterations(max_iterations)
+            .with_gradient_tolerance(self.gradient_tolerance)
+            .with_step_tolerance(self.step_tolerance)
+            .with_cost_tolerance(self.cost_tolerance)
+            .with_initial_damping(self.initial_damping)
+            .with_patience(self.patience)
     }
 
     /// Loss function.

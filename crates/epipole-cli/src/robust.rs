@@ -140,29 +140,27 @@ impl RobustArguments {
             MaxError::Pixels(pixels) => (pixels, ThresholdKind::Given),
             MaxError::Auto => (default.max_error_px, ThresholdKind::Noise),
         };
-        RansacOptions {
-            max_error_px,
-            threshold,
-            confidence: self.confidence,
-            min_iterations: self.min_iterations as usize,
-            max_iterations: self.max_iterations as usize,
-            seed: context.seed,
-            sampler: match self.sampler {
+        default
+            .with_max_error_px(max_error_px)
+            .with_threshold(threshold)
+            .with_confidence(self.confidence)
+            .with_min_iterations(self.min_iterations as usize)
+            .with_max_iterations(self.max_iterations as usize)
+            .with_seed(context.seed)
+            .with_sampler(match self.sampler {
                 Sampler::Uniform => SamplerKind::Uniform,
                 Sampler::Prosac => SamplerKind::Prosac,
-            },
-            score: match self.score {
+            })
+            .with_score(match self.score {
                 Score::Msac => ScoreKind::Msac,
                 Score::Inliers => ScoreKind::InlierCount,
-            },
-            budget: match self.budget {
+            })
+            .with_budget(match self.budget {
                 BudgetFormula::WithoutReplacement => Budget::WithoutReplacement,
                 BudgetFormula::WithReplacement => Budget::WithReplacement,
-            },
-            local_optimization: self.local_optimization,
-            inner_iterations: self.inner_iterations as usize,
-            ..default
-        }
+            })
+            .with_local_optimization(self.local_optimization)
+            .with_inner_iterations(self.inner_iterations as usize)
     }
 
     /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold is given.

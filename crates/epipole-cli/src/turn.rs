@@ -97,10 +97,9 @@ fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize
     /// Fewer lie on some line in any case.
     const LEAST: usize = 5;
     // Where all but two lie on a line, nearly every sample finds it.
-    let options = RansacOptions {
-        max_iterations: ransac.max_iterations.min(1000),
-        ..ransac.within(2.0 * ransac.max_error_px)
-    };
+    let options = ransac
+        .within(2.0 * ransac.max_error_px)
+        .with_max_iterations(ransac.max_iterations.min(1000));
     // Where all are the same there is no line, and nothing to say that was not said.
     let lines = LineEstimator::new(pixels).ok()?;
     let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
@@ -127,10 +126,7 @@ pub(crate) fn if_unmoved(
 
 /// * `ransac`: the options that the model was found with
 fn judging(ransac: &RansacOptions) -> TwoViewOptions {
-    TwoViewOptions {
-        ransac: *ransac,
-        ..TwoViewOptions::default()
-    }
+    TwoViewOptions::default().with_ransac(*ransac)
 }
 
 fn sentence_of_degeneracy(found: &Degeneracy) -> String {

@@ -29,10 +29,7 @@ fn bundle(c: &mut Criterion) {
     {
         // Until the cost that SciPy, Ceres and others stop at.
         let adjust = |max_iterations| {
-            let options = LmOptions {
-                max_iterations,
-                ..LmOptions::default()
-            };
+            let options = LmOptions::default().with_max_iterations(max_iterations);
             adjust_bal(&mut problem.clone(), &options, RobustLoss::Trivial, &mut ())
         };
         let history = adjust(100).map_or(Vec::new(), |report| report.history);

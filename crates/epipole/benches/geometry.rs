@@ -25,14 +25,12 @@ fn world(
     outlier_fraction: f64,
     structure: Structure,
 ) -> TwoViewProblem {
-    let options = TwoViewProblemOptions {
-        num_points,
-        structure,
-        noise_px: 0.5,
-        outlier_fraction,
-        seed,
-        ..TwoViewProblemOptions::default()
-    };
+    let options = TwoViewProblemOptions::default()
+        .with_num_points(num_points)
+        .with_structure(structure)
+        .with_noise_px(0.5)
+        .with_outlier_fraction(outlier_fraction)
+        .with_seed(seed);
     TwoViewProblem::new(&options).expect("two cameras that see the structure")
 }
 
@@ -84,10 +82,7 @@ fn robust(c: &mut Criterion) {
     let mut seed = 0;
     let mut options = || {
         seed += 1;
-        RansacOptions {
-            seed,
-            ..RansacOptions::default()
-        }
+        RansacOptions::default().with_seed(seed)
     };
     let s = world(2, 1000, 0.4, CUBE);
     let k = s.camera1.intrinsics;

@@ -5,8 +5,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use epipole::camera::{Camera, Distortion, Intrinsics, RigidTransform};
 use epipole::math::random::Random;
 use epipole::stereo::{
-    DisparityFilter, RectifyOptions, StereoBm, StereoPaths, StereoSgm, fill_gaps,
-    rectify_calibrated,
+    RectifyOptions, StereoBm, StereoPaths, StereoSgm, fill_gaps, rectify_calibrated,
 };
 use image::{GrayImage, Luma};
 use std::hint::black_box;
@@ -43,14 +42,12 @@ fn dense(criterion: &mut Criterion) {
     group.bench_function("block-matching", |bencher| {
         bencher.iter(|| bm.compute(black_box(&left), black_box(&right), &mut ()));
     });
-    let plain = StereoBm {
-        filter: DisparityFilter {
-            left_right_max_px: None,
-            speckle_size: 0,
-            ..StereoBm::default().filter
-        },
-        ..StereoBm::default()
-    };
+    let plain = StereoBm::default().with_filter(
+        StereoBm::default()
+            .filter
+            .with_left_right_max_px(None)
+            .with_speckle_size(0),
+    );
     group.bench_function("block-matching-plain", |bencher| {
         bencher.iter(|| plain.compute(black_box(&left), black_box(&right), &mut ()));
     });
@@ -59,10 +56,7 @@ fn dense(criterion: &mut Criterion) {
         ("semi-global-5", StereoPaths::Five),
         ("semi-global-8", StereoPaths::Eight),
     ] {
-        let sgm = StereoSgm {
-            paths,
-            ..StereoSgm::default()
-        };
+        let sgm = StereoSgm::default().with_paths(paths);
         group.bench_function(name, |bencher| {
             bencher.iter(|| sgm.compute(black_box(&left), black_box(&right), &mut ()));
         });

@@ -13,7 +13,7 @@ use epipole::camera::RigidTransform;
 use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
 use epipole::optim::{LmOptions, RobustLoss};
 use epipole::sfm::{BalProblem, adjust_bal};
-use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoPaths, StereoSgm};
+use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
 use std::path::Path;
 use timing::timed;
@@ -74,14 +74,12 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
         Ok(())
     };
     // With the tests that OpenCV's has, and no others.
-    let plain = StereoBm {
-        filter: DisparityFilter {
-            left_right_max_px: None,
-            speckle_size: 0,
-            ..StereoBm::default().filter
-        },
-        ..StereoBm::default()
-    };
+    let plain = StereoBm::default().with_filter(
+        StereoBm::default()
+            .filter
+            .with_left_right_max_px(None)
+            .with_speckle_size(0),
+    );
     run("bm_plain", &|| plain.compute(&left, &right, &mut ()))?;
     run("bm", &|| {
         StereoBm::default().compute(&left, &right, &mut ())
@@ -91,10 +89,7 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
         ("sgm_5", StereoPaths::Five),
         ("sgm_8", StereoPaths::Eight),
     ] {
-        let matcher = StereoSgm {
-            paths,
-            ..StereoSgm::default()
-        };
+        let matcher = StereoSgm::default().with_paths(paths);
         run(name, &|| matcher.compute(&left, &right, &mut ()))?;
     }
     Ok(())
@@ -103,10 +98,7 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
 fn adjust(path: &str, cost: f64, rounds: usize) -> Outcome {
     let problem = BalProblem::parse(&std::fs::read_to_string(path)?)?;
     let adjust = |max_iterations| {
-        let options = LmOptions {
-            max_iterations,
-            ..LmOptions::default()
-        };
+        let options = LmOptions::default().with_max_iterations(max_iterations);
         adjust_bal(&mut problem.clone(), &options, RobustLoss::Trivial, &mut ())
     };
     // Untimed: how many steps lead to the cost.

@@ -14,25 +14,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let max_features = arguments.get(2).map_or(Ok(0), |n| n.parse())?;
     let image = decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image;
     let (keypoints, bytes, length) = if kind == "orb" {
-        let options = OrbOptions {
-            max_features: if max_features == 0 {
-                1000
-            } else {
-                max_features
-            },
-            ..OrbOptions::default()
-        };
+        let options = OrbOptions::default().with_max_features(if max_features == 0 {
+            1000
+        } else {
+            max_features
+        });
         let features = detect_orb(&image, &options)?;
         (features.keypoints, features.descriptors.to_bytes(), 32)
     } else {
-        let options = SiftOptions {
-            max_features,
-            normalization: match kind {
+        let options = SiftOptions::default()
+            .with_max_features(max_features)
+            .with_normalization(match kind {
                 "rootsift" => SiftNormalization::Root,
                 _ => SiftNormalization::L2,
-            },
-            ..SiftOptions::default()
-        };
+            });
         let features = detect_sift(&image, &options, &mut ())?;
         let bytes = features.descriptors.as_bytes().unwrap_or_default().to_vec();
         (features.keypoints, bytes, 128)

@@ -95,21 +95,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let blur = || separable_filter(&frame, &kernel, &kernel, Border::Reflect101);
     let blurred = time("gaussian5", 10 * rounds, blur, no_note)?;
     write(&folder.join("gaussian5.f32"), blurred.into_raw())?;
-    let options = StructureTensorOptions {
-        window: Window::Box(3),
-        scaling: Scaling::OpenCv,
-        ..StructureTensorOptions::default()
-    };
+    let options = StructureTensorOptions::default()
+        .with_window(Window::Box(3))
+        .with_scaling(Scaling::OpenCv);
     let harris = || harris_response(&frame, 0.04, &options);
     let response = time("harris", 5 * rounds, harris, no_note)?;
     write(&folder.join("harris.f32"), response.into_raw())?;
 
     let bytes = std::fs::read(folder.join("photograph.png"))?;
     let image = decode_gray(&bytes, &DecodeOptions::default())?.image;
-    let options = SiftOptions {
-        max_features,
-        ..SiftOptions::default()
-    };
+    let options = SiftOptions::default().with_max_features(max_features);
     let sift = || detect_sift(&image, &options, &mut ());
     time("sift", rounds, sift, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()

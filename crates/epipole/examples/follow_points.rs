@@ -13,10 +13,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let step = RigidTransform::translation(-0.01, 0.0, 0.0);
     let (camera, truth) = photograph(&RigidTransform::identity())?;
     let (first, second) = (gray(&truth), gray(&photograph(&step)?.1));
-    let options = GoodFeaturesOptions {
-        max_corners: 200,
-        ..GoodFeaturesOptions::default()
-    };
+    let options = GoodFeaturesOptions::default().with_max_corners(200);
     let corners: Vec<_> = good_features_to_track(&first, &options)?
         .iter()
         .map(Keypoint::point)

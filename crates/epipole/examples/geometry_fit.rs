@@ -31,13 +31,11 @@ struct Problem {
 fn read(numbers: &mut impl Iterator<Item = f64>) -> Option<Problem> {
     let kind = numbers.next()? as u64;
     let mut next = || numbers.next();
-    let options = RansacOptions {
-        max_error_px: next()?,
-        max_iterations: next()? as usize,
-        confidence: next()?,
-        seed: next()? as u64,
-        ..RansacOptions::default()
-    };
+    let options = RansacOptions::default()
+        .with_max_error_px(next()?)
+        .with_max_iterations(next()? as usize)
+        .with_confidence(next()?)
+        .with_seed(next()? as u64);
     let intrinsics = [next()?, next()?, next()?, next()?];
     let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
     for _ in 0..next()? as usize {

@@ -25,7 +25,7 @@
 //!
 //! * Image coordinates are (u, v) = (column, row): u to the right, v down, pixel centers at
 //!   integers.
-//! * PosedCamera frame: x right, y down, z forward. `x_in_cam = cam_from_world * x_in_world`.
+//! * Camera frame: x right, y down, z forward. `x_in_cam = cam_from_world * x_in_world`.
 //! * Disparity is `u_left − u_right ≥ 0`.
 //! * A random choice takes a `u64` seed and gives the same result on every platform.
 //! * Geometry is `f64`, images are `f32`.

@@ -44,14 +44,12 @@ static ALLOCATOR: Counting = Counting;
 /// Matches of points of which some lie on a plane; every third match is wrong.
 fn matches(num_on_plane: usize) -> TwoViewProblem {
     let draw = |structure, num_points| {
-        let options = TwoViewProblemOptions {
-            num_points,
-            structure,
-            noise_px: 0.3,
-            outlier_fraction: 1.0 / 3.0,
-            seed: 5,
-            ..TwoViewProblemOptions::default()
-        };
+        let options = TwoViewProblemOptions::default()
+            .with_num_points(num_points)
+            .with_structure(structure)
+            .with_noise_px(0.3)
+            .with_outlier_fraction(1.0 / 3.0)
+            .with_seed(5);
         TwoViewProblem::new(&options).unwrap()
     };
     let half_side_m = 1.5;
@@ -70,14 +68,12 @@ fn check<E: Estimator>(name: &str, made: impl Fn() -> E) {
     for sampler in [SamplerKind::Uniform, SamplerKind::Prosac] {
         for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
             for score_every_trial in [false, true] {
-                let options = RansacOptions {
-                    min_iterations: 300,
-                    max_iterations: 300,
-                    sampler,
-                    score,
-                    score_every_trial,
-                    ..RansacOptions::default()
-                };
+                let options = RansacOptions::default()
+                    .with_min_iterations(300)
+                    .with_max_iterations(300)
+                    .with_sampler(sampler)
+                    .with_score(score)
+                    .with_score_every_trial(score_every_trial);
                 let what = format!("{name}, {sampler:?}, {score:?}, {score_every_trial}");
                 check_run(&what, made(), options);
             }

@@ -83,10 +83,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             left_paths.len()
         )));
     }
-    let options = CalibrationOptions {
-        lens: arguments.model.into(),
-        max_iterations: arguments.max_iterations,
-    };
+    let options = CalibrationOptions::default()
+        .with_lens(arguments.model.into())
+        .with_max_iterations(arguments.max_iterations);
     let left = Side::new(&left_paths, &board, &options, context)?;
     let mut fields = left.fields();
     let mut report = left.rows(Report::default());

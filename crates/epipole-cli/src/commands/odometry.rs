@@ -94,11 +94,10 @@ impl Arguments {
     /// * `some_unknown`: whether the focal length is but a guess
     fn options(&self, context: &Context, some_unknown: bool) -> OdometryOptions {
         let accepted = self.accept.options(&self.robust, context);
-        OdometryOptions {
-            sfm: self.refined.options(accepted, some_unknown),
-            window: self.window,
-            final_adjustment: self.final_adjustment,
-        }
+        OdometryOptions::default()
+            .with_sfm(self.refined.options(accepted, some_unknown))
+            .with_window(self.window)
+            .with_final_adjustment(self.final_adjustment)
     }
 }
 
@@ -141,12 +140,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         );
         return Err(Failure::new("size-mismatch", message));
     }
-    let options = PhotoOptions {
-        features: arguments.features.options(),
-        matching: arguments.matching.options(),
-        neighbors: arguments.neighbors,
-        best_first: arguments.robust.options(context).sampler == SamplerKind::Prosac,
-    };
+    let options = PhotoOptions::default()
+        .with_features(arguments.features.options())
+        .with_matching(arguments.matching.options())
+        .with_neighbors(arguments.neighbors)
+        .with_best_first(arguments.robust.options(context).sampler == SamplerKind::Prosac);
     let work = Work {
         arguments,
         context,

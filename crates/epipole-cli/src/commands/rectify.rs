@@ -81,11 +81,10 @@ struct Found {
 impl Arguments {
     /// Options of the rectification.
     fn shape(&self) -> RectifyOptions {
-        RectifyOptions {
-            alpha: self.alpha,
-            size: self.size,
-            zero_disparity_at_infinity: !self.free_infinity,
-        }
+        RectifyOptions::default()
+            .with_alpha(self.alpha)
+            .with_size(self.size)
+            .with_zero_disparity_at_infinity(!self.free_infinity)
     }
 }
 

@@ -93,21 +93,20 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let positions = arguments.positions.give(&mut photos, &places)?;
     let lenses = (arguments.growth).give_lenses(&mut photos, &intrinsics, &lenses);
     (arguments.growth.refined).tell_of_nothing_to_refine(&lenses, context);
-    let options = SfmOptions {
-        lenses,
-        ..(arguments.growth).options(&arguments.robust, context, some_unknown(&guesses))
-    };
+    let options = arguments
+        .growth
+        .options(&arguments.robust, context, some_unknown(&guesses))
+        .with_lenses(lenses);
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
         let then = if refine_focal { ", to be refined" } else { "" };
         context.warn(&format!("{sentence}{then}"));
     }
-    let photo_options = PhotoOptions {
-        features: arguments.features.options(),
-        matching: arguments.matching.options(),
-        neighbors: arguments.neighbors,
-        best_first: options.ransac.sampler == SamplerKind::Prosac,
-    };
+    let photo_options = PhotoOptions::default()
+        .with_features(arguments.features.options())
+        .with_matching(arguments.matching.options())
+        .with_neighbors(arguments.neighbors)
+        .with_best_first(options.ransac.sampler == SamplerKind::Prosac);
     let progress = Progress::new(context, "structure from motion");
     let watch = &mut |status| progress.show(status);
     let (images, pairs) =

@@ -98,12 +98,11 @@ struct JudgingArguments {
 impl Arguments {
     /// Options of the core.
     fn options(&self, context: &Context) -> TwoViewOptions {
-        TwoViewOptions {
-            ransac: self.robust.options(context),
-            min_num_inliers: self.judging.min_inliers,
-            max_homography_share: self.judging.max_homography_share,
-            min_essential_share: self.judging.min_essential_share,
-        }
+        TwoViewOptions::default()
+            .with_ransac(self.robust.options(context))
+            .with_min_num_inliers(self.judging.min_inliers)
+            .with_max_homography_share(self.judging.max_homography_share)
+            .with_min_essential_share(self.judging.min_essential_share)
     }
 }
 

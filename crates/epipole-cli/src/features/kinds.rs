@@ -54,22 +54,20 @@ pub(super) struct KindArguments {
 impl KindArguments {
     /// With what all kinds know.
     pub(super) fn options(&self, common: FeatureOptions) -> FeatureOptions {
-        FeatureOptions {
-            max_upsampled_pixels: self.max_upsampled_pixels,
-            input_blur_px: self.input_blur_px,
-            sigma_px: self.sigma_px,
-            layers_per_octave: self.layers_per_octave,
-            edge_threshold: self.edge_threshold,
-            max_orientations: self.max_orientations,
-            orientation_peak_ratio: self.orientation_peak_ratio,
-            num_levels: self.num_levels,
-            scale_factor: self.scale_factor,
-            harris_k: self.harris_k,
-            min_distance_px: self.min_distance_px,
-            tensor_window_px: self.tensor_window_px,
-            patch_px: self.patch_px,
-            ..common
-        }
+        common
+            .with_max_upsampled_pixels(self.max_upsampled_pixels)
+            .with_input_blur_px(self.input_blur_px)
+            .with_sigma_px(self.sigma_px)
+            .with_layers_per_octave(self.layers_per_octave)
+            .with_edge_threshold(self.edge_threshold)
+            .with_max_orientations(self.max_orientations)
+            .with_orientation_peak_ratio(self.orientation_peak_ratio)
+            .with_num_levels(self.num_levels)
+            .with_scale_factor(self.scale_factor)
+            .with_harris_k(self.harris_k)
+            .with_min_distance_px(self.min_distance_px)
+            .with_tensor_window_px(self.tensor_window_px)
+            .with_patch_px(self.patch_px)
     }
 }
 

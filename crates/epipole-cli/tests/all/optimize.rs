@@ -94,11 +94,9 @@ fn exact_observations_are_explained_exactly() {
 #[test]
 fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let folder = Folder::new("ba-noise");
-    let options = MultiViewProblemOptions {
-        noise_px: 0.5,
-        seed: 3,
-        ..MultiViewProblemOptions::default()
-    };
+    let options = MultiViewProblemOptions::default()
+        .with_noise_px(0.5)
+        .with_seed(3);
     let file = folder.write("noise.txt", &problem(&options).to_text());
     let result = json(&["ba", path(&file)]);
     // ½ σ² per degree of freedom: two an observation, less nine a camera, three a point, plus the
@@ -107,10 +105,7 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let ratio = result["final_cost"].as_f64().unwrap() / (0.5 * 0.25 * freedom);
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 
-    let wild = MultiViewProblemOptions {
-        outlier_fraction: 0.05,
-        ..options
-    };
+    let wild = options.with_outlier_fraction(0.05);
     let clean = problem(&options);
     let file = folder.write("wild.txt", &problem(&wild).to_text());
     // How far the points are from where they would be without outliers.

@@ -200,7 +200,8 @@ impl Project {
              pub fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
              // Files, and their focal lengths in pixels where they do not tell it.\n    \
              let files: [(&str, Option<f64>); {count}] = [\n{photos}    ];\n{undistortion}    \
-             let prepare = PrepareOptions {{ max_pixels: {max_pixels}, undistortion }};\n    \
+             let prepare = PrepareOptions::default()\n        .with_max_pixels({max_pixels})\n        \
+             .with_undistortion(undistortion);\n    \
              let (mut photos, mut intrinsics) = (Vec::new(), Vec::new());\n    \
              for (path, focal_px) in files {{\n        \
              let photo = prepare_photo(&std::fs::read(path)?, &prepare)?;\n        \
@@ -220,8 +221,9 @@ impl Project {
              how.features.contrast_threshold = Some({contrast:?});\n    \
              how.matching.max_ratio = Some({ratio:?});\n    \
              how.matching.mutual = {mutual};\n    \
-             let options = SfmOptions {{\n        min_num_inliers: {enough},\n        refine_focal: {refine_focal},\n        \
-             refine_distortion: {refine_distortion},\n        seed: {seed},\n        ..SfmOptions::default()\n    }};\n    \
+             let options = SfmOptions::default()\n        .with_min_num_inliers({enough})\n        \
+             .with_refine_focal({refine_focal})\n        .with_refine_distortion({refine_distortion})\n        \
+             .with_seed({seed});\n    \
              let (input, found) =\n        \
              reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;\n    \
              let largest = found.components.first().ok_or(\"no two photographs show enough of the same thing\")?;\n    \

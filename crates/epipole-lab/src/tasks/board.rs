@@ -71,10 +71,7 @@ fn of_sensor(source: &Source) -> Result<RgbImage, String> {
         }
         Source::Rendered(..) => return Err("there is no board in this sample".to_owned()),
     };
-    let as_stored = DecodeOptions {
-        apply_orientation: false,
-        ..DecodeOptions::default()
-    };
+    let as_stored = DecodeOptions::default().with_apply_orientation(false);
     let decoded = decode_rgb(bytes, &as_stored).map_err(unreadable)?;
     Ok(decoded.image)
 }

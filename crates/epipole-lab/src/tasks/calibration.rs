@@ -26,14 +26,11 @@ pub(super) fn calibration(
         })
     };
     let views: Vec<_> = views.iter().map(view).collect();
-    let how = epipole::calibration::CalibrationOptions {
-        lens: match options.lens {
-            LensModel::Brown => LensKind::Brown,
-            LensModel::Rational => LensKind::Rational,
-            LensModel::Fisheye => LensKind::Fisheye,
-        },
-        ..epipole::calibration::CalibrationOptions::default()
-    };
+    let how = epipole::calibration::CalibrationOptions::default().with_lens(match options.lens {
+        LensModel::Brown => LensKind::Brown,
+        LensModel::Rational => LensKind::Rational,
+        LensModel::Fisheye => LensKind::Fisheye,
+    });
     let mut watch = |status: Status| progress(Told::Share(status.share, status.stage.words()));
     let found = calibrate(&board, &views, size, &how, &mut watch);
     let found = found.map_err(|error| match error {

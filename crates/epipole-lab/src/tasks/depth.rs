@@ -144,10 +144,7 @@ fn rectify(
     let cam2_from_cam1: RigidTransform =
         cameras[second].cam_from_world * cameras[first].cam_from_world.inverse();
     // All of both photographs: a camera that rolled a little would leave only a small part without a border.
-    let options = RectifyOptions {
-        alpha: 1.0,
-        ..RectifyOptions::default()
-    };
+    let options = RectifyOptions::default().with_alpha(1.0);
     rectify_calibrated(
         &[camera(first)?, camera(second)?],
         &cam2_from_cam1,
@@ -199,17 +196,13 @@ fn matched(
     let mut watch =
         |status: Status| progress(Told::Share(0.1 + 0.85 * status.share, status.stage.words()));
     match options.method {
-        DepthMethod::SemiGlobal => StereoSgm {
-            min_disparity_px,
-            num_disparities,
-            ..StereoSgm::default()
-        }
-        .compute(left, right, &mut watch),
-        DepthMethod::Block => StereoBm {
-            min_disparity_px,
-            num_disparities,
-            ..StereoBm::default()
-        }
-        .compute(left, right, &mut watch),
+        DepthMethod::SemiGlobal => StereoSgm::default()
+            .with_min_disparity_px(min_disparity_px)
+            .with_num_disparities(num_disparities)
+            .compute(left, right, &mut watch),
+        DepthMethod::Block => StereoBm::default()
+            .with_min_disparity_px(min_disparity_px)
+            .with_num_disparities(num_disparities)
+            .compute(left, right, &mut watch),
     }
 }

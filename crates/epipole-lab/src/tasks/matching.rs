@@ -14,11 +14,9 @@ pub(super) fn matches(
     options: &MatchOptions,
     progress: Progress<'_>,
 ) -> Result<Vec<Match>, String> {
-    let how = epipole::feature::MatchOptions {
-        max_ratio: Some(options.ratio),
-        mutual: options.mutual,
-        ..epipole::feature::MatchOptions::default()
-    };
+    let how = epipole::feature::MatchOptions::default()
+        .with_max_ratio(Some(options.ratio))
+        .with_mutual(options.mutual);
     let mut watch = |_| progress(Told::Share(0.0, ""));
     let (first, second) = (read(first)?, read(second)?);
     let found = match_descriptors(&first, &second, &how, &mut watch);

@@ -47,10 +47,9 @@ fn file(
     };
     let undistortion = camera.map(flat).transpose()?;
     ask(progress, 0.1)?;
-    let options = PrepareOptions {
-        max_pixels: max_pixels.into(),
-        undistortion: undistortion.as_ref(),
-    };
+    let options = PrepareOptions::default()
+        .with_max_pixels(max_pixels.into())
+        .with_undistortion(undistortion.as_ref());
     let photo = prepare_photo(bytes, &options).map_err(unreadable)?;
     ask(progress, 0.9)?;
     let (width, height) = photo.image.dimensions();

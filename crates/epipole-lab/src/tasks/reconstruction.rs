@@ -33,13 +33,11 @@ pub(super) fn reconstruct(
             .collect::<Result<_, _>>()?,
         pairs: pairs.iter().map(plain).collect(),
     };
-    let how = epipole::sfm::SfmOptions {
-        min_num_inliers: options.min_num_inliers as usize,
-        refine_focal: options.refine_focal,
-        refine_distortion: options.refine_distortion,
-        seed: options.seed,
-        ..epipole::sfm::SfmOptions::default()
-    };
+    let how = epipole::sfm::SfmOptions::default()
+        .with_min_num_inliers(options.min_num_inliers as usize)
+        .with_refine_focal(options.refine_focal)
+        .with_refine_distortion(options.refine_distortion)
+        .with_seed(options.seed);
     let mut share = 0.0;
     let mut run = IncrementalReconstruction::new(&input, &how, &mut |status: Status| {
         share = status.share;

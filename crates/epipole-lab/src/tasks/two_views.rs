@@ -32,14 +32,11 @@ pub(super) fn two_views(
     let first: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[0], p[1])).collect();
     let second: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[2], p[3])).collect();
     let [k1, k2] = [intrinsics(&cameras[0])?, intrinsics(&cameras[1])?];
-    let how = TwoViewOptions {
-        ransac: RansacOptions {
-            max_error_px: options.max_error_px,
-            seed: options.seed,
-            ..RansacOptions::default()
-        },
-        ..TwoViewOptions::default()
-    };
+    let how = TwoViewOptions::default().with_ransac(
+        RansacOptions::default()
+            .with_max_error_px(options.max_error_px)
+            .with_seed(options.seed),
+    );
     how.check().map_err(sentence)?;
     let mut monitor = |status: Status| progress(Told::Share(status.share, ""));
     // No estimator asks for the size of the images.

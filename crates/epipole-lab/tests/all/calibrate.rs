@@ -137,10 +137,7 @@ fn files_give_what_the_core_gives_bit_for_bit() {
             usize::from(ours != LensModel::Brown),
             "the boards are known"
         );
-        let options = CalibrationOptions {
-            lens: kind,
-            ..CalibrationOptions::default()
-        };
+        let options = CalibrationOptions::default().with_lens(kind);
         let direct = match calibrate(&board, &views, (400, 300), &options, &mut ()) {
             Ok(direct) => direct,
             // Five views leave eight numbers of a usual lens open.

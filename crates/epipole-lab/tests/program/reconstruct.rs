@@ -23,7 +23,9 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let flat = Undistortion::new(&camera, Keep::Valid)?;
     let undistortion = Some(&flat);
-    let prepare = PrepareOptions { max_pixels: 200000, undistortion };
+    let prepare = PrepareOptions::default()
+        .with_max_pixels(200000)
+        .with_undistortion(undistortion);
     let (mut photos, mut intrinsics) = (Vec::new(), Vec::new());
     for (path, focal_px) in files {
         let photo = prepare_photo(&std::fs::read(path)?, &prepare)?;
@@ -45,13 +47,11 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     how.features.contrast_threshold = Some(0.02);
     how.matching.max_ratio = Some(0.8);
     how.matching.mutual = true;
-    let options = SfmOptions {
-        min_num_inliers: 15,
-        refine_focal: false,
-        refine_distortion: false,
-        seed: 0,
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default()
+        .with_min_num_inliers(15)
+        .with_refine_focal(false)
+        .with_refine_distortion(false)
+        .with_seed(0);
     let (input, found) =
         reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;
     let largest = found.components.first().ok_or("no two photographs show enough of the same thing")?;

@@ -118,10 +118,7 @@ pub(crate) fn detect(
 }
 
 fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features, Error> {
-    let options = SiftOptions {
-        max_features: MAX_FEATURES,
-        ..SiftOptions::default()
-    };
+    let options = SiftOptions::default().with_max_features(MAX_FEATURES);
     let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
     detect_sift(&gray, &options, &mut |status: Status| {
         progress(f64::from(status.share))

@@ -27,20 +27,18 @@ pub(crate) struct Rules {
 impl Rules {
     /// The same for the core.
     fn options(&self) -> RansacOptions {
-        RansacOptions {
-            max_error_px: self.epsilon_px,
-            confidence: CONFIDENCE,
-            min_iterations: 1,
-            max_iterations: self.max_samples,
-            seed: self.seed,
-            score: match self.msac {
+        RansacOptions::default()
+            .with_max_error_px(self.epsilon_px)
+            .with_confidence(CONFIDENCE)
+            .with_min_iterations(1)
+            .with_max_iterations(self.max_samples)
+            .with_seed(self.seed)
+            .with_score(match self.msac {
                 true => ScoreKind::Msac,
                 false => ScoreKind::InlierCount,
-            },
-            budget: Budget::WithReplacement,
-            local_optimization: self.local_optimization,
-            ..RansacOptions::default()
-        }
+            })
+            .with_budget(Budget::WithReplacement)
+            .with_local_optimization(self.local_optimization)
     }
 
     /// The whole loop at once: the model, and how many samples it took. As the last step of the plain

@@ -5,11 +5,14 @@ use crate::Result;
 use crate::camera::{Camera, Intrinsics};
 use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
 use crate::math::Geodetic;
+use derive_setters::Setters;
 use image::metadata::Orientation;
 use image::{DynamicImage, RgbImage};
 
 /// Options of [`prepare_photo`].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Setters)]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct PrepareOptions<'a> {
     /// At most so many pixels are left.
     pub max_pixels: u64,
@@ -96,7 +99,7 @@ impl PreparedPhoto {
 /// use epipole::calibration::{PrepareOptions, prepare_photo};
 /// let mut file = std::io::Cursor::new(Vec::new());
 /// image::RgbImage::new(40, 30).write_to(&mut file, image::ImageFormat::Png)?;
-/// let options = PrepareOptions { max_pixels: 300, ..PrepareOptions::default() };
+/// let options = PrepareOptions::default().with_max_pixels(300);
 /// let photo = prepare_photo(file.get_ref(), &options)?;
 /// assert_eq!((photo.image.dimensions(), photo.full_size), ((20, 15), (40, 30)));
 /// assert_eq!(photo.reduced_focal_px(50.0), 25.0);

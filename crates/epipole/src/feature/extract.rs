@@ -43,7 +43,7 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 ///     let inside = |x: u32| (20..44).contains(&x);
 ///     image::Luma([if inside(u) && inside(v) { 0.9 } else { 0.1 }])
 /// });
-/// let options = FeatureOptions { kind: FeatureKind::Harris, ..FeatureOptions::default() };
+/// let options = FeatureOptions::default().with_kind(FeatureKind::Harris);
 /// assert_eq!(detect_features(&square, &options, &mut ())?.keypoints.len(), 4);
 /// # Ok(()) }
 /// ```

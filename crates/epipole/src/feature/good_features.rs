@@ -4,6 +4,7 @@ use super::nms::strongest_first;
 use super::{Keypoint, StructureTensorOptions, harris_response, min_eigenvalue_response};
 use crate::imaging::GrayImage32;
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Measure of corners.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -35,12 +36,14 @@ pub struct Grid {
 }
 
 /// Options of [`good_features_to_track`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct GoodFeaturesOptions {
     /// At most so many corners; 0 means no limit.
     pub max_corners: usize,

@@ -4,6 +4,7 @@ use super::{
     CornerMeasure, GoodFeaturesOptions, OrbOptions, SiftNormalization, SiftOptions,
     StructureTensorOptions, Window,
 };
+use derive_setters::Setters;
 
 /// Which features to look for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,12 +35,14 @@ pub enum FeatureKind {
 /// let options = FeatureOptions::default();
 /// assert_eq!((options.kind, options.max_features), (FeatureKind::RootSift, 8192));
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct FeatureOptions {
     /// RootSIFT.
     pub kind: FeatureKind,

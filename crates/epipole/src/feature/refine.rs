@@ -2,15 +2,18 @@
 
 use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::Point2;
 
 /// Options of [`refine_corners`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct RefineOptions {
     /// Half the side of the window, pixels, 1 to 50: the window is `2 half + 1` wide.
     pub half_window: usize,

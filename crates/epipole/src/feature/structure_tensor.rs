@@ -6,6 +6,7 @@ use crate::imaging::separable::{Ring, RowFilter, Sink, in_bands};
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
 use crate::math::simd::dispatched;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use std::ops::Range;
 
 /// Weights of the neighbors in the structure tensor.
@@ -40,12 +41,14 @@ pub enum Scaling {
 }
 
 /// Options of a structure tensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct StructureTensorOptions {
     /// The filter for the derivatives.
     pub derivative: DerivativeFilter,

@@ -6,15 +6,18 @@ use crate::imaging::{
     sample_bilinear,
 };
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::Point2;
 
 /// Options of [`track_lucas_kanade`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct TrackOptions {
     /// Half the side of the window, pixels, 1 to 50.
     pub half_window: usize,

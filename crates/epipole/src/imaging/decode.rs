@@ -5,18 +5,21 @@ use super::gray::{GrayImage32, from_vec, rgb_to_gray};
 use super::jpeg;
 use crate::math::Geodetic;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbImage};
 use std::borrow::Cow;
 use std::io::Cursor;
 
 /// Options of [`decode_gray`] and [`decode_rgb`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct DecodeOptions {
     /// The largest width × height; a file that promises more is refused before memory is taken.
     pub max_pixels: u64,

@@ -3,6 +3,7 @@
 use super::gray::from_vec;
 use super::{Border, GrayImage32, sample_bicubic, sample_bilinear};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Matrix2x3, Matrix3};
 
 /// Interpolation between pixels.
@@ -21,12 +22,14 @@ pub enum Interpolation {
 }
 
 /// Options of a warp.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct WarpOptions {
     /// Width of the result, pixels.
     pub width: u32,

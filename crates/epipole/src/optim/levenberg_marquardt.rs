@@ -2,6 +2,7 @@
 
 use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// A problem as the loop sees it: linearize, solve, step, measure.
 ///
@@ -48,12 +49,14 @@ pub(crate) struct DampedStep {
 }
 
 /// When to stop, and how to start.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct LmOptions {
     /// Steps tried at most, rejected ones included.
     pub max_iterations: usize,

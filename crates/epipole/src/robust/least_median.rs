@@ -5,6 +5,7 @@ use super::{Estimator, SamplerKind};
 use crate::math::order::at_rank;
 use crate::math::random::Random;
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Rounds of "find the inliers, fit to them" after the samples.
 const ROUNDS: usize = 4;
@@ -16,12 +17,14 @@ const REACH: f64 = 2.5;
 const SMALLEST_REACH_PX: f64 = 1e-9;
 
 /// Choices of [`least_median`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct LeastMedianOptions {
     /// Samples drawn, ≥ 1. 500.
     pub num_samples: usize,

@@ -1,6 +1,7 @@
 //! Options and report of the loop.
 
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Sampling strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,15 +79,17 @@ pub enum ThresholdKind {
 ///
 /// ```
 /// use epipole::robust::RansacOptions;
-/// let options = RansacOptions { max_error_px: 2.0, seed: 7, ..RansacOptions::default() };
+/// let options = RansacOptions::default().with_max_error_px(2.0).with_seed(7);
 /// assert_eq!(options.confidence, 0.999);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct RansacOptions {
     /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
     /// own, the unit of its errors. 1.
@@ -143,7 +146,7 @@ impl RansacOptions {
     ///
     /// ```
     /// use epipole::robust::{RansacOptions, ThresholdKind};
-    /// let searching = RansacOptions { threshold: ThresholdKind::Noise, ..RansacOptions::default() };
+    /// let searching = RansacOptions::default().with_threshold(ThresholdKind::Noise);
     /// let given = searching.within(1.5);
     /// assert_eq!((given.threshold, given.max_error_px), (ThresholdKind::Given, 1.5));
     /// ```

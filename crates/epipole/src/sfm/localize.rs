@@ -9,15 +9,18 @@ use crate::feature::{MatchOptions, match_any_descriptors};
 use crate::progress::{Monitor, Part};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use std::collections::BTreeMap;
 
 /// Options of [`Reconstruction::localize`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct LocalizeOptions {
     /// Tests of the matches. Ratio 0.8, mutual.
     pub matching: MatchOptions,

@@ -2,14 +2,17 @@
 
 use super::options::SfmOptions;
 use crate::robust::RansacOptions;
+use derive_setters::Setters;
 
 /// Options of odometry.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct OdometryOptions {
     /// Thresholds, in pixels and degrees. Frames are nearer to each other than photographs, so
     /// that points are accepted under smaller angles: 0.3 degrees, and the start wants 1.

@@ -7,6 +7,7 @@ use crate::camera::{Intrinsics, Lens};
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Photographs, reduced to keypoints, and matches between them.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,12 +21,14 @@ pub struct SfmInput {
 }
 
 /// Options of [`reconstruct`](super::reconstruct).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct SfmOptions {
     /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
     /// registered. Its threshold is 2 pixels, and its seed is not looked at.

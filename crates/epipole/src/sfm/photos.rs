@@ -12,6 +12,7 @@ use crate::feature::{
 };
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use image::RgbImage;
 
 /// A photograph with a name.
@@ -28,12 +29,14 @@ pub struct Photo {
 }
 
 /// Options of [`photo_features`] and [`match_features`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct PhotoOptions {
     /// RootSIFT, up to 8192 features, faint ones too.
     pub features: FeatureOptions,

@@ -7,18 +7,21 @@ use crate::optim::{LmReport, RobustLoss};
 use crate::progress::{Monitor, Part};
 use crate::triangulation::{triangulate_optimal, triangulation_angle_rad};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Point2, Point3};
 
 /// Number of refinements after points were left out.
 const MAX_REPETITIONS: usize = 5;
 
 /// Which points of two views to keep, and how to refine them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct TwoViewReconstructionOptions {
     /// Points whose rays meet at a smaller angle are left out, radians, ≥ 0.
     pub min_angle_rad: f64,
@@ -98,7 +101,7 @@ pub struct TwoViewReconstruction {
 /// use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 /// use nalgebra::{Point2, Vector3};
 /// let lens = Intrinsics::new(500.0, 500.0, 320.0, 240.0)?;
-/// // PosedCamera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
+/// // Camera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
 /// let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
 /// for i in 0..20 {
 ///     let pixel = Point2::new(300.0 + 8.0 * f64::from(i % 5), 180.0 + 30.0 * f64::from(i / 5));

@@ -9,6 +9,7 @@ use super::work::Strips;
 use crate::math::simd::dispatched;
 use crate::progress::Monitor;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
 
 /// Dense disparity of a rectified pair by comparing square windows.
@@ -32,17 +33,19 @@ use image::{GrayImage, ImageBuffer, Luma};
 /// let gray = |u: u32, v: u32| Luma([((u * u * 7 + v * v * 5 + u * v * 3) % 251) as u8]);
 /// let left = GrayImage::from_fn(40, 24, gray);
 /// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
-/// let matcher = StereoBm { num_disparities: 8, window_px: 9, ..Default::default() };
+/// let matcher = StereoBm::default().with_num_disparities(8).with_window_px(9);
 /// let disparity = matcher.compute(&left, &right, &mut ())?;
 /// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
 /// # Ok(()) }
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct StereoBm {
     /// The smallest disparity looked for, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,

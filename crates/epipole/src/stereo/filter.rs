@@ -3,21 +3,24 @@
 use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Tests that an answer of a dense matcher must pass.
 ///
 /// ```
 /// use epipole::stereo::{DisparityFilter, StereoSgm};
-/// let filter = DisparityFilter { speckle_size: 0, ..DisparityFilter::default() };
-/// let matcher = StereoSgm { filter, ..StereoSgm::default() };
+/// let filter = DisparityFilter::default().with_speckle_size(0);
+/// let matcher = StereoSgm::default().with_filter(filter);
 /// assert_eq!(matcher.filter.left_right_max_px, Some(1));
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct DisparityFilter {
     /// Percent by which the costs of all disparities two or more away from the best must be
     /// higher, 0 to 99; 0: no such test.

@@ -9,6 +9,7 @@ use super::winner::Selector;
 use super::work::{Reporter, alone, in_two};
 use crate::progress::Monitor;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::Range;
 
@@ -50,18 +51,20 @@ pub enum StereoPaths {
 /// let gray = |u: u32, v: u32| Luma([((u * u * 7 + v * v * 5 + u * v * 3) % 251) as u8]);
 /// let left = GrayImage::from_fn(40, 24, gray);
 /// let right = GrayImage::from_fn(40, 24, |u, v| gray(u + 3, v));
-/// let filter = DisparityFilter { speckle_size: 0, ..Default::default() };
-/// let matcher = StereoSgm { num_disparities: 8, filter, ..Default::default() };
+/// let filter = DisparityFilter::default().with_speckle_size(0);
+/// let matcher = StereoSgm::default().with_num_disparities(8).with_filter(filter);
 /// let disparity = matcher.compute(&left, &right, &mut ())?;
 /// assert!((disparity.get(20, 12).unwrap() - 3.0).abs() < 0.5);
 /// # Ok(()) }
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct StereoSgm {
     /// The smallest disparity looked for, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,

@@ -4,6 +4,7 @@ use super::{Structure, camera_at, check_world, choose_inliers, draw_points, meas
 use crate::camera::PosedCamera;
 use crate::math::random::Random;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Positions of the cameras of a world.
@@ -26,7 +27,9 @@ pub enum Path {
 }
 
 /// Options of a [`MultiViewProblem`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct MultiViewProblemOptions {
     /// Number of cameras, at least 2.
     pub num_cameras: usize,

@@ -6,10 +6,13 @@ use super::{
 use crate::camera::PosedCamera;
 use crate::math::random::Random;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Point2, Point3};
 
 /// Options of a [`TwoViewProblem`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct TwoViewProblemOptions {
     /// Number of matches, inliers and outliers together.
     pub num_points: usize,
@@ -70,7 +73,7 @@ impl TwoViewProblem {
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::synthetic::{TwoViewProblemOptions, TwoViewProblem};
-    /// let options = TwoViewProblemOptions { outlier_fraction: 0.3, ..TwoViewProblemOptions::default() };
+    /// let options = TwoViewProblemOptions::default().with_outlier_fraction(0.3);
     /// let problem = TwoViewProblem::new(&options)?;
     /// assert_eq!(problem.is_inlier.iter().filter(|inlier| **inlier).count(), 70);
     /// // Without noise an inlier's pixels are the projections of its point.

@@ -3,6 +3,7 @@
 use crate::homography::homography_sampson_sq;
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Matrix3, Point2};
 
 /// The largest error of a match of two photographs, pixels, that the commands on photographs and
@@ -11,12 +12,14 @@ use nalgebra::{Matrix3, Point2};
 pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 
 /// Options of the choice among models of two views.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct TwoViewOptions {
     /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
     /// 1.25 times its threshold, by the Sampson error. [`ThresholdKind::Noise`](crate::robust::ThresholdKind)

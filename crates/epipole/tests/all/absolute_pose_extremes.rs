@@ -128,12 +128,10 @@ fn robust_estimation_does_not_depend_on_where_the_origin_is() {
             *pixel = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
         }
         for local_optimization in [true, false] {
-            let options = RansacOptions {
-                max_error_px: 2.0,
-                seed,
-                local_optimization,
-                ..RansacOptions::default()
-            };
+            let options = RansacOptions::default()
+                .with_max_error_px(2.0)
+                .with_seed(seed)
+                .with_local_optimization(local_optimization);
             let found = |shift: &Vector3<f64>| {
                 let points = scene.points(shift, 1.0);
                 estimate_absolute_pose(

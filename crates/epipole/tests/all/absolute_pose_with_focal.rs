@@ -73,10 +73,7 @@ fn errors(scene: &Scene, focal_px: f64, pose: &RigidTransform) -> (f64, f64) {
 
 #[test]
 fn half_of_the_points_are_wrong() {
-    let options = RansacOptions {
-        max_error_px: 3.0,
-        ..RansacOptions::default()
-    };
+    let options = RansacOptions::default().with_max_error_px(3.0);
     for depth in [1.0, 0.0] {
         let (mut focals, mut centers, mut as_good) = (Vec::new(), Vec::new(), 0);
         for seed in 0..60 {
@@ -124,10 +121,7 @@ fn exact_points_give_the_truth() {
     for depth in [1.0, 0.0] {
         for seed in 0..20 {
             let scene = scene(seed, depth, 0.0, 0.3);
-            let options = RansacOptions {
-                seed,
-                ..RansacOptions::default()
-            };
+            let options = RansacOptions::default().with_seed(seed);
             let report = estimate_absolute_pose_and_focal(
                 &scene.points,
                 &scene.pixels,

@@ -21,11 +21,9 @@ fn data(name: &str) -> Option<String> {
 }
 
 fn tight(max_iterations: usize) -> LmOptions {
-    LmOptions {
-        max_iterations,
-        cost_tolerance: 1e-9,
-        ..LmOptions::default()
-    }
+    LmOptions::default()
+        .with_max_iterations(max_iterations)
+        .with_cost_tolerance(1e-9)
 }
 
 /// The initial cost is published with 13 digits; 13344.28 is the optimum that several solvers

@@ -95,10 +95,7 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
         rig.baseline_m
     );
     for kind in [LensKind::Rational, LensKind::Fisheye] {
-        let options = CalibrationOptions {
-            lens: kind,
-            ..options
-        };
+        let options = options.with_lens(kind);
         let other =
             calibrate(&board, &sides[0], (640, 480), &options, &mut ()).expect("a calibration");
         println!("{kind:?}: {} px", other.rms_px);

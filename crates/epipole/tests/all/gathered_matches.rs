@@ -38,10 +38,7 @@ fn scene(
 }
 
 fn options(seed: u64) -> RansacOptions {
-    RansacOptions {
-        seed,
-        ..RansacOptions::default()
-    }
+    RansacOptions::default().with_seed(seed)
 }
 
 /// Nearly all honest matches are inliers, and of the others no more than happen to lie right.
@@ -106,10 +103,7 @@ fn one_place_wins_no_fundamental() {
 fn one_place_wins_with_no_threshold() {
     for seed in 0..10 {
         let Scene { p1, p2 } = scene(seed, 0.2, tilted);
-        let of_noise = RansacOptions {
-            threshold: ThresholdKind::Noise,
-            ..options(seed)
-        };
+        let of_noise = options(seed).with_threshold(ThresholdKind::Noise);
         let found = estimate_homography(&p1, &p2, &of_noise, &mut ());
         assert!(is_true(&found), "{seed} {found:?}");
     }
@@ -122,10 +116,7 @@ fn maps_to_meters_and_from_them_are_as_good() {
         for seed in 0..5 {
             let Scene { p1, p2 } = scene(seed, 0.2, turned);
             let plan: Vec<_> = p2.iter().map(|p| p * unit).collect();
-            let meters = RansacOptions {
-                max_error_px: unit,
-                ..options(seed)
-            };
+            let meters = options(seed).with_max_error_px(unit);
             let found = estimate_similarity(&p1, &plan, &meters, &mut ());
             assert!(is_true(&found), "{size_m} m {found:?}");
             // Only the honest ones back: in an area of millimeters each is far from the others by the pixel.

@@ -231,7 +231,7 @@ proptest! {
         let order = refine(&start, &rotated(&points, places), &rotated(&pixels, places));
         prop_assert!(pose_error(&order, &before, 5.0) < 1e-7);
 
-        let options = RansacOptions { max_error_px: 4.0, seed, ..RansacOptions::default() };
+        let options = RansacOptions::default().with_max_error_px(4.0).with_seed(seed);
         let before = estimate_absolute_pose(&points, &pixels, &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();
         let after = estimate_absolute_pose(&moved, &pixels, &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();
         let order = estimate_absolute_pose(&rotated(&points, places), &rotated(&pixels, places), &Camera::pinhole(k, 640, 480), &options, &mut ()).unwrap();

@@ -506,14 +506,13 @@ fn data_sets() -> Vec<DataSet> {
 
 #[test]
 fn certified_values_from_both_starts() {
-    let options = LmOptions {
-        max_iterations: 10_000,
-        gradient_tolerance: 0.0,
-        step_tolerance: 1e-15,
-        cost_tolerance: 0.0,
-        initial_damping: 1e3,
-        patience: 0,
-    };
+    let options = LmOptions::default()
+        .with_max_iterations(10_000)
+        .with_gradient_tolerance(0.0)
+        .with_step_tolerance(1e-15)
+        .with_cost_tolerance(0.0)
+        .with_initial_damping(1e3)
+        .with_patience(0);
     let mut sum_of_digits = 0.0;
     let mut fits = 0.0;
     for set in data_sets() {

@@ -57,10 +57,7 @@ fn kitti_turn_is_followed() {
         })
         .collect();
     let begin = std::time::Instant::now();
-    let mut photo_options = PhotoOptions {
-        neighbors: 4,
-        ..PhotoOptions::default()
-    };
+    let mut photo_options = PhotoOptions::default().with_neighbors(4);
     photo_options.features.max_features = 3000;
     let mut observer = |status: Status| {
         println!("{:?} {status:?}", begin.elapsed());
@@ -73,10 +70,7 @@ fn kitti_turn_is_followed() {
         pairs,
     };
     for final_adjustment in [false, true] {
-        let options = OdometryOptions {
-            final_adjustment,
-            ..OdometryOptions::default()
-        };
+        let options = OdometryOptions::default().with_final_adjustment(final_adjustment);
         let result = monocular_odometry(&input, &options, &mut observer).expect("a path");
         assert_eq!(result.lost, [0; 0]);
         let centers: Vec<Point3<f64>> = result

@@ -56,11 +56,9 @@ fn every_kind_of_options_goes_through_a_file() {
 fn some_fields_are_enough() {
     let options: RansacOptions =
         serde_json::from_str(r#"{"max_error_px": 2.5, "sampler": "uniform"}"#).unwrap();
-    let expected = RansacOptions {
-        max_error_px: 2.5,
-        sampler: epipole::robust::SamplerKind::Uniform,
-        ..RansacOptions::default()
-    };
+    let expected = RansacOptions::default()
+        .with_max_error_px(2.5)
+        .with_sampler(epipole::robust::SamplerKind::Uniform);
     assert_eq!(options, expected);
     let options: BundleOptions =
         serde_json::from_str(r#"{"loss": {"huber": {"width": 1.5}}, "gauge": "free"}"#).unwrap();

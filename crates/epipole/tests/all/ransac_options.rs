@@ -36,11 +36,9 @@ fn fit(points: &[Point2<f64>], options: &RansacOptions) -> RansacReport<Line2> {
 fn the_largest_number_of_samples_holds_against_the_least() {
     for (num_on_line, stop) in [(180, StopReason::Confident), (8, StopReason::Exhausted)] {
         let points = points(200, num_on_line, 0.0, 1);
-        let options = RansacOptions {
-            min_iterations: 500,
-            max_iterations: 50,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default()
+            .with_min_iterations(500)
+            .with_max_iterations(50);
         let report = fit(&points, &options);
         assert_eq!((report.iterations, report.stop), (50, stop));
         assert_eq!(
@@ -54,10 +52,7 @@ fn the_largest_number_of_samples_holds_against_the_least() {
 fn the_least_number_of_samples_is_drawn_and_no_more() {
     let points = points(100, 100, 0.0, 1);
     for min_iterations in [0, 1, 2, 77] {
-        let options = RansacOptions {
-            min_iterations,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default().with_min_iterations(min_iterations);
         let report = fit(&points, &options);
         assert_eq!(report.iterations, min_iterations.max(1));
         assert_eq!(
@@ -131,16 +126,14 @@ fn the_loop_follows_the_formula_of_its_budget() {
             for seed in 0..10 {
                 // So few that both formulas differ.
                 let points = points(60, 12, 0.2, seed);
-                let options = RansacOptions {
-                    budget,
-                    score,
-                    seed,
-                    confidence: 0.99,
-                    min_iterations: 1,
+                let options = RansacOptions::default()
+                    .with_budget(budget)
+                    .with_score(score)
+                    .with_seed(seed)
+                    .with_confidence(0.99)
+                    .with_min_iterations(1)
                     // Then a sample's own inliers are those of the best model.
-                    local_optimization: false,
-                    ..RansacOptions::default()
-                };
+                    .with_local_optimization(false);
                 let formula = |num_inliers: usize| match budget {
                     Budget::WithReplacement => {
                         num_trials_with_replacement(num_inliers as f64 / 60.0, 2, 0.99)
@@ -179,10 +172,7 @@ fn the_loop_follows_the_formula_of_its_budget() {
         }
     }
     let asked = |budget| {
-        let options = RansacOptions {
-            budget,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default().with_budget(budget);
         fit(&points(60, 12, 0.0, 1), &options).required_iterations
     };
     assert!(asked(Budget::WithoutReplacement) > asked(Budget::WithReplacement));
@@ -222,10 +212,7 @@ fn what_is_required_counts_different_data() {
 #[test]
 fn without_local_optimization_the_model_is_that_of_a_sample() {
     let points = points(200, 100, 0.5, 7);
-    let plain = RansacOptions {
-        local_optimization: false,
-        ..RansacOptions::default()
-    };
+    let plain = RansacOptions::default().with_local_optimization(false);
     let mut run = Ransac::new(LineEstimator::new(&points).unwrap(), plain).unwrap();
     let mut of_best = Vec::new();
     while let Step::Trial(trial) = run.step() {
@@ -296,16 +283,11 @@ fn scores_of_losers_change_nothing() {
         let estimator = prepare();
         for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
             for seed in 0..3 {
-                let brief = RansacOptions {
-                    score,
-                    seed,
-                    max_iterations: 400,
-                    ..RansacOptions::default()
-                };
-                let full = RansacOptions {
-                    score_every_trial: true,
-                    ..brief
-                };
+                let brief = RansacOptions::default()
+                    .with_score(score)
+                    .with_seed(seed)
+                    .with_max_iterations(400);
+                let full = brief.with_score_every_trial(true);
                 let name = estimator.problem().name;
                 let mut runs =
                     [brief, full].map(|options| Ransac::new(prepare(), options).unwrap());
@@ -356,11 +338,9 @@ fn scores_of_losers_change_nothing() {
 fn a_count_of_inliers_never_falls_at_the_end() {
     for seed in 0..30 {
         let points = points(200, 100, 0.6, seed);
-        let options = RansacOptions {
-            score: ScoreKind::InlierCount,
-            seed,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default()
+            .with_score(ScoreKind::InlierCount)
+            .with_seed(seed);
         let mut run = Ransac::new(LineEstimator::new(&points).unwrap(), options).unwrap();
         while let Step::Trial(_) = run.step() {}
         let (_, best) = run.best().unwrap();

@@ -66,11 +66,9 @@ impl Matches {
 }
 
 fn options(max_error_px: f64, seed: u64) -> RansacOptions {
-    RansacOptions {
-        max_error_px,
-        seed,
-        ..RansacOptions::default()
-    }
+    RansacOptions::default()
+        .with_max_error_px(max_error_px)
+        .with_seed(seed)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

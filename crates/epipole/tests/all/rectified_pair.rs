@@ -34,10 +34,7 @@ fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
 fn rig_of(cameras: &[PosedCamera; 2]) -> Result<Rectification> {
     let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
     let cameras = cameras.map(|camera| Camera::pinhole(camera.intrinsics, SIZE.0, SIZE.1));
-    let options = RectifyOptions {
-        alpha: 1.0,
-        ..RectifyOptions::default()
-    };
+    let options = RectifyOptions::default().with_alpha(1.0);
     rectify_calibrated(&cameras, &motion, &options)
 }
 
@@ -66,11 +63,9 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
             .unwrap();
         let images = photographs.each_ref().map(|photograph| &photograph.image);
         let redrawn = RectifiedPair::new(&rig, images).unwrap();
-        let matcher = StereoSgm {
-            min_disparity_px: first,
-            num_disparities: (end - first + 1) as u32,
-            ..StereoSgm::default()
-        };
+        let matcher = StereoSgm::default()
+            .with_min_disparity_px(first)
+            .with_num_disparities((end - first + 1) as u32);
         let found = redrawn
             .disparity(|left, right| matcher.compute(left, right, &mut ()))
             .unwrap();

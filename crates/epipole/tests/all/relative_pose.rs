@@ -76,11 +76,9 @@ fn error_deg(pose: &RelativePose, motion: &RigidTransform) -> f64 {
 
 impl Scene {
     fn estimate(&self, seed: u64) -> epipole::robust::RansacReport<RelativePose> {
-        let options = RansacOptions {
-            max_error_px: 1.5,
-            seed,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default()
+            .with_max_error_px(1.5)
+            .with_seed(seed);
         estimate_relative_pose(
             &self.p1,
             &self.p2,

@@ -75,11 +75,9 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
     let (mut with, mut without, mut samples) = (Vec::new(), Vec::new(), 0);
     for seed in 0..60 {
         let s = scene(seed, noise_px, wrong, tilt_rad);
-        let options = RansacOptions {
-            max_error_px,
-            seed,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default()
+            .with_max_error_px(max_error_px)
+            .with_seed(seed);
         let [g1, g2] = &s.gravity;
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
@@ -136,11 +134,9 @@ fn exact_matches_give_the_truth() {
         let s = scene(seed, 0.0, 0.5, 0.0);
         let [g1, g2] = &s.gravity;
         // A wrong match within the threshold by chance is off by a hundredth of a pixel at most.
-        let options = RansacOptions {
-            max_error_px: 0.01,
-            seed,
-            ..RansacOptions::default()
-        };
+        let options = RansacOptions::default()
+            .with_max_error_px(0.01)
+            .with_seed(seed);
         let report = estimate_relative_pose_with_gravity(
             &s.p1,
             &s.p2,

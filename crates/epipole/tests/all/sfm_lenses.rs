@@ -151,10 +151,7 @@ fn off_centers(world: &World, result: &SfmResult) -> f64 {
 #[test]
 fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     let world = hall(7, fisheye(), 1);
-    let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye)],
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
     let result = run(&world, &options);
     let found = &result.components[0];
     assert_eq!(found.num_registered(), 7);
@@ -191,15 +188,11 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
         2,
     );
     world.input.intrinsics = vec![Intrinsics::new(306.0, 308.04, 501.0, 497.0).unwrap()];
-    let start = SfmOptions {
-        lenses: vec![Fisheye::default().into()],
-        ..SfmOptions::default()
-    };
-    let options = SfmOptions {
-        refine_focal: true,
-        refine_distortion: true,
-        ..start.clone()
-    };
+    let start = SfmOptions::default().with_lenses(vec![Fisheye::default().into()]);
+    let options = start
+        .clone()
+        .with_refine_focal(true)
+        .with_refine_distortion(true);
     let result = run(&world, &options);
     let found = &result.components[0];
     assert_eq!(found.num_registered(), 9);
@@ -237,10 +230,7 @@ fn rational_and_division_lenses_keep_the_errors_of_the_photograph() {
             ..fisheye()
         };
         let world = hall(6, making, 3);
-        let options = SfmOptions {
-            lenses: vec![lens(kind)],
-            ..SfmOptions::default()
-        };
+        let options = SfmOptions::default().with_lenses(vec![lens(kind)]);
         let result = run(&world, &options);
         let found = &result.components[0];
         assert_eq!(found.num_registered(), 6, "{kind:?}");
@@ -277,10 +267,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
     }
     let mut lenses = vec![lens(LensKind::Fisheye); 6];
     lenses[5] = brown;
-    let options = SfmOptions {
-        lenses,
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_lenses(lenses);
     let result = run(&world, &options);
     assert_eq!(result.components[0].num_registered(), 6);
     let off = off_centers(&world, &result);
@@ -300,10 +287,7 @@ fn a_fisheye_that_only_turned_begins_nothing() {
         },
         5,
     );
-    let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye)],
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
     let images = [&world.input.images[0], &world.input.images[1]];
     let pair = &world.input.pairs[0];
     let found = verify_matches(pair, images, [&k(), &k()], &options).unwrap();
@@ -321,10 +305,8 @@ fn a_fisheye_that_only_turned_begins_nothing() {
 #[test]
 fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
     let world = hall(3, fisheye(), 6);
-    let with = |coefficients| SfmOptions {
-        lenses: vec![Fisheye { coefficients }.into()],
-        ..SfmOptions::default()
-    };
+    let with =
+        |coefficients| SfmOptions::default().with_lenses(vec![Fisheye { coefficients }.into()]);
     for k in [f64::NAN, f64::NEG_INFINITY] {
         let refused = reconstruct(&world.input, &with([0.0, 0.0, k, 0.0]), &mut ());
         let told = refused.unwrap_err().to_string();
@@ -359,10 +341,7 @@ fn k_of(factor: f64) -> Intrinsics {
 #[test]
 fn points_behind_a_lens_are_mirrored_or_refused() {
     let world = hall(3, fisheye(), 7);
-    let options = SfmOptions {
-        lenses: vec![lens(LensKind::Fisheye)],
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
     let result = run(&world, &options);
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
@@ -416,10 +395,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
         image2: 1,
         matches: (0..300).map(|i| (i, i)).collect(),
     };
-    let options = SfmOptions {
-        lenses: vec![making.lens],
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_lenses(vec![making.lens]);
     let found = verify_matches(&pair, [&images[0], &images[1]], [&k, &k], &options);
     found.unwrap().unwrap()
 }

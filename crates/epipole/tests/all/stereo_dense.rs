@@ -87,12 +87,10 @@ fn matchers(
             StereoCost::BirchfieldTomasi,
             StereoCost::Both,
         ] {
-            let matcher = StereoSgm {
-                num_disparities,
-                paths,
-                cost,
-                ..Default::default()
-            };
+            let matcher = StereoSgm::default()
+                .with_num_disparities(num_disparities)
+                .with_paths(paths)
+                .with_cost(cost);
             all.push((
                 format!("{paths:?} {cost:?}"),
                 Box::new(move |a, b| matcher.compute(a, b, &mut ()).unwrap()),
@@ -100,12 +98,10 @@ fn matchers(
         }
     }
     for prefilter in [StereoPrefilter::XSobel, StereoPrefilter::LocalMean] {
-        let matcher = StereoBm {
-            num_disparities,
-            prefilter,
-            window_px: 11,
-            ..Default::default()
-        };
+        let matcher = StereoBm::default()
+            .with_num_disparities(num_disparities)
+            .with_prefilter(prefilter)
+            .with_window_px(11);
         all.push((
             format!("{prefilter:?}"),
             Box::new(move |a, b| matcher.compute(a, b, &mut ()).unwrap()),
@@ -207,14 +203,9 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
     });
     let is_hidden = |u: u32, v: u32| (90..100).contains(&u) && (20..60).contains(&v);
     let truth = |u: u32, v: u32| if on_board(f64::from(u), v) { 14.0 } else { 4.0 };
-    let matcher = StereoSgm {
-        num_disparities: 32,
-        filter: DisparityFilter {
-            max_gap_px: 0,
-            ..Default::default()
-        },
-        ..Default::default()
-    };
+    let matcher = StereoSgm::default()
+        .with_num_disparities(32)
+        .with_filter(DisparityFilter::default().with_max_gap_px(0));
     let found = matcher.compute(&left, &right, &mut ()).unwrap();
     let seen = |u: u32, v: u32| (!is_hidden(u, v)).then(|| truth(u, v));
     let (answered, good, _) = score(&found, 20, seen);
@@ -232,22 +223,18 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
 #[test]
 fn a_range_may_begin_anywhere() {
     let (left, right) = wall(20.0, 160, 50);
-    let narrow = StereoSgm {
-        min_disparity_px: 16,
-        num_disparities: 16,
-        ..Default::default()
-    };
+    let narrow = StereoSgm::default()
+        .with_min_disparity_px(16)
+        .with_num_disparities(16);
     let (answered, good, _) = score(
         &narrow.compute(&left, &right, &mut ()).unwrap(),
         24,
         |_, _| Some(20.0),
     );
     assert!(answered > 0.95 && good > 0.99);
-    let block = StereoBm {
-        min_disparity_px: 16,
-        num_disparities: 9,
-        ..Default::default()
-    };
+    let block = StereoBm::default()
+        .with_min_disparity_px(16)
+        .with_num_disparities(9);
     let (answered, good, _) = score(
         &block.compute(&left, &right, &mut ()).unwrap(),
         24,
@@ -255,11 +242,9 @@ fn a_range_may_begin_anywhere() {
     );
     assert!(answered > 0.9 && good > 0.99);
     // Exchanged pictures: disparities are negative, and the right border is the open one.
-    let negative = StereoSgm {
-        min_disparity_px: -24,
-        num_disparities: 20,
-        ..Default::default()
-    };
+    let negative = StereoSgm::default()
+        .with_min_disparity_px(-24)
+        .with_num_disparities(20);
     let found = negative.compute(&right, &left, &mut ()).unwrap();
     let (answered, good, _) = score(&found, 0, |u, _| (u < 160 - 24).then_some(-20.0));
     assert!(answered > 0.95 && good > 0.99, "{answered} {good}");
@@ -269,10 +254,7 @@ fn a_range_may_begin_anywhere() {
 fn without_texture_blocks_give_no_answers_and_paths_one_surface() {
     let flat = GrayImage::from_pixel(80, 60, Luma([120]));
     for prefilter in [StereoPrefilter::XSobel, StereoPrefilter::LocalMean] {
-        let matcher = StereoBm {
-            prefilter,
-            ..Default::default()
-        };
+        let matcher = StereoBm::default().with_prefilter(prefilter);
         assert_eq!(
             matcher.compute(&flat, &flat, &mut ()).unwrap().density(),
             0.0
@@ -291,11 +273,9 @@ fn small_pictures_and_wide_ranges_are_no_trouble() {
         let picture = GrayImage::from_fn(width, height, |u, v| Luma([(u * 37 + v * 91) as u8]));
         for paths in [StereoPaths::Four, StereoPaths::Five, StereoPaths::Eight] {
             for num_disparities in [1, 5, 64, 300] {
-                let matcher = StereoSgm {
-                    num_disparities,
-                    paths,
-                    ..Default::default()
-                };
+                let matcher = StereoSgm::default()
+                    .with_num_disparities(num_disparities)
+                    .with_paths(paths);
                 let found = matcher.compute(&picture, &picture, &mut ()).unwrap();
                 assert_eq!((found.width(), found.height()), (width, height));
             }
@@ -303,10 +283,7 @@ fn small_pictures_and_wide_ranges_are_no_trouble() {
     }
     let picture = GrayImage::from_fn(20, 15, |u, v| Luma([(u * u * 7 + v * 91) as u8]));
     for num_disparities in [1, 5, 64, 300] {
-        let matcher = StereoBm {
-            num_disparities,
-            ..Default::default()
-        };
+        let matcher = StereoBm::default().with_num_disparities(num_disparities);
         matcher.compute(&picture, &picture, &mut ()).unwrap();
     }
 }
@@ -321,81 +298,41 @@ fn bad_input_is_refused_in_a_sentence() {
         assert!(error.to_string().contains(" must be "), "{error}");
     };
     for num_disparities in [0, 5000] {
-        out_of_range(sgm(StereoSgm {
-            num_disparities,
-            ..Default::default()
-        }));
-        out_of_range(bm(StereoBm {
-            num_disparities,
-            ..Default::default()
-        }));
+        out_of_range(sgm(
+            StereoSgm::default().with_num_disparities(num_disparities)
+        ));
+        out_of_range(bm(StereoBm::default().with_num_disparities(num_disparities)));
     }
     for min_disparity_px in [40, -40, i32::MIN, i32::MAX] {
-        out_of_range(sgm(StereoSgm {
-            min_disparity_px,
-            ..Default::default()
-        }));
-        out_of_range(bm(StereoBm {
-            min_disparity_px,
-            ..Default::default()
-        }));
+        out_of_range(sgm(
+            StereoSgm::default().with_min_disparity_px(min_disparity_px)
+        ));
+        out_of_range(bm(
+            StereoBm::default().with_min_disparity_px(min_disparity_px)
+        ));
     }
     for window_px in [0, 1, 4, 31, 33, u32::MAX] {
-        out_of_range(bm(StereoBm {
-            window_px,
-            ..Default::default()
-        }));
+        out_of_range(bm(StereoBm::default().with_window_px(window_px)));
     }
     for prefilter_cap in [0, 64] {
-        out_of_range(bm(StereoBm {
-            prefilter_cap,
-            ..Default::default()
-        }));
+        out_of_range(bm(StereoBm::default().with_prefilter_cap(prefilter_cap)));
     }
-    out_of_range(bm(StereoBm {
-        min_texture: f32::NAN,
-        ..Default::default()
-    }));
-    out_of_range(bm(StereoBm {
-        filter: DisparityFilter {
-            uniqueness_percent: 100,
-            ..Default::default()
-        },
-        ..Default::default()
-    }));
-    out_of_range(bm(StereoBm {
-        filter: DisparityFilter {
-            speckle_range_px: -1.0,
-            ..Default::default()
-        },
-        ..Default::default()
-    }));
-    out_of_range(sgm(StereoSgm {
-        filter: DisparityFilter {
-            uniqueness_percent: 100,
-            ..Default::default()
-        },
-        ..Default::default()
-    }));
-    out_of_range(sgm(StereoSgm {
-        filter: DisparityFilter {
-            speckle_range_px: f32::NAN,
-            ..Default::default()
-        },
-        ..Default::default()
-    }));
-    out_of_range(sgm(StereoSgm {
-        gray_cap: 0,
-        ..Default::default()
-    }));
-    out_of_range(sgm(StereoSgm {
-        large_step_penalty: 151,
-        ..Default::default()
-    }));
-    out_of_range(sgm(StereoSgm {
-        small_step_penalty: 120,
-        ..Default::default()
-    }));
+    out_of_range(bm(StereoBm::default().with_min_texture(f32::NAN)));
+    out_of_range(bm(StereoBm::default().with_filter(
+        DisparityFilter::default().with_uniqueness_percent(100),
+    )));
+    out_of_range(bm(
+        StereoBm::default().with_filter(DisparityFilter::default().with_speckle_range_px(-1.0))
+    ));
+    out_of_range(sgm(StereoSgm::default().with_filter(
+        DisparityFilter::default().with_uniqueness_percent(100),
+    )));
+    out_of_range(sgm(StereoSgm::default().with_filter(
+        DisparityFilter::default().with_speckle_range_px(f32::NAN),
+    )));
+    out_of_range(sgm(StereoSgm::default().with_gray_cap(0)));
+    out_of_range(sgm(StereoSgm::default().with_large_step_penalty(151)));
+    out_of_range(sgm(StereoSgm::default().with_small_step_penalty(120)));
 
     let wider = GrayImage::new(41, 30);
     let higher = GrayImage::new(40, 31);
@@ -458,10 +395,7 @@ fn floats_from_0_to_255_are_the_same_pictures() {
 fn work_can_be_watched_and_stopped() {
     let (left, right) = wall(6.0, 100, 90);
     for paths in [StereoPaths::Four, StereoPaths::Five, StereoPaths::Eight] {
-        let matcher = StereoSgm {
-            paths,
-            ..Default::default()
-        };
+        let matcher = StereoSgm::default().with_paths(paths);
         let mut shares = vec![];
         let mut watch = |status: Status| {
             assert_eq!(status.stage, Stage::DenseMatching);
@@ -575,21 +509,17 @@ fn real_pairs_are_matched_better_than_by_the_usual_matcher() {
         };
         let ours = [
             (
-                StereoSgm {
-                    num_disparities,
-                    ..Default::default()
-                }
-                .compute(&left, &right, &mut ())
-                .unwrap(),
+                StereoSgm::default()
+                    .with_num_disparities(num_disparities)
+                    .compute(&left, &right, &mut ())
+                    .unwrap(),
                 sgbm,
             ),
             (
-                StereoBm {
-                    num_disparities,
-                    ..Default::default()
-                }
-                .compute(&left, &right, &mut ())
-                .unwrap(),
+                StereoBm::default()
+                    .with_num_disparities(num_disparities)
+                    .compute(&left, &right, &mut ())
+                    .unwrap(),
                 bm,
             ),
         ];

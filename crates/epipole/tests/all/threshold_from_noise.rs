@@ -84,10 +84,7 @@ fn within(max_error_px: f64) -> RansacOptions {
 }
 
 fn from_noise() -> RansacOptions {
-    RansacOptions {
-        threshold: ThresholdKind::Noise,
-        ..RansacOptions::default()
-    }
+    RansacOptions::default().with_threshold(ThresholdKind::Noise)
 }
 
 /// How far off a model is, and the threshold that it was found with.
@@ -252,10 +249,7 @@ fn a_line_finds_its_threshold() {
 fn no_guess_of_the_threshold_matters() {
     let scene = scene(1, 0.4, 0.7, false);
     let find = |max_error_px| {
-        let options = RansacOptions {
-            max_error_px,
-            ..from_noise()
-        };
+        let options = from_noise().with_max_error_px(max_error_px);
         estimate_fundamental(&scene.p1, &scene.p2, &options, &mut ()).unwrap()
     };
     let first = find(0.25);
@@ -280,10 +274,7 @@ fn inliers_are_within_the_threshold_found() {
 /// E, F, H and the turn are compared within one threshold.
 #[test]
 fn two_views_share_the_threshold_of_the_fundamental_matrix() {
-    let options = TwoViewOptions {
-        ransac: from_noise(),
-        ..TwoViewOptions::default()
-    };
+    let options = TwoViewOptions::default().with_ransac(from_noise());
     for noise_px in [0.25, 2.0] {
         for (planar, expected) in [
             (false, Configuration::General),

@@ -15,10 +15,7 @@ use epipole::two_view::{
 use nalgebra::{Matrix3, Point2, Point3, UnitQuaternion, Vector3};
 
 fn options(seed: u64) -> RansacOptions {
-    RansacOptions {
-        seed,
-        ..RansacOptions::default()
-    }
+    RansacOptions::default().with_seed(seed)
 }
 
 fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
@@ -94,10 +91,7 @@ fn a_hundred_pairs_with_known_intrinsics() {
         let pair = Pair::new(&mut Random::new(seed), 50);
         let [p1, p2] = &pair.pixels;
         let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
-        let choice = TwoViewOptions {
-            ransac: options(seed),
-            ..TwoViewOptions::default()
-        };
+        let choice = TwoViewOptions::default().with_ransac(options(seed));
         let report = estimate_two_view_calibrated(
             p1,
             p2,
@@ -126,10 +120,7 @@ fn a_hundred_pairs_with_unknown_intrinsics() {
         let pair = Pair::new(&mut Random::new(seed), 50);
         let [p1, p2] = &pair.pixels;
         let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
-        let choice = TwoViewOptions {
-            ransac: options(seed),
-            ..TwoViewOptions::default()
-        };
+        let choice = TwoViewOptions::default().with_ransac(options(seed));
         let report = estimate_two_view(p1, p2, &choice, &mut ()).unwrap();
         check_general(&report, seed);
         assert!(matches!(report.model, TwoViewModel::Fundamental(_)));
@@ -340,10 +331,7 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
         "{error:?}"
     );
     for share in [-0.1, f64::NAN] {
-        let options = TwoViewOptions {
-            max_homography_share: share,
-            ..TwoViewOptions::default()
-        };
+        let options = TwoViewOptions::default().with_max_homography_share(share);
         assert!(
             matches!(options.check(), Err(Error::OutOfRange { .. })),
             "{share}"

@@ -125,15 +125,13 @@ fn check(
 ) {
     for sampler in [SamplerKind::Uniform, SamplerKind::Prosac] {
         for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
-            let options = RansacOptions {
-                max_error_px,
-                confidence: CONFIDENCE,
-                max_iterations,
-                seed,
-                sampler,
-                score,
-                ..RansacOptions::default()
-            };
+            let options = RansacOptions::default()
+                .with_max_error_px(max_error_px)
+                .with_confidence(CONFIDENCE)
+                .with_max_iterations(max_iterations)
+                .with_seed(seed)
+                .with_sampler(sampler)
+                .with_score(score);
             let what = format!("{name}, {sampler:?}, {score:?}, seed {seed}");
             let Ok((inliers, errors_px)) = find(scene, &options) else {
                 missed.push(format!("{what}: nothing"));

@@ -104,11 +104,9 @@ fn opencv_divisor(block: usize) -> Result<Number, String> {
     values[12] = 1.0;
     let dot = gray_from_values(5, 5, values).map_err(sentence)?;
     let at_dot = |scaling| {
-        let options = StructureTensorOptions {
-            window: Window::Box(block),
-            scaling,
-            ..StructureTensorOptions::default()
-        };
+        let options = StructureTensorOptions::default()
+            .with_window(Window::Box(block))
+            .with_scaling(scaling);
         let response = harris_response(&dot, 0.04, &options).map_err(sentence)?;
         Ok::<f64, String>(f64::from(response.get_pixel(2, 2).0[0]))
     };

@@ -44,17 +44,15 @@ pub(crate) struct AcceptArguments {
 impl AcceptArguments {
     /// The same for the core; of lenses nothing is refined.
     pub(crate) fn options(&self, robust: &RobustArguments, context: &Context) -> SfmOptions {
-        SfmOptions {
-            ransac: robust.options(context),
-            max_registration_error_px: self.max_registration_error_px,
-            max_reprojection_error_px: self.max_reprojection_error_px,
-            min_num_inliers: self.min_inliers,
-            min_angle_deg: self.min_angle_deg,
-            min_start_angle_deg: self.min_start_angle_deg,
-            min_track_length: self.min_track_length,
-            seed: context.seed,
-            ..SfmOptions::default()
-        }
+        SfmOptions::default()
+            .with_ransac(robust.options(context))
+            .with_max_registration_error_px(self.max_registration_error_px)
+            .with_max_reprojection_error_px(self.max_reprojection_error_px)
+            .with_min_num_inliers(self.min_inliers)
+            .with_min_angle_deg(self.min_angle_deg)
+            .with_min_start_angle_deg(self.min_start_angle_deg)
+            .with_min_track_length(self.min_track_length)
+            .with_seed(context.seed)
     }
 }
 

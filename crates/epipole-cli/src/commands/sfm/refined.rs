@@ -51,12 +51,10 @@ impl RefinedArguments {
     ///
     /// * `some_unknown`: whether some focal length is but a guess
     pub(crate) fn options(&self, accepted: SfmOptions, some_unknown: bool) -> SfmOptions {
-        SfmOptions {
-            refine_focal: self.refine_focal || some_unknown && !self.keep_focal,
-            refine_principal_point: self.refine_principal_point,
-            refine_distortion: self.refine_distortion,
-            refine_tangential: self.refine_tangential,
-            ..accepted
-        }
+        accepted
+            .with_refine_focal(self.refine_focal || some_unknown && !self.keep_focal)
+            .with_refine_principal_point(self.refine_principal_point)
+            .with_refine_distortion(self.refine_distortion)
+            .with_refine_tangential(self.refine_tangential)
     }
 }

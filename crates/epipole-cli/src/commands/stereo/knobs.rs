@@ -49,13 +49,12 @@ pub(super) struct KeepArguments {
 impl KeepArguments {
     /// The filter for the core, where `usual` is that of the matcher.
     fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
-        DisparityFilter {
-            uniqueness_percent: self.uniqueness_percent.unwrap_or(usual.uniqueness_percent),
-            left_right_max_px: self.left_right_max_px.0,
-            speckle_size: self.speckle_size,
-            speckle_range_px: self.speckle_range_px as f32,
-            max_gap_px: self.max_gap_px.unwrap_or(usual.max_gap_px),
-        }
+        DisparityFilter::default()
+            .with_uniqueness_percent(self.uniqueness_percent.unwrap_or(usual.uniqueness_percent))
+            .with_left_right_max_px(self.left_right_max_px.0)
+            .with_speckle_size(self.speckle_size)
+            .with_speckle_range_px(self.speckle_range_px as f32)
+            .with_max_gap_px(self.max_gap_px.unwrap_or(usual.max_gap_px))
     }
 }
 
@@ -140,21 +139,20 @@ impl SgmArguments {
     /// The matcher for the core.
     pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoSgm {
         let usual = StereoSgm::default();
-        StereoSgm {
-            min_disparity_px: disparities.0,
-            num_disparities: disparities.1,
-            cost: self.cost.map_or(usual.cost, |cost| match cost {
+        StereoSgm::default()
+            .with_min_disparity_px(disparities.0)
+            .with_num_disparities(disparities.1)
+            .with_cost(self.cost.map_or(usual.cost, |cost| match cost {
                 Cost::Census => StereoCost::Census,
                 Cost::BirchfieldTomasi => StereoCost::BirchfieldTomasi,
                 Cost::Both => StereoCost::Both,
-            }),
-            gray_cap: self.gray_cap.unwrap_or(usual.gray_cap),
-            paths: self.paths.unwrap_or(usual.paths),
-            small_step_penalty: self.small_step_penalty.unwrap_or(usual.small_step_penalty),
-            large_step_penalty: self.large_step_penalty.unwrap_or(usual.large_step_penalty),
-            edge_gray: self.edge_gray.unwrap_or(usual.edge_gray),
-            filter: keep.filter(usual.filter),
-        }
+            }))
+            .with_gray_cap(self.gray_cap.unwrap_or(usual.gray_cap))
+            .with_paths(self.paths.unwrap_or(usual.paths))
+            .with_small_step_penalty(self.small_step_penalty.unwrap_or(usual.small_step_penalty))
+            .with_large_step_penalty(self.large_step_penalty.unwrap_or(usual.large_step_penalty))
+            .with_edge_gray(self.edge_gray.unwrap_or(usual.edge_gray))
+            .with_filter(keep.filter(usual.filter))
     }
 }
 
@@ -174,18 +172,21 @@ impl BmArguments {
     /// The matcher for the core.
     pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoBm {
         let usual = StereoBm::default();
-        StereoBm {
-            min_disparity_px: disparities.0,
-            num_disparities: disparities.1,
-            window_px: self.window_px.unwrap_or(usual.window_px),
-            prefilter: (self.prefilter).map_or(usual.prefilter, |prefilter| match prefilter {
-                Prefilter::XSobel => StereoPrefilter::XSobel,
-                Prefilter::LocalMean => StereoPrefilter::LocalMean,
-            }),
-            prefilter_cap: self.prefilter_cap.unwrap_or(usual.prefilter_cap),
-            min_texture: (self.min_texture).map_or(usual.min_texture, |texture| texture as f32),
-            filter: keep.filter(usual.filter),
-        }
+        StereoBm::default()
+            .with_min_disparity_px(disparities.0)
+            .with_num_disparities(disparities.1)
+            .with_window_px(self.window_px.unwrap_or(usual.window_px))
+            .with_prefilter(
+                (self.prefilter).map_or(usual.prefilter, |prefilter| match prefilter {
+                    Prefilter::XSobel => StereoPrefilter::XSobel,
+                    Prefilter::LocalMean => StereoPrefilter::LocalMean,
+                }),
+            )
+            .with_prefilter_cap(self.prefilter_cap.unwrap_or(usual.prefilter_cap))
+            .with_min_texture(
+                (self.min_texture).map_or(usual.min_texture, |texture| texture as f32),
+            )
+            .with_filter(keep.filter(usual.filter))
     }
 }
 
@@ -235,38 +236,35 @@ mod tests {
             --max-gap-px 4 --cost census --gray-cap 21 --paths 5 --small-step-penalty 11 --large-step-penalty 90 \
             --edge-gray 0 --window-px 9 --prefilter local-mean --prefilter-cap 20 --min-texture 2";
         let all = parsed(&words.split_whitespace().collect::<Vec<_>>());
-        let filter = DisparityFilter {
-            uniqueness_percent: 7,
-            left_right_max_px: None,
-            speckle_size: 9,
-            speckle_range_px: 1.5,
-            max_gap_px: 4,
-        };
+        let filter = DisparityFilter::default()
+            .with_uniqueness_percent(7)
+            .with_left_right_max_px(None)
+            .with_speckle_size(9)
+            .with_speckle_range_px(1.5)
+            .with_max_gap_px(4);
         assert_eq!(
             all.sgm.matcher(&all.keep, (-3, 20)),
-            StereoSgm {
-                min_disparity_px: -3,
-                num_disparities: 20,
-                cost: StereoCost::Census,
-                gray_cap: 21,
-                paths: StereoPaths::Five,
-                small_step_penalty: 11,
-                large_step_penalty: 90,
-                edge_gray: 0,
-                filter,
-            }
+            StereoSgm::default()
+                .with_min_disparity_px(-3)
+                .with_num_disparities(20)
+                .with_cost(StereoCost::Census)
+                .with_gray_cap(21)
+                .with_paths(StereoPaths::Five)
+                .with_small_step_penalty(11)
+                .with_large_step_penalty(90)
+                .with_edge_gray(0)
+                .with_filter(filter)
         );
         assert_eq!(
             all.bm.matcher(&all.keep, (-3, 20)),
-            StereoBm {
-                min_disparity_px: -3,
-                num_disparities: 20,
-                window_px: 9,
-                prefilter: StereoPrefilter::LocalMean,
-                prefilter_cap: 20,
-                min_texture: 2.0,
-                filter,
-            }
+            StereoBm::default()
+                .with_min_disparity_px(-3)
+                .with_num_disparities(20)
+                .with_window_px(9)
+                .with_prefilter(StereoPrefilter::LocalMean)
+                .with_prefilter_cap(20)
+                .with_min_texture(2.0)
+                .with_filter(filter)
         );
     }
 

@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::photo::Photo;
 use epipole::camera::Intrinsics;
 use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
-use epipole::robust::{RansacOptions, RansacReport};
+use epipole::robust::RansacReport;
 use nalgebra::Point2;
 use std::ops::ControlFlow;
 
@@ -39,10 +39,9 @@ pub(super) fn intrinsics(
     }
     let middle = intrinsics[0].principal_point();
     let options = arguments.options(context);
-    let ransac = RansacOptions {
-        max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
-        ..options.ransac
-    };
+    let ransac = options
+        .ransac
+        .with_max_iterations(options.ransac.max_iterations.min(MAX_SAMPLES));
     let is_telling = |report: &RansacReport<PoseWithFocal>| {
         report.num_unique_inliers >= options.min_num_inliers
             && !report.could_be_chance()

@@ -22,13 +22,13 @@ const K: &str = "600,600,319.5,239.5";
 
 /// Matches of which two in five are wrong.
 fn problem(structure: Structure) -> TwoViewProblem {
-    TwoViewProblem::new(&TwoViewProblemOptions {
-        num_points: 250,
-        structure,
-        outlier_fraction: 0.4,
-        seed: 5,
-        ..TwoViewProblemOptions::default()
-    })
+    TwoViewProblem::new(
+        &TwoViewProblemOptions::default()
+            .with_num_points(250)
+            .with_structure(structure)
+            .with_outlier_fraction(0.4)
+            .with_seed(5),
+    )
     .unwrap()
 }
 

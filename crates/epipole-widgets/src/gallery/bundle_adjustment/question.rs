@@ -149,19 +149,17 @@ impl question::Question for Question {
 impl Question {
     /// Takes at most `max_iterations` steps.
     fn adjust(&self, bundle: &mut Bundle, max_iterations: usize) -> Result<LmReport, Error> {
-        let options = BundleOptions {
-            lm: LmOptions {
-                max_iterations,
-                cost_tolerance: COST_TOLERANCE,
-                initial_damping: libm::exp10(self.log_damping),
-                ..LmOptions::default()
-            },
-            loss: match self.is_robust {
+        let options = BundleOptions::default()
+            .with_lm(
+                LmOptions::default()
+                    .with_max_iterations(max_iterations)
+                    .with_cost_tolerance(COST_TOLERANCE)
+                    .with_initial_damping(libm::exp10(self.log_damping)),
+            )
+            .with_loss(match self.is_robust {
                 true => RobustLoss::Huber { width: HUBER_PX },
                 false => RobustLoss::Trivial,
-            },
-            ..BundleOptions::default()
-        };
+            });
         adjust_bundle(bundle, &options, &mut ())
     }
 

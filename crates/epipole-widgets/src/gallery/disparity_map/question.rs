@@ -148,24 +148,19 @@ impl Question {
     ) -> Result<DisparityImage, Error> {
         match self.method {
             Method::Blocks(window_px) => {
-                let usual = StereoBm::default();
-                StereoBm {
-                    num_disparities: self.num_disparities,
-                    window_px,
-                    min_texture: if self.checks { usual.min_texture } else { 0.0 },
-                    filter: self.filter(usual.filter),
-                    ..usual
+                let mut matcher = StereoBm::default()
+                    .with_num_disparities(self.num_disparities)
+                    .with_window_px(window_px);
+                if !self.checks {
+                    matcher.min_texture = 0.0;
                 }
-                .compute(left, right, monitor)
+                matcher.filter = self.filter(matcher.filter);
+                matcher.compute(left, right, monitor)
             }
             Method::SemiGlobal => {
-                let usual = StereoSgm::default();
-                StereoSgm {
-                    num_disparities: self.num_disparities,
-                    filter: self.filter(usual.filter),
-                    ..usual
-                }
-                .compute(left, right, monitor)
+                let mut matcher = StereoSgm::default().with_num_disparities(self.num_disparities);
+                matcher.filter = self.filter(matcher.filter);
+                matcher.compute(left, right, monitor)
             }
         }
     }
@@ -174,12 +169,10 @@ impl Question {
     fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
         match self.checks {
             true => usual,
-            false => DisparityFilter {
-                left_right_max_px: None,
-                uniqueness_percent: 0,
-                speckle_size: 0,
-                ..usual
-            },
+            false => usual
+                .with_left_right_max_px(None)
+                .with_uniqueness_percent(0)
+                .with_speckle_size(0),
         }
     }
 

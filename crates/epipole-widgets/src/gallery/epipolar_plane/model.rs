@@ -59,10 +59,10 @@ const fn forward(id: &'static str, label: &'static str) -> Slider {
     let slider = Slider::new(id, label).range(-1.9, -0.7, 0.02);
     slider.digits(2).unit("m").at(-1.3).more()
 }
-const X1: Slider = sideways("x1", "PosedCamera 1 sideways").at(-0.5);
-const Z1: Slider = forward("z1", "PosedCamera 1 forward");
-const X2: Slider = sideways("x2", "PosedCamera 2 sideways").at(0.56);
-const Z2: Slider = forward("z2", "PosedCamera 2 forward");
+const X1: Slider = sideways("x1", "Camera 1 sideways").at(-0.5);
+const Z1: Slider = forward("z1", "Camera 1 forward");
+const X2: Slider = sideways("x2", "Camera 2 sideways").at(0.56);
+const Z2: Slider = forward("z2", "Camera 2 forward");
 const CAMERAS: [[&Slider; 2]; 2] = [[&X1, &Z1], [&X2, &Z2]];
 
 /// What p shows at the start: the mug.
@@ -279,7 +279,7 @@ impl Model for EpipolarPlane {
                 format_number(z, 2)
             );
             let center = scenery.cameras[index].center_in_world();
-            let label = ["PosedCamera 1", "PosedCamera 2"][index];
+            let label = ["Camera 1", "Camera 2"][index];
             handles.push(self.space_handle(id, label, text, &center));
         }
         handles

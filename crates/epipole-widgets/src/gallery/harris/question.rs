@@ -65,10 +65,7 @@ fn gray_levels(picture: &RgbImage) -> GrayImage32 {
 
 impl Question {
     fn options(&self) -> StructureTensorOptions {
-        StructureTensorOptions {
-            window: Window::Box(self.window_px),
-            ..StructureTensorOptions::default()
-        }
+        StructureTensorOptions::default().with_window(Window::Box(self.window_px))
     }
 
     /// The structure tensor at a pixel of the answer's picture.

@@ -128,10 +128,7 @@ fn find_matches(
     judge: impl Fn(usize, usize) -> Option<bool>,
     progress: Progress<'_>,
 ) -> Result<Vec<Match>, Error> {
-    let any_ratio = MatchOptions {
-        max_ratio: None,
-        ..MatchOptions::default()
-    };
+    let any_ratio = MatchOptions::default().with_max_ratio(None);
     let found = match_descriptors(
         &first.descriptors,
         &second.descriptors,

@@ -176,12 +176,10 @@ mod tests {
         let pair = Pair::of_still_life(&mut |_| ControlFlow::Continue(())).unwrap();
         let [first, second] = pair.features.each_ref().map(|found| &found.descriptors);
         for (max_ratio, is_mutual) in [(0.8, true), (0.8, false), (0.62, true), (1.0, false)] {
-            let options = MatchOptions {
-                max_ratio: Some(max_ratio),
-                mutual: is_mutual,
-                unique: false,
-                ..MatchOptions::default()
-            };
+            let options = MatchOptions::default()
+                .with_max_ratio(Some(max_ratio))
+                .with_mutual(is_mutual)
+                .with_unique(false);
             let matches = match_descriptors(first, second, &options, &mut ()).unwrap();
             let tally = Tally::of(
                 answer,

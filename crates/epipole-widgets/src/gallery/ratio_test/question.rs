@@ -50,10 +50,7 @@ impl question::Question for Question {
     fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         let pair = Pair::of_still_life(&mut |share| progress(0.9 * share))?;
         let [first, second] = pair.features.each_ref().map(|found| &found.descriptors);
-        let options = MatchOptions {
-            max_ratio: None,
-            ..MatchOptions::default()
-        };
+        let options = MatchOptions::default().with_max_ratio(None);
         let mut is_mutual = vec![false; first.len()];
         for found in match_descriptors(first, second, &options, &mut ())? {
             is_mutual[found.index1] = true;

@@ -58,11 +58,9 @@ impl question::Question for Question {
         let camera = still_life_camera(SIZE.0, SIZE.1);
         let shot = photograph(&camera, SIZE, &mut |share| progress(0.8 * share))?;
         let gray = rgb_to_gray_f32(&shot, &BT601_WEIGHTS);
-        let options = SiftOptions {
-            layers_per_octave: NUM_LAYERS,
-            upsample: false,
-            ..SiftOptions::default()
-        };
+        let options = SiftOptions::default()
+            .with_layers_per_octave(NUM_LAYERS)
+            .with_upsample(false);
         let space = scale_space(&gray, &options)?;
         tell(progress, 0.95)?;
         let octaves = space.octaves.into_iter().take(NUM_OCTAVES);

@@ -21,11 +21,9 @@ const UNIT: f64 = 512.0;
 
 /// The same way for every photograph here.
 fn options() -> SiftOptions {
-    SiftOptions {
-        upsample: false,
-        max_orientations: 1,
-        ..SiftOptions::default()
-    }
+    SiftOptions::default()
+        .with_upsample(false)
+        .with_max_orientations(1)
 }
 
 /// What is done to the photograph.

@@ -51,7 +51,9 @@ fn sampled<E: Estimator>(
     seed: u64,
 ) -> [Result<E::Model, Error>; 4] {
     let num_samples = MAX_SAMPLES;
-    let options = LeastMedianOptions { num_samples, seed };
+    let options = LeastMedianOptions::default()
+        .with_num_samples(num_samples)
+        .with_seed(seed);
     let vote = |msac, local_optimization| {
         let rules = Rules {
             epsilon_px,

@@ -91,10 +91,7 @@ pub(super) fn find(
     window_px: usize,
 ) -> epipole::Result<Found> {
     let surface = shift_surface(gray, (u, v), window_px / 2, REACH, Border::Reflect101)?;
-    let options = StructureTensorOptions {
-        window: Window::Box(window_px),
-        ..StructureTensorOptions::default()
-    };
+    let options = StructureTensorOptions::default().with_window(Window::Box(window_px));
     let sums = WindowTensor::at(gray, (u, v), &options)?;
     let tensor = WindowTensor {
         uu: sums.uu / SOBEL_GAIN_SQ,

@@ -79,10 +79,7 @@ impl Question {
 
     /// Features of the first photograph and what they match in the second.
     fn matches(&self, first: &Features, second: &Features) -> Result<Vec<(u32, u32)>, Error> {
-        let options = MatchOptions {
-            max_ratio: Some(self.max_ratio),
-            ..MatchOptions::default()
-        };
+        let options = MatchOptions::default().with_max_ratio(Some(self.max_ratio));
         let found = match_descriptors(&first.descriptors, &second.descriptors, &options, &mut ())?;
         let pairs = found.iter().map(|m| (m.index1 as u32, m.index2 as u32));
         Ok(pairs.collect())
@@ -159,10 +156,7 @@ impl Question {
 
 /// What the core looks for in photographs by default, and no other kind: a worker would download those for nothing.
 fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error> {
-    let options = FeatureOptions {
-        max_features: MAX_FEATURES,
-        ..FeatureOptions::default()
-    };
+    let options = FeatureOptions::default().with_max_features(MAX_FEATURES);
     let (width, height) = picture.size();
     detect_sift(
         &photo_to_gray(picture.image()),

@@ -67,24 +67,17 @@ pub(super) fn surface(
     let cameras = lenses.map(|intrinsics| Camera::pinhole(intrinsics, width, height));
     let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
     let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
-    let options = RectifyOptions {
+    let options = RectifyOptions::default()
         // All that a camera saw, not only the rectangle that both share.
-        alpha: 1.0,
-        size: Some((side(width), side(height))),
-        ..RectifyOptions::default()
-    };
+        .with_alpha(1.0)
+        .with_size(Some((side(width), side(height))));
     let rig = rectify_calibrated(&cameras, cam2_from_cam1, &options)?;
     let redrawn = RectifiedPair::new(&rig, photographs)?;
     let (min_disparity_px, num_disparities) = searched(rig.disparity_range(places)?);
-    let matcher = StereoSgm {
-        min_disparity_px,
-        num_disparities,
-        filter: DisparityFilter {
-            speckle_size: SPECKLE_PX,
-            ..DisparityFilter::default()
-        },
-        ..StereoSgm::default()
-    };
+    let matcher = StereoSgm::default()
+        .with_min_disparity_px(min_disparity_px)
+        .with_num_disparities(num_disparities)
+        .with_filter(DisparityFilter::default().with_speckle_size(SPECKLE_PX));
     let found = redrawn.disparity(|first, second| {
         matcher.compute(first, second, &mut |status: Status| {
             progress(f64::from(status.share))

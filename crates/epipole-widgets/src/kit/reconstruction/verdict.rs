@@ -76,14 +76,9 @@ pub(super) fn judge(
     if pixels1.len() < MIN_NUM_MATCHES {
         return Ok(nothing(Verdict::TooFew));
     }
-    let options = TwoViewOptions {
-        ransac: RansacOptions {
-            max_error_px,
-            ..RansacOptions::default()
-        },
-        min_num_inliers: MIN_NUM_MATCHES,
-        ..TwoViewOptions::default()
-    };
+    let options = TwoViewOptions::default()
+        .with_ransac(RansacOptions::default().with_max_error_px(max_error_px))
+        .with_min_num_inliers(MIN_NUM_MATCHES);
     options.ransac.check()?;
     let report: TwoViewReport = match estimate_two_view_calibrated(
         pixels1,

@@ -16,17 +16,20 @@ use super::{Board, BoardView};
 use crate::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::Point3;
 
 pub(super) const WHAT: &str = "a calibration";
 
 /// Choices of [`calibrate`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct CalibrationOptions {
     /// The model of the lens.
     pub lens: LensKind,

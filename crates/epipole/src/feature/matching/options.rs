@@ -1,14 +1,17 @@
 //! Choices of matching.
 
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Which nearest neighbors count as matches.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct MatchOptions {
     /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
     /// the test out. Lowe 2004, §7.1.

@@ -8,6 +8,7 @@ use super::nms::strongest_first;
 use super::{BinaryDescriptors, parallel};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use image::GrayImage;
 use pattern::{Pattern, RADIUS};
 
@@ -15,12 +16,14 @@ use pattern::{Pattern, RADIUS};
 const MARGIN: u32 = RADIUS as u32 + 2;
 
 /// Options of [`detect_orb`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct OrbOptions {
     /// At most so many features over all levels, ≥ 1.
     pub max_features: usize,
@@ -78,7 +81,7 @@ pub struct BinaryFeatures {
 /// let square = GrayImage32::from_fn(90, 90, |u, v| {
 ///     image::Luma([if inside(u) && inside(v) { 1.0 } else { 0.0 }])
 /// });
-/// let features = detect_orb(&square, &OrbOptions { num_levels: 1, ..OrbOptions::default() })?;
+/// let features = detect_orb(&square, &OrbOptions::default().with_num_levels(1))?;
 /// assert_eq!(features.keypoints.len(), 4);
 /// # Ok(()) }
 /// ```

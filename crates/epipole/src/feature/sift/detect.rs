@@ -48,7 +48,7 @@ pub struct Features {
 ///     let (x, y) = (u as f32 - 32.0, v as f32 - 30.0);
 ///     image::Luma([1.0 / (1.0 + (x * x + y * y) / 60.0)])
 /// });
-/// let features = detect_sift(&blob, &SiftOptions { upright: true, ..SiftOptions::default() }, &mut ())?;
+/// let features = detect_sift(&blob, &SiftOptions::default().with_upright(true), &mut ())?;
 /// let strongest = features.keypoints[0];
 /// assert!((strongest.u - 32.0).abs() < 0.01 && (strongest.v - 30.0).abs() < 0.01);
 /// # Ok(()) }

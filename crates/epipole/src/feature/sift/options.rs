@@ -1,6 +1,7 @@
 //! Choices of the detector and of its descriptors.
 
 use crate::{Error, Result};
+use derive_setters::Setters;
 
 /// Scaling of the 128 sums of a SIFT descriptor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,12 +25,14 @@ pub enum SiftNormalization {
 /// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as OpenCV takes them, but for the blur that
 /// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
 /// and fewer of the features are too small to be seen from further away.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct SiftOptions {
     /// At most so many features, the strongest; 0 means no limit.
     pub max_features: usize,

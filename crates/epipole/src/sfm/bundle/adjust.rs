@@ -58,10 +58,8 @@ use nalgebra::Translation3;
 ///     let center_in_world = camera.center_in_world() + 0.5 * Vector3::x();
 ///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })
 /// };
-/// let options = BundleOptions {
-///     position_priors: bundle.cameras.iter().map(known).collect(),
-///     ..BundleOptions::default()
-/// };
+/// let options = BundleOptions::default()
+///     .with_position_priors(bundle.cameras.iter().map(known).collect());
 /// adjust_bundle(&mut bundle, &options, &mut ())?;
 /// let moved = bundle.cameras[1].center_in_world();
 /// assert!((moved - Point3::new(1.5, 0.0, 0.0)).norm() < 1e-3, "{moved}");

@@ -3,6 +3,7 @@
 use crate::camera::{LensKind, MAX_COEFFICIENTS};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::{Error, Result};
+use derive_setters::Setters;
 use nalgebra::{Point3, Vector3};
 
 /// What keeps the reconstruction from drifting: position, orientation and scale of the world are
@@ -23,12 +24,14 @@ pub enum Gauge {
 }
 
 /// Options of [`adjust_bundle`](super::adjust_bundle).
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct BundleOptions {
     /// When to stop.
     pub lm: LmOptions,

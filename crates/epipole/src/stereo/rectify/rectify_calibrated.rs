@@ -9,15 +9,18 @@ use super::rectification::Rectification;
 use super::turn::turn_parallel;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
+use derive_setters::Setters;
 use nalgebra::Vector2;
 
 /// Choices of [`rectify_calibrated`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
 pub struct RectifyOptions {
     /// 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until
     /// every pixel of the photographs is shown. Between: in between.

@@ -53,7 +53,7 @@ proptest! {
         match BalProblem::parse(&text) {
             Ok(mut problem) => {
                 prop_assert_eq!(&BalProblem::parse(&problem.to_text()).unwrap(), &problem);
-                let options = LmOptions { max_iterations: 3, ..LmOptions::default() };
+                let options = LmOptions::default().with_max_iterations(3);
                 let solved = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut ());
                 if solved.is_ok() {
                     // What comes out can be read again: all of it is finite.
@@ -71,7 +71,7 @@ proptest! {
             Ok(mut graph) => {
                 let again = PoseGraph::parse_g2o(&graph.to_g2o());
                 prop_assert_eq!(again.map(|graph| graph.size()), Ok(graph.size()));
-                let options = LmOptions { max_iterations: 3, ..LmOptions::default() };
+                let options = LmOptions::default().with_max_iterations(3);
                 if graph.optimize(&options, RobustLoss::Trivial, &mut ()).is_ok() {
                     prop_assert!(PoseGraph::parse_g2o(&graph.to_g2o()).is_ok());
                 }

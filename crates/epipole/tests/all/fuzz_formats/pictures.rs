@@ -66,10 +66,8 @@ fn write(
 static RIGHT: LazyLock<[Vec<u8>; 3]> =
     LazyLock::new(|| std::array::from_fn(|format| encoded(format, exif())));
 
-const OPTIONS: DecodeOptions = DecodeOptions {
-    max_pixels: 20_000,
-    apply_orientation: true,
-};
+static OPTIONS: LazyLock<DecodeOptions> =
+    LazyLock::new(|| DecodeOptions::default().with_max_pixels(20_000));
 
 /// An answer holds what it says, an error is one of the two that decoding has.
 fn check(bytes: &[u8]) -> Result<(), TestCaseError> {

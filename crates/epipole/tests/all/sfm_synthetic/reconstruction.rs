@@ -89,11 +89,9 @@ fn focal_length_and_distortion_are_found() {
         6,
     );
     world.input.intrinsics = vec![Intrinsics::centered(730.0, 640, 480).expect("intrinsics")];
-    let options = SfmOptions {
-        refine_focal: true,
-        refine_distortion: true,
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default()
+        .with_refine_focal(true)
+        .with_refine_distortion(true);
     let result = run(&world, &options);
     let first = &result.components[0];
     assert_eq!(first.num_registered(), 8);
@@ -146,11 +144,9 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
     world.input.intrinsics = (0..10)
         .map(|image| Intrinsics::centered([730.0, 620.0][image % 2], 640, 480).expect("intrinsics"))
         .collect();
-    let options = SfmOptions {
-        refine_focal: true,
-        refine_distortion: true,
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default()
+        .with_refine_focal(true)
+        .with_refine_distortion(true);
     let result = run(&world, &options);
     let first = &result.components[0];
     assert_eq!(first.num_registered(), 10);
@@ -242,10 +238,7 @@ fn points_that_few_saw_can_be_left_out() {
         5,
     );
     let shortest = |min_track_length| {
-        let options = SfmOptions {
-            min_track_length,
-            ..SfmOptions::default()
-        };
+        let options = SfmOptions::default().with_min_track_length(min_track_length);
         let result = run(&world, &options);
         let first = &result.components[0];
         assert_eq!(first.num_registered(), 6);
@@ -262,10 +255,7 @@ fn points_that_few_saw_can_be_left_out() {
 fn points_that_more_cameras_should_see_than_there_are_leave_nothing() {
     let center = Point3::origin();
     let world = photograph(arc(4, center), &ball(150, center, 5), Making::default(), 5);
-    let options = SfmOptions {
-        min_track_length: 5,
-        ..SfmOptions::default()
-    };
+    let options = SfmOptions::default().with_min_track_length(5);
     let result = run(&world, &options);
     assert!(result.components.is_empty());
     assert_eq!(result.unregistered, [0, 1, 2, 3]);

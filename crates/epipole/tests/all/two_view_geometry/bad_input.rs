@@ -83,10 +83,7 @@ fn check_two_view(report: &TwoViewReport, num_matches: usize, options: &TwoViewO
 /// it is said to be.
 fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
     let k = intrinsics(600.0);
-    let budget = RansacOptions {
-        max_iterations: 500,
-        ..RansacOptions::default()
-    };
+    let budget = RansacOptions::default().with_max_iterations(500);
     let points: Vec<_> = p1.iter().map(|p| Point3::new(p.x, p.y, 900.0)).collect();
     let errors_px = |error: &dyn Fn(&Point2<f64>, &Point2<f64>) -> f64| -> Vec<f64> {
         p1.iter().zip(p2).map(|(a, b)| error(a, b)).collect()
@@ -147,10 +144,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
             },
         ),
     );
-    let choice = TwoViewOptions {
-        ransac: budget,
-        ..TwoViewOptions::default()
-    };
+    let choice = TwoViewOptions::default().with_ransac(budget);
     note(
         estimate_two_view(p1, p2, &choice, &mut ()).map(|r| check_two_view(&r, p1.len(), &choice)),
     );
@@ -209,10 +203,7 @@ fn a_match_beyond_all_images_is_left_out() {
     let s = scene(&mut random, pair, Shape::Volume, 200, 0.8, 0.3);
     let k = Intrinsics::centered(700.0, 640, 480).unwrap();
     let options = options(1);
-    let choice = TwoViewOptions {
-        ransac: options,
-        ..TwoViewOptions::default()
-    };
+    let choice = TwoViewOptions::default().with_ransac(options);
     for far in [f64::INFINITY, f64::NEG_INFINITY, 1e200, -2e9] {
         for place in [0, 100] {
             let (mut p1, mut p2) = (s.p1.clone(), s.p2.clone());
@@ -297,10 +288,7 @@ fn nothing_but_outliers() {
             .collect()
     };
     let (a, b) = (cloud(), cloud());
-    let options = RansacOptions {
-        max_iterations: 2000,
-        ..RansacOptions::default()
-    };
+    let options = RansacOptions::default().with_max_iterations(2000);
     let report = estimate_fundamental(&a, &b, &options, &mut ()).unwrap();
     assert!(report.num_inliers < 30);
     assert_eq!(report.stop, StopReason::Exhausted);

@@ -9,7 +9,7 @@ use epipole::epipolar::{
     fundamental_from_essential, sampson_px, select_pose,
 };
 use epipole::math::random::Random;
-use epipole::robust::{RansacOptions, estimate_similarity};
+use epipole::robust::estimate_similarity;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
 };
@@ -39,13 +39,8 @@ fn configurations_are_recognized() {
             let pair = cameras(&mut random);
             let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
             let two_view = |s: &Scene| {
-                let options = TwoViewOptions {
-                    ransac: RansacOptions {
-                        max_error_px,
-                        ..options(seed)
-                    },
-                    ..TwoViewOptions::default()
-                };
+                let options = TwoViewOptions::default()
+                    .with_ransac(options(seed).with_max_error_px(max_error_px));
                 (
                     estimate_two_view_calibrated(
                         &s.p1,
@@ -135,14 +130,11 @@ fn chance_is_no_pair() {
                 (0..count).map(|_| pixel()).collect()
             };
             let (a, b) = (anywhere(), anywhere());
-            let choice = TwoViewOptions {
-                ransac: RansacOptions {
-                    max_error_px,
-                    max_iterations: 2000,
-                    ..options(seed)
-                },
-                ..TwoViewOptions::default()
-            };
+            let choice = TwoViewOptions::default().with_ransac(
+                options(seed)
+                    .with_max_error_px(max_error_px)
+                    .with_max_iterations(2000),
+            );
             let calibrated = estimate_two_view_calibrated(
                 &a,
                 &b,
@@ -194,12 +186,10 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
         let pair = cameras(&mut random);
         let scene = scene(&mut random, pair, Shape::Volume, 200, 0.7, 0.5);
         let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
-        let choose = TwoViewOptions {
-            ransac: options(seed),
+        let choose = TwoViewOptions::default()
+            .with_ransac(options(seed))
             // E cannot have twice F's inliers.
-            min_essential_share: 2.0,
-            ..TwoViewOptions::default()
-        };
+            .with_min_essential_share(2.0);
         let found = estimate_two_view_calibrated(
             &scene.p1,
             &scene.p2,

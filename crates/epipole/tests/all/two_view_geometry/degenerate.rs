@@ -217,12 +217,10 @@ fn a_good_order_saves_samples() {
             s.p2.swap(i, 399 - i);
         }
         let run = |p1: &[Point2<f64>], p2: &[Point2<f64>], sampler| {
-            let options = RansacOptions {
-                sampler,
-                min_iterations: 1,
-                max_iterations: 100_000,
-                ..options(seed)
-            };
+            let options = options(seed)
+                .with_sampler(sampler)
+                .with_min_iterations(1)
+                .with_max_iterations(100_000);
             estimate_fundamental(p1, p2, &options, &mut ()).unwrap()
         };
         for (count, sampler) in drawn

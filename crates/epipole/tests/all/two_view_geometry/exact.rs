@@ -11,7 +11,6 @@ use epipole::epipolar::{
 };
 use epipole::homography::{homography_from_motion, transfer};
 use epipole::math::random::Random;
-use epipole::robust::RansacOptions;
 use epipole::{estimate_fundamental, estimate_homography, estimate_relative_pose};
 use nalgebra::{Matrix3, Point2, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -142,7 +141,7 @@ proptest! {
         let large = estimate_fundamental(
             &scaled(&s.p1),
             &scaled(&s.p2),
-            &RansacOptions { max_error_px: factor, ..options(seed) },
+            &options(seed).with_max_error_px(factor),
             &mut (),
         ).unwrap();
         prop_assert_eq!(large.num_inliers, 40);

@@ -110,10 +110,7 @@ pub(crate) fn direction_error(a: &RigidTransform, b: &RigidTransform) -> f64 {
 }
 
 pub(crate) fn options(seed: u64) -> RansacOptions {
-    RansacOptions {
-        seed,
-        ..RansacOptions::default()
-    }
+    RansacOptions::default().with_seed(seed)
 }
 
 pub(crate) fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
