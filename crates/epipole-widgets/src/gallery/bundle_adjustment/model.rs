@@ -132,7 +132,7 @@ impl Declared for BundleAdjustment {
     const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
-        // The house is one of constants, which a test builds.
+        // Built from constants, so it cannot fail; a test confirms it.
         let house = House::new().ok();
         let mut model = Self {
             settings: Settings::new(KNOBS),

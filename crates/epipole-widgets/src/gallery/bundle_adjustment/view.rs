@@ -25,7 +25,7 @@ const PICTURE_DEPTH: f64 = 0.42;
 /// World y of the ground below the house; y points down.
 const GROUND: f64 = 0.4;
 const CAMERA_NAMES: [&str; 4] = ["camera 1", "camera 2", "camera 3", "camera 4"];
-/// The same for small panels.
+/// Names of the cameras in small panels.
 const SHORT_NAMES: [&str; 4] = ["1", "2", "3", "4"];
 /// Range of each plot, powers of ten.
 const COST: [f64; 2] = [-1.5, 9.6];

@@ -268,7 +268,8 @@ mod tests {
 
     #[test]
     fn noise_and_slope_fall_as_predicted() {
-        // NumPy: x = np.arange(-8, 9), g = exp(−x²/8) / Σ, Σ x g ramp / Σ x² g, with the ramp of 120 over 6.
+        // NumPy: x = np.arange(-8, 9), g = exp(−x²/8) / Σ, Σ x g ramp / Σ x² g, with the ramp of
+        // 120 over 6.
         for (smooth_px, slope) in [(None, 20.0), (Some(2.0), 17.495), (Some(4.0), 10.987)] {
             assert!((slope_left(smooth_px).unwrap() - slope).abs() < 0.001);
         }

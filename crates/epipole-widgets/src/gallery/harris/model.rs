@@ -50,7 +50,7 @@ pub(super) enum Verdict {
     Corner,
 }
 
-/// The structure tensor under the probe and what follows from it.
+/// The structure tensor at the probe, its eigenvalues, response and verdict.
 pub(super) struct Probed {
     pub(super) tensor: WindowTensor,
     pub(super) lambda1: f64,
