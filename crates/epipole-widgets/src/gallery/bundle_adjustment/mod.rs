@@ -1,4 +1,4 @@
-//! `bundle-adjustment`: disturbed cameras and points, and the loop that puts all of them right.
+//! `bundle-adjustment`: disturbed cameras and points, and the loop that corrects all of them.
 
 mod model;
 mod question;

@@ -1,8 +1,7 @@
-//! How cameras and points are disturbed, which step of the adjustment is shown, and where it is
-//! seen from.
+//! Disturbance of cameras and points, step of the adjustment, and viewpoint.
 //!
-//! The job answers with all steps at once. How many of them have been taken is part of the
-//! settings, so a permalink shows the same one.
+//! The job answers with all steps at once. The number of steps taken is a setting, so a permalink
+//! shows the same step.
 
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
@@ -44,7 +43,7 @@ const SEED: Slider = Slider::seed(4.0);
 const KNOBS: &[Knob] = knobs![LOSS, WRONG, DISTURBANCE, DAMPING, STEPS, NOISE, SEED];
 
 const STEPS_PER_SECOND: f64 = 1.5;
-/// The feature that the reader drags.
+/// The draggable feature.
 const MARK: Probe = Probe::new("mark", "photo", "Ridge feature")
     .over(SIZE)
     .step(4.0)
@@ -55,7 +54,7 @@ pub(crate) struct BundleAdjustment {
     settings: Settings,
     pub(super) orbit: Orbit,
     house: Option<House>,
-    /// Where the end of the ridge is seen, in the photograph that is shown, pixels.
+    /// Feature of the ridge's end in the photograph shown, pixels.
     pub(super) mark: Probe,
     pub(super) asked: Asked<Question>,
     running: Running,
@@ -70,14 +69,14 @@ impl BundleAdjustment {
         self.settings.chosen(&LOSS) == 1
     }
 
-    /// Steps that are shown: those asked for, or as many as there are.
+    /// Returns the number of steps shown: the setting, limited to the steps of the answer.
     pub(super) fn num_taken(&self) -> usize {
         let asked = self.settings.count(&STEPS);
         let answer = self.asked.answer();
         answer.map_or(asked, |answer| asked.min(answer.num_steps()))
     }
 
-    /// Cameras and points at the start and after the steps that were taken.
+    /// Returns cameras and points at the start and after the steps taken.
     pub(super) fn states(&self) -> Option<[&State; 2]> {
         let states = &self.asked.answer()?.states;
         Some([states.first()?, states.get(self.num_taken())?])
@@ -88,7 +87,7 @@ impl BundleAdjustment {
         answer.is_some_and(|answer| self.num_taken() == answer.num_steps())
     }
 
-    /// How far the dragged feature is from where it belongs, pixels.
+    /// Returns the distance of the dragged feature from its true position, pixels.
     pub(super) fn mark_off_px(&self) -> f64 {
         let [(u, v), home] = [self.mark, home(self.house.as_ref())].map(|mark| mark.place());
         libm::hypot(u - home.0, v - home.1)
@@ -112,7 +111,7 @@ impl BundleAdjustment {
     }
 }
 
-/// The dragged feature where it belongs.
+/// Returns the dragged feature at its true position.
 fn home(house: Option<&House>) -> Probe {
     let mut mark = MARK;
     if let Some(pixel) = house.map(House::mark) {
@@ -133,7 +132,7 @@ impl Declared for BundleAdjustment {
     const SPACES: &'static [Space] = &[SPACE];
 
     fn new() -> Self {
-        // The house is one of constants, which a test builds.
+        // Built from constants, so it cannot fail; a test confirms it.
         let house = House::new().ok();
         let mut model = Self {
             settings: Settings::new(KNOBS),
@@ -315,7 +314,7 @@ mod tests {
                 settled(&[Event::set(&NOISE, 0.0), Event::set(&SEED, f64::from(seed))]);
             let [start, now] = model.states().unwrap();
             assert!(start.rms_px > 10.0 && start.off > 0.03, "seed {seed}");
-            // The dragged feature is kept to a tenth of a pixel.
+            // The dragged feature is rounded to a tenth of a pixel.
             assert!(now.rms_px < 0.01, "seed {seed}: {} px", now.rms_px);
             assert!(now.off < 1e-4, "seed {seed}: {}", now.off);
         }
@@ -333,7 +332,7 @@ mod tests {
         let model: BundleAdjustment = settled(&[]);
         let answer = model.asked.answer().unwrap();
         let num_points = answer.features.len();
-        // One feature has no noise; seven freedoms change nothing.
+        // One feature has no noise; the seven gauge freedoms change nothing.
         let freedoms = 6.0 * 4.0 + 3.0 * num_points as f64 - 7.0;
         let numbers = 2.0 * answer.num_observations as f64;
         let expected = 2.0 * (numbers - 2.0 - freedoms) / numbers;

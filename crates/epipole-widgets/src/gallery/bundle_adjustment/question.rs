@@ -1,4 +1,4 @@
-//! Where is everything after each step? The core's own loop, watched.
+//! The job of `bundle-adjustment`: all steps of the core's own loop.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::house::{House, MARK, NUM_CAMERAS, SHOWN, SIZE, WIDTH};
@@ -13,32 +13,32 @@ use epipole::sfm::{
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// More steps than this show nothing new.
+/// Maximum number of steps; more show nothing new.
 pub(super) const MAX_STEPS: usize = 24;
-/// Converged when a step lowers the cost by less than this share.
+/// Relative decrease of the cost below which the loop has converged.
 const COST_TOLERANCE: f64 = 1e-5;
-/// Of Huber's loss, pixels.
+/// Width of Huber's loss, pixels.
 const HUBER_PX: f64 = 2.0;
-/// How far a disturbance of 1, the width of the house, turns a camera, radians.
+/// Rotation of a camera at disturbance 1, radians (standard deviation per axis).
 const TURN_RAD: f64 = 0.5;
 
 /// Everything that the answer depends on.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
-    /// Of cameras and points at the start, as a share of the width of the house.
+    /// Disturbance of cameras and points at the start, relative to the width of the house.
     pub(super) disturbance: f64,
-    /// Standard deviation of each coordinate of a feature.
+    /// Standard deviation of each coordinate of a feature, pixels.
     pub(super) noise_px: f64,
-    /// Share of the features that are somewhere else.
+    /// Outlier ratio of the features.
     pub(super) wrong: f64,
-    /// Where the dragged feature is, pixels.
+    /// Position of the dragged feature, pixels.
     pub(super) mark: (f64, f64),
     pub(super) is_robust: bool,
     pub(super) log_damping: f64,
     pub(super) seed: u64,
 }
 
-/// The start, or a step that was tried, and where everything is after it, in the frame of the truth.
+/// The start or a trial step, with the cameras and points after it in the frame of the truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     /// ½ Σ ρ(‖r‖²), square pixels.
@@ -46,31 +46,31 @@ pub(super) struct State {
     pub(super) damping: f64,
     /// Whether the step was kept.
     pub(super) accepted: bool,
-    /// Root of the mean square of the reprojection errors, pixels.
+    /// RMS reprojection error, pixels.
     pub(super) rms_px: f64,
-    /// Root of the mean square of all distances of points from the truth, as a share of the width.
+    /// RMS distance of the points from the truth, relative to the width of the house.
     pub(super) off: f64,
     /// `cam_from_world` of each camera.
     pub(super) poses: Vec<RigidTransform>,
     pub(super) points: Vec<Point3<f64>>,
 }
 
-/// A feature in the photograph that is shown.
+/// A feature in the photograph shown.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Feature {
     pub(super) pixel: Point2<f64>,
-    /// Whether it is of something else.
+    /// Whether it is an outlier.
     pub(super) is_wrong: bool,
 }
 
-/// What the computation finds.
+/// Steps of the adjustment, and the features shown.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     /// One for each point of the house.
     pub(super) features: Vec<Feature>,
     pub(super) num_observations: usize,
     pub(super) converged: bool,
-    /// The first one is the start; there is always one.
+    /// The start, then one state per step; never empty.
     pub(super) states: Vec<State>,
 }
 
@@ -93,7 +93,7 @@ impl question::Question for Question {
         let mut states: Vec<State> = Vec::new();
         for iteration in &report.history {
             let state = match states.last() {
-                // A step that was refused leaves everything where it was.
+                // A rejected step leaves everything unchanged.
                 Some(before) if !iteration.accepted => before.clone(),
                 _ => {
                     let mut bundle = start.clone();
@@ -121,7 +121,7 @@ impl question::Question for Question {
         let Some(num_points) = answer.states.first().map(|state| state.points.len()) else {
             return false;
         };
-        // NaN is not less than anything.
+        // NaN fails the comparison.
         let is_sound = |x: &f64| x.abs() < 1e9;
         let is_state = |state: &State| {
             state.poses.len() == NUM_CAMERAS
@@ -147,7 +147,7 @@ impl question::Question for Question {
 }
 
 impl Question {
-    /// Takes at most `max_iterations` steps.
+    /// Runs the adjustment for at most `max_iterations` steps.
     fn adjust(&self, bundle: &mut Bundle, max_iterations: usize) -> Result<LmReport, Error> {
         let options = BundleOptions::default()
             .with_lm(
@@ -163,8 +163,8 @@ impl Question {
         adjust_bundle(bundle, &options, &mut ())
     }
 
-    /// What the photographs show, with noise, beside cameras and points that are off; and the
-    /// features of the photograph that is shown.
+    /// Returns the features of the photograph shown, and a bundle of noisy observations with
+    /// disturbed cameras and points.
     fn disturbed(&self, house: &House) -> (Vec<Feature>, Bundle) {
         // Noise and wrong features must not change when the disturbance does.
         let mut noise = Random::new(1000 + self.seed);
@@ -216,8 +216,8 @@ impl Question {
     }
 }
 
-/// Cameras and points in the frame of the truth: no photograph knows where the world is, how it
-/// is turned and how large it is, so the similarity that fits best takes these seven away.
+/// Returns the state after alignment to the truth by the best similarity, because photographs fix
+/// neither position, rotation nor scale of the world (seven freedoms).
 fn aligned(bundle: &Bundle, house: &House) -> Result<State, Error> {
     let true_from_found = align_points(&bundle.points, &house.points, AlignmentKind::Similarity)?;
     let pose = |camera: &epipole::camera::PosedCamera| {

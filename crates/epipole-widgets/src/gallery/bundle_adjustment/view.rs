@@ -13,24 +13,24 @@ use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3};
 
-/// Between a panel and the legend below it.
+/// Gap between a panel and the legend below it, CSS pixels.
 const LEGEND_GAP: f64 = 6.0;
-/// What the reader looks at: the house and the cameras before it.
+/// Center and radius of the scene in view: the house and the cameras in front of it.
 const SUBJECT: Subject = Subject {
     middle: Point3::new(0.1, -0.15, -0.75),
     radius: 1.85,
 };
-/// How far before its camera a picture is put up.
+/// Distance of a picture from its camera center, in world units.
 const PICTURE_DEPTH: f64 = 0.42;
-/// The ground below the house.
+/// World y of the ground below the house; y points down.
 const GROUND: f64 = 0.4;
 const CAMERA_NAMES: [&str; 4] = ["camera 1", "camera 2", "camera 3", "camera 4"];
-/// The same where there is little room.
+/// Names of the cameras in small panels.
 const SHORT_NAMES: [&str; 4] = ["1", "2", "3", "4"];
-/// Powers of ten that each plot spans.
+/// Range of each plot, powers of ten.
 const COST: [f64; 2] = [-1.5, 9.6];
 const DAMPING: [f64; 2] = [-8.0, 5.0];
-/// The axis of the steps is never shorter than this.
+/// Minimum length of the step axis.
 const FEWEST: usize = 8;
 
 const START: Stroke = Stroke {
@@ -129,7 +129,7 @@ impl View for BundleAdjustmentView {
 }
 
 fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &mut Canvas) {
-    // The cameras stand side by side, so a narrow panel shows them from farther off.
+    // The cameras are side by side, so a narrow panel needs a larger viewing distance.
     let narrowness = 1.45 * panel.rect.height / panel.rect.width.max(1.0);
     let subject = Subject {
         radius: SUBJECT.radius * narrowness.max(1.0),
@@ -169,7 +169,7 @@ fn draw_space(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
     space.draw(canvas, panel);
 }
 
-/// The camera whose photograph is shown has a hue and a shape of its own.
+/// Returns color and shape of a camera; the one whose photograph is shown has its own.
 fn camera_mark(index: usize) -> (Role, Shape) {
     match index == SHOWN {
         true => (Role::Series(3), Shape::Square),
@@ -223,7 +223,7 @@ fn draw_photo(model: &BundleAdjustment, house: &House, panel: &Panel, canvas: &m
     });
 }
 
-/// Whether a place is in the photograph or not far outside of it.
+/// Whether a pixel is at most one image size outside of the photograph.
 fn is_near(pixel: &Point2<f64>) -> bool {
     let (width, height) = (f64::from(SIZE.0), f64::from(SIZE.1));
     (-width..2.0 * width).contains(&pixel.x) && (-height..2.0 * height).contains(&pixel.y)
@@ -237,7 +237,7 @@ fn draw_wires(house: &House, places: &[Option<Place>], stroke: Stroke, canvas: &
     }
 }
 
-/// What the cost and the damping were after each step.
+/// Draws the curves of cost and damping over the steps.
 fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
     let [x, cost, damping] = rulers(model);
     let titles = [
@@ -258,14 +258,14 @@ fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
             continue;
         };
         plot::draw_now(canvas, panel, model.num_taken() as f64);
-        // What is beyond the axis, or zero, is drawn at its edge.
+        // Values beyond the axis, and zero, are clamped to its edge.
         let (low, high) = (panel.y_axis.end, panel.y_axis.start);
         let place =
             |(step, state): (usize, &State)| (step as f64, values[index](state).clamp(low, high));
         let role = Role::Series(index as u8);
         let places = || answer.states.iter().enumerate().map(place);
         plot::draw_curve(canvas, panel, places(), Stroke::solid(role, 2.0));
-        // Many steps stand close to each other.
+        // Smaller markers where many steps are close together.
         let radius = (0.4 * panel.scale_x()).clamp(1.5, 3.5);
         for (place, state) in places().zip(&answer.states) {
             let at = panel.canvas_from_world(place);

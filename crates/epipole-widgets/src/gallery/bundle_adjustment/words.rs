@@ -1,4 +1,4 @@
-//! What `bundle-adjustment` says: readouts and description.
+//! Readouts and description of `bundle-adjustment`.
 
 use super::model::BundleAdjustment;
 use crate::contract::{Readout, Words, format_number};
@@ -10,7 +10,7 @@ fn percent(share: f64) -> String {
     format_number(value, if value < 0.995 { 2 } else { 1 })
 }
 
-/// As many of the rows carry the figure's point.
+/// Number of leading rows that are main readouts.
 const NUM_MAIN: usize = 4;
 const ROWS: [(&str, &str); 8] = [
     ("error", "Error now"),
@@ -46,7 +46,7 @@ fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
 
 impl Words for BundleAdjustment {
     fn readouts(&self) -> Vec<Readout> {
-        // Before the answer the rows are there already, so that nothing jumps when it comes.
+        // The rows are there before the answer, so that the layout does not jump.
         let unknown = self.asked.missing();
         let found = values(self).unwrap_or_else(|| ROWS.map(|_| unknown.to_owned()));
         let rows = ROWS.into_iter().zip(found).enumerate();

@@ -1,4 +1,4 @@
-//! `column-sizes`: how large the nine columns of the equations are, in raw pixels and normalized.
+//! `column-sizes`: sizes of the nine columns of the equations, in raw pixels and normalized.
 
 mod model;
 mod view;

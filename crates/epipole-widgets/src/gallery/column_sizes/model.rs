@@ -1,4 +1,4 @@
-//! Matches in units of the reader's choice, and the sizes of the columns that they make.
+//! Matches scaled to an image width, and the sizes of the columns of their equations.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, knobs,
@@ -36,7 +36,7 @@ impl Sizes {
         Self(squares.map(f64::sqrt))
     }
 
-    /// The largest over the smallest.
+    /// Returns the ratio of the largest size to the smallest.
     pub(super) fn spread(&self) -> f64 {
         let bounds = self
             .0
@@ -79,7 +79,7 @@ pub(crate) struct ColumnSizes {
 }
 
 impl ColumnSizes {
-    /// The sizes, or why there are none.
+    /// Returns the sizes, or a sentence on why there are none.
     pub(super) fn both(&self) -> Result<&Both, &str> {
         self.both.as_ref().map_err(String::as_str)
     }

@@ -1,4 +1,4 @@
-//! The sizes of the columns in decades, raw and normalized.
+//! The sizes of the columns, raw and normalized, on a logarithmic axis.
 
 use super::model::{ColumnSizes, Sizes};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -8,9 +8,9 @@ use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 
-/// Height of the plot with its names, CSS pixels.
+/// Maximum height of the plot with its labels, CSS pixels.
 const HEIGHT: f64 = 300.0;
-/// Room between the plot and the legend.
+/// Gap between the plot and the legend, CSS pixels.
 const MARGIN: f64 = 4.0;
 const RAW: (Role, Shape) = (Role::Outlier, Shape::Square);
 const NORMALIZED: (Role, Shape) = (Role::Inlier, Shape::Disk);
@@ -58,7 +58,7 @@ impl View for ColumnSizesView {
     }
 }
 
-/// A stem from 1 to each size, a little beside the name.
+/// Draws a stem from 1 to each size, shifted by `beside` columns from the name (negative: left).
 fn draw_sizes(
     sizes: &Sizes,
     (role, shape): (Role, Shape),

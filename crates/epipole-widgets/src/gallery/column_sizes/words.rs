@@ -1,9 +1,9 @@
-//! What `column-sizes` says.
+//! Readouts and description of `column-sizes`.
 
 use super::model::{Both, ColumnSizes};
 use crate::contract::{Readout, Words, format_number};
 
-/// A ratio in words that a reader can compare: 3.2, 41, 52 000.
+/// Formats a ratio, such as 3.2, 41 or 52 000.
 fn times(ratio: f64) -> String {
     match ratio {
         ratio if ratio < 10.0 => format_number(ratio, 1),

@@ -1,4 +1,4 @@
-//! `cover`: the whole way of the book in five steps, from two photographs to a cloud of points.
+//! `cover`: the pipeline of the book in five steps, from two photographs to a cloud of points.
 
 mod model;
 mod view;

@@ -1,4 +1,4 @@
-//! How far the story has come, and where it is seen from.
+//! Progress through the five steps, and the viewpoint.
 
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob,
@@ -20,7 +20,7 @@ const STEP: Choice = Choice::new(
     ],
 )
 .at(NUM_STEPS - 1);
-/// Steps that are told, the last perhaps in part.
+/// Number of steps played, the last one possibly in part.
 const TIME: Slider = Slider::new("time", "Steps told")
     .range(0.0, NUM_STEPS as f64, 0.01)
     .at(NUM_STEPS as f64)
@@ -45,17 +45,17 @@ impl Cover {
         self.asked.answer()
     }
 
-    /// The step that is told, from 0.
+    /// Returns the step shown, from 0.
     pub(super) fn step(&self) -> usize {
         self.settings.chosen(&STEP)
     }
 
-    /// How much of a step has been told, 0 to 1.
+    /// Returns the fraction of a step that has been played, 0 to 1.
     pub(super) fn share(&self, step: usize) -> f64 {
         (self.settings.number(&TIME) - step as f64).clamp(0.0, 1.0)
     }
 
-    /// Tells so many steps, the last perhaps in part.
+    /// Sets the number of steps played, the last one possibly in part.
     fn tell(&mut self, steps: f64) {
         self.settings.slide(&TIME, steps);
         let told = self.settings.number(&TIME).ceil().max(1.0) as usize;
@@ -224,7 +224,7 @@ mod tests {
         assert!(motion.points.len() > 500, "{}", motion.points.len());
         let mut depths: Vec<f64> = motion.points.iter().map(|point| point.place.z).collect();
         depths.sort_by(f64::total_cmp);
-        // The things stand 1.1 to 2.3 m away, and the cameras 0.34 m apart.
+        // The objects are 1.1 to 2.3 m away, and the baseline is 0.34 m.
         let middle = depths[depths.len() / 2];
         assert!((3.0..6.6).contains(&middle), "{middle}");
     }

@@ -1,4 +1,4 @@
-//! One space: the cameras with their photographs, and what is known of the scene so far.
+//! The space view: cameras with their photographs, and the scene as far as it is reconstructed.
 
 use super::model::{Cover, NUM_STEPS};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -14,20 +14,20 @@ use crate::theme::Role;
 use epipole::camera::PosedCamera;
 use nalgebra::{Isometry3, Point2, Point3};
 
-/// What the reader looks at, in the frame of camera 1; the baseline is 1 long.
+/// Center and radius of the scene in view, in the frame of camera 1 (baseline 1).
 const SUBJECT: Subject = Subject {
     middle: Point3::new(0.55, -0.38, 2.7),
     radius: 1.85,
 };
-/// The photographs stand so far before their centers.
+/// Distance of the photographs from the camera centers, in baselines.
 const PICTURE: f64 = 0.9;
-/// The share of the last step in which the points of the matches appear.
+/// Fraction of the last step during which the matched points appear.
 const POINTS: f64 = 0.35;
-/// More lines than this hide what is behind.
+/// Maximum number of lines; more would hide the scene behind them.
 const MOST_LINES: usize = 30;
-/// More dots than this hide a photograph.
+/// Maximum number of dots; more would hide a photograph.
 const MOST_DOTS: usize = 400;
-/// Shares of the first step: the second camera leaves, and arrives.
+/// Fractions of the first step at which the second camera departs and arrives.
 const LEAVES: f64 = 0.3;
 const ARRIVES: f64 = 0.85;
 
@@ -82,7 +82,7 @@ fn draw_space(
     let (Some((first, Some(second))), Some(motion)) = (cameras, &answer.motion) else {
         return;
     };
-    // A narrow panel shows all of it from farther off.
+    // A narrow panel needs a larger viewing distance to show the whole scene.
     let breadth = panel.rect.width / panel.rect.height.max(1.0);
     let radius = SUBJECT.radius * (2.0 / breadth).clamp(1.0, 1.35);
     let subject = Subject { radius, ..SUBJECT };
@@ -106,7 +106,7 @@ fn draw_space(
     }
     draw_points(model, answer, [&first, &second], &mut space, canvas);
     draw_rays(model, motion, [&first, &second], &mut space);
-    // The points first, then every pixel, which hide them.
+    // The matched points appear first, then the dense surface that hides them.
     let [points, pixels] = [0.0, POINTS].map(|from| {
         let length = if from > 0.0 { 1.0 - POINTS } else { POINTS };
         ((model.share(4) - from) / length).clamp(0.0, 1.0)
@@ -127,7 +127,7 @@ fn draw_space(
     space.draw(canvas, panel);
 }
 
-/// The features on the photographs, and lines from match to match.
+/// Draws the features on the photographs, and lines between matches.
 fn draw_points(
     model: &Cover,
     answer: &Answer,
@@ -139,7 +139,7 @@ fn draw_points(
         space.on_picture(cameras[index], pixel, PICTURE)
     };
     let found = canvas.theme().color(Role::Candidate);
-    // Once there are matches, only what has one is shown; in the cloud, nothing.
+    // With matches only matched features are shown, and with the cloud none.
     if model.share(1) > 0.0 && model.share(2) < 1.0 {
         for (index, pixels) in answer.keypoints.iter().enumerate() {
             let shown: Vec<_> = spread(pixels, MOST_DOTS).collect();
@@ -172,7 +172,7 @@ fn draw_points(
     }
 }
 
-/// Rays on their way to the points; once they are there the points stay and the rays go.
+/// Draws the rays as they grow to their points; the last step removes them.
 fn draw_rays(model: &Cover, motion: &Motion, cameras: [&PosedCamera; 2], space: &mut Space<'_>) {
     let (sent, gone) = (model.share(3), model.share(4));
     if sent <= 0.0 || gone >= 1.0 {
@@ -191,7 +191,7 @@ fn draw_rays(model: &Cover, motion: &Motion, cameras: [&PosedCamera; 2], space: 
     }
 }
 
-/// A camera on its way from the first place to the second.
+/// Returns a camera on the way from the first pose to the second.
 fn on_the_way(first: &PosedCamera, second: &PosedCamera, share: f64) -> PosedCamera {
     let (one, two) = (first.cam_from_world, second.cam_from_world);
     let rotation = one.rotation.slerp(&two.rotation, share);
@@ -204,7 +204,7 @@ fn on_the_way(first: &PosedCamera, second: &PosedCamera, share: f64) -> PosedCam
     }
 }
 
-/// The first of all, as many as have been told.
+/// Returns the first `share` of all elements.
 fn told<T>(all: &[T], share: f64) -> &[T] {
     &all[..(share * all.len() as f64).round() as usize]
 }

@@ -1,4 +1,4 @@
-//! What `cover` says.
+//! Readouts and description of `cover`.
 
 use super::model::Cover;
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,4 @@
-//! `disparity-map`: dense disparity of a rendered pair, beside the truth.
+//! `disparity-map`: dense disparity of a rendered pair, beside the ground truth.
 
 mod model;
 mod question;

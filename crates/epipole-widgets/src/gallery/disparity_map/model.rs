@@ -1,4 +1,4 @@
-//! How disparities are looked for, and a probe.
+//! Settings of the disparity search, and a probe.
 
 use super::question::{Answer, Method, Question, SIZE};
 use crate::contract::{
@@ -29,7 +29,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
 const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain").on();
 const KNOBS: &[Knob] = knobs![METHOD, WINDOW, RANGE, BASELINE, CHECKS];
 
-/// At first on the mug, where both cameras see it.
+/// Starts on the mug, in view of both cameras.
 const PROBE: Probe = Probe::new("probe", "left", "Probe")
     .over(SIZE)
     .step(2.0)
@@ -42,7 +42,7 @@ pub(crate) struct DisparityMap {
     pub(super) asked: Asked<Question>,
 }
 
-/// What is found and what is true at the probe.
+/// Disparity found and true disparity at the probe, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Probed {
     pub(super) found_px: Option<f32>,
@@ -60,7 +60,7 @@ impl DisparityMap {
         })
     }
 
-    /// The side of the window that is compared, pixels.
+    /// Returns the side of the matching window, pixels; `None` for semi-global matching.
     pub(super) fn window_px(&self) -> Option<u32> {
         let window_px = self.settings.number(&WINDOW) as u32;
         (self.settings.chosen(&METHOD) == 0).then_some(window_px)

@@ -1,4 +1,4 @@
-//! How far is each pixel shifted? The pair, its true disparity, and what is found.
+//! The job of `disparity-map`: renders a pair, matches it and scores the disparities.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
@@ -14,12 +14,12 @@ use serde::{Deserialize, Serialize};
 
 /// Size of the photographs, pixels.
 pub(super) const SIZE: (u32, u32) = (320, 240);
-/// An answer that is further off is bad, pixels.
+/// Error above which an answer is bad, pixels.
 pub(super) const BAD_PX: f32 = 2.0;
-/// Disparities of the two photographs that differ by more belong to different surfaces, pixels.
+/// Disparities that differ by more belong to different surfaces, pixels.
 const SAME_SURFACE_PX: f32 = 1.0;
 
-/// How disparities are found.
+/// Matching method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) enum Method {
     /// Block matching with windows of this side, pixels.
@@ -33,13 +33,13 @@ pub(super) enum Method {
 pub(super) struct Question {
     pub(super) baseline_m: f64,
     pub(super) method: Method,
-    /// Disparities from 0 up to this are looked for.
+    /// Number of disparities searched, from 0 pixels up.
     pub(super) num_disparities: u32,
-    /// Whether uncertain answers are left out.
+    /// Whether uncertain answers are dropped.
     pub(super) checks: bool,
 }
 
-/// A number for every pixel, row by row; NaN where there is none.
+/// One value per pixel, row by row; NaN without a value.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Map(Vec<f32>);
 
@@ -51,7 +51,7 @@ impl Map {
     }
 }
 
-/// What the computation finds.
+/// The pair, its true and its computed disparities, and their scores.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) pictures: [Picture; 2],
@@ -63,26 +63,26 @@ pub(super) struct Answer {
     pub(super) scores: Scores,
 }
 
-/// How good the disparities are that were found.
+/// Coverage and error of the computed disparities.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Scores {
-    /// The share of what both cameras see that has an answer.
+    /// Fraction of the pixels visible to both cameras that have an answer.
     pub(super) coverage: f64,
-    /// The share of these answers that is bad.
+    /// Fraction of these answers that is bad.
     pub(super) bad: f64,
-    /// Their mean error, pixels.
+    /// Mean error of these answers, pixels.
     pub(super) mean_error_px: f64,
 }
 
-/// The focal length of both cameras, pixels.
+/// Returns the focal length of both cameras, pixels.
 pub(super) fn focal_px() -> f64 {
     still_life_camera(SIZE.0, SIZE.1).intrinsics.fu_px()
 }
 
-/// The left camera, and the right one a baseline further along its rows.
+/// Returns the left camera and the right one, a baseline apart along the rows.
 fn cameras(baseline_m: f64) -> [PosedCamera; 2] {
     let left = still_life_camera(SIZE.0, SIZE.1);
-    // Left of the composition's own viewpoint, so that both see the table.
+    // Half a baseline to either side of the composition's viewpoint, so that both see the table.
     let shifted = |x_m: f64| PosedCamera {
         cam_from_world: RigidTransform::translation(-x_m, 0.0, 0.0) * left.cam_from_world,
         ..left
@@ -165,7 +165,7 @@ impl Question {
         }
     }
 
-    /// The usual filter, or none of its tests.
+    /// Returns the usual filter, or one without its tests if `checks` is off.
     fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
         match self.checks {
             true => usual,
@@ -176,14 +176,14 @@ impl Question {
         }
     }
 
-    /// `d = f B / Z` at every pixel.
+    /// Returns the true disparity of every pixel, `d = f B / Z`.
     fn true_disparity(&self, photograph: &Photograph) -> Map {
         let scale = focal_px() * self.baseline_m;
         let depths = photograph.depth_m.as_raw().iter();
         Map(depths.map(|&z| (scale / f64::from(z)) as f32).collect())
     }
 
-    /// The depth of a disparity, meters; none for one that has none.
+    /// Returns the depth of a disparity, meters; `None` unless the disparity is positive.
     pub(super) fn depth_m(&self, disparity_px: f32) -> Option<f64> {
         depth_from_disparity(focal_px(), self.baseline_m, f64::from(disparity_px)).ok()
     }
@@ -194,7 +194,7 @@ impl Question {
     }
 }
 
-/// Which pixels of the left photograph the right camera does not see.
+/// Returns, for each pixel of the left photograph, whether it is hidden from the right camera.
 fn hidden(left: &[f32], right: &[f32]) -> Vec<bool> {
     let width = SIZE.0 as usize;
     let is_hidden = |index: usize| {
@@ -235,18 +235,18 @@ impl Scores {
 }
 
 impl Answer {
-    /// Whether the right camera does not see what the left one sees here.
+    /// Whether a pixel of the left photograph is hidden from the right camera.
     pub(super) fn is_hidden(&self, u: u32, v: u32) -> bool {
         let index = v as usize * SIZE.0 as usize + u as usize;
         self.hidden.get(index).copied().unwrap_or(false)
     }
 
-    /// Disparity found minus true disparity, pixels; none without an answer.
+    /// Returns found minus true disparity, pixels; `None` without an answer.
     pub(super) fn error_px(&self, u: u32, v: u32) -> Option<f32> {
         Some(self.found.get(u, v)? - self.truth.get(u, v)?)
     }
 
-    /// The largest true disparity, at the end of the color scale, pixels.
+    /// Returns the largest true disparity, which is the end of the color scale, pixels.
     pub(super) fn scale_px(&self) -> f32 {
         let finite = self.truth.0.iter().filter(|d| d.is_finite());
         finite.fold(1.0, |most, d| d.max(most))

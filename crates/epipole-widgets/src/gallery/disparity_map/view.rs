@@ -1,4 +1,4 @@
-//! The pair, the truth, what is found and how far it is off; a legend for the colors.
+//! The pair, its true disparity, the disparity found, the error, and a legend for the colors.
 
 use super::model::DisparityMap;
 use super::question::{Answer, BAD_PX, SIZE};
@@ -11,12 +11,13 @@ use image::RgbImage;
 
 /// Height over width of the photographs.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Height of the legend below everything on a phone: the bar with its ends, two rows of swatches.
+/// Height of the legend below all panels on a phone, CSS pixels: color bar and two rows of
+/// swatches.
 const LEGEND: f64 = 84.0;
-/// What the smaller panels are, beside the larger ones.
+/// Height of the smaller panels relative to the larger ones.
 const SMALLER: f64 = 0.53;
 const ROW: f64 = 18.5;
-/// Name of each panel, and what stands above it, in full and in short.
+/// Id of each panel, with its long and its short title.
 const NAMES: [(&str, &str, &str); 5] = [
     ("left", "Left photograph", "Left"),
     ("found", "Disparity found", "Found"),
@@ -24,7 +25,7 @@ const NAMES: [(&str, &str, &str); 5] = [
     ("right", "Right photograph", "Right"),
     ("truth", "True disparity", "Truth"),
 ];
-/// What the colors of the error map mean.
+/// Meaning of the colors in the error map.
 const SWATCHES: [(Fill, &str); 5] = [
     (Fill::Role(Role::Surface, 1.0), "exact"),
     (Fill::Role(Role::Candidate, 1.0), "off by up to 2 px"),
@@ -99,7 +100,7 @@ impl View for DisparityMapView {
     }
 }
 
-/// True disparity, disparity found, error.
+/// Returns the colored maps: true disparity, disparity found, error.
 fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     let full = answer.scale_px();
     let scale = |d: f32| theme.scale(f64::from(d / full));
@@ -118,7 +119,7 @@ fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     ]
 }
 
-/// From nothing at no error to full at a bad one; bad answers stand out at once.
+/// Returns the color of an error: a ramp up to [`BAD_PX`], then the color of bad answers.
 fn error_color(theme: Theme, error_px: f32) -> Rgb {
     let share = error_px.abs() / BAD_PX;
     let [exact, off, bad] =
@@ -130,7 +131,7 @@ fn error_color(theme: Theme, error_px: f32) -> Rgb {
     }
 }
 
-/// The probe, its match in the right photograph, and the window that is compared.
+/// Draws the probe, its match in the right photograph, and the matching window.
 fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
     let (u, v) = model.probe.place();
     let found = answer.found.get(u as u32, v as u32);
@@ -155,7 +156,7 @@ fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &m
     }
 }
 
-/// A window, nothing in it covered, and around it lines by which it is found and taken hold of.
+/// Draws the outline of the window, which leaves its pixels visible, with four ticks to find it by.
 fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
     let stroke = Stroke::solid(Role::Grip, 2.0).cased();
     for (along, across) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
@@ -165,7 +166,7 @@ fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
     canvas.stroke_rect(Rect::around((x, y), half), stroke);
 }
 
-/// What the colors mean: beside the small panels, or below everything.
+/// Draws the legend beside the small panels, or below all panels on a phone.
 fn draw_legend(canvas: &mut Canvas, layout: &Layout, answer: Option<&Answer>) {
     let truth = layout.panel("truth").rect;
     let is_below = grid::is_narrow(layout.width);

@@ -1,4 +1,4 @@
-//! What `disparity-map` says.
+//! Readouts and description of `disparity-map`.
 
 use super::model::DisparityMap;
 use super::question::Method;

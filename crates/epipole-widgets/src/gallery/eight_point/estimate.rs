@@ -1,4 +1,4 @@
-//! F from matches by the core's eight-point algorithm, and what can be said about it.
+//! F from matches by the core's eight-point algorithm, and its quality.
 
 use crate::kit::matches::{Match, distance_px, line2};
 use epipole::epipolar::{
@@ -7,24 +7,24 @@ use epipole::epipolar::{
 use epipole::math::Line2;
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
 
-/// F by both ways, and how good the chosen one is.
+/// F with and without normalization, and the quality of the chosen one.
 pub(super) struct Estimate {
-    /// The matches that F was estimated from.
+    /// Matches that F was estimated from.
     pub(super) used: Vec<Match>,
     pub(super) normalized: EightPoint,
     pub(super) raw: EightPoint,
     is_normalized: bool,
-    /// F as the toggles want it.
+    /// F with the normalization and the rank that the toggles choose.
     pub(super) fundamental: Matrix3<f64>,
-    /// Where the lines of the matches meet, or nearly do.
+    /// Intersection of the matches' epipolar lines, exact or nearly so.
     pub(super) meeting: Option<Meeting>,
-    /// Mean distance of a match from its line in photograph 2, pixels.
+    /// Mean distance of a match from its epipolar line in photograph 2, pixels.
     pub(super) used_px: f64,
-    /// The same for exact matches that F never saw.
+    /// The same for exact matches held out of the estimation.
     pub(super) held_out_px: f64,
 }
 
-/// The point of least squared distance from many lines.
+/// The least-squares intersection of many lines.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meeting {
     pub(super) place: Point2<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Meeting {
 }
 
 impl Estimate {
-    /// F from `used`, judged by `held_out`.
+    /// Estimates F from `used`, and evaluates it on `held_out`.
     ///
     /// # Errors
     /// As [`fundamental_8point_explained`].
@@ -64,12 +64,13 @@ impl Estimate {
         })
     }
 
-    /// The singular values of the stacked rows without and with normalization, largest first.
+    /// Returns the singular values of the stacked rows without and with normalization, largest
+    /// first.
     pub(super) fn singular_values(&self) -> [&[f64; 9]; 2] {
         [&self.raw.singular_values, &self.normalized.singular_values]
     }
 
-    /// The solution in use.
+    /// Returns the solution in use.
     pub(super) fn chosen(&self) -> &EightPoint {
         if self.is_normalized {
             &self.normalized
@@ -79,7 +80,7 @@ impl Estimate {
     }
 }
 
-/// Mean distance of the second pixels from the lines of the first, pixels.
+/// Returns the mean distance of the second pixels from the lines of the first, pixels.
 fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
     let distances = matches
         .iter()
@@ -88,7 +89,8 @@ fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 
-/// The point nearest to all lines of these pixels; `None` if they are nearly parallel.
+/// Returns the least-squares intersection of the epipolar lines of these pixels; `None` if they are
+/// nearly parallel.
 fn meeting(fundamental: &Matrix3<f64>, pixels1: &[Point2<f64>]) -> Option<Meeting> {
     let lines: Vec<Line2> = pixels1
         .iter()
@@ -101,7 +103,7 @@ fn meeting(fundamental: &Matrix3<f64>, pixels1: &[Point2<f64>]) -> Option<Meetin
         offsets -= normal * line.c;
     }
     let trace = normals.trace();
-    // Lines that are nearly parallel, or none at all.
+    // Nearly parallel lines, or none at all.
     if normals.determinant().max(0.0) <= 1e-6 * trace * trace {
         return None;
     }
@@ -119,7 +121,7 @@ mod tests {
 
     #[test]
     fn parallel_lines_meet_nowhere() {
-        // A step to the right: the lines are rows.
+        // For a step to the right the lines are rows.
         let fundamental = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
         let pixels = [(10.0, 20.0), (300.0, 50.0), (90.0, 400.0)];
         assert!(meeting(&fundamental, &pixels.map(|(u, v)| Point2::new(u, v))).is_none());

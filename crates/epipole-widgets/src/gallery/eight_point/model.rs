@@ -1,7 +1,7 @@
 //! The eight-point algorithm on matches of the still life, both with and without normalization.
 //!
-//! The state is the settings and the place of the probe. Matches are drawn when they are first
-//! needed; the photographs come from a worker, and nothing waits for them.
+//! The state consists of the settings and the position of the probe. Matches are drawn on first
+//! use; the photographs come from a worker, and nothing waits for them.
 
 use super::estimate::Estimate;
 use super::question::{Answer, Question};
@@ -31,7 +31,7 @@ const RANK2: Toggle = Toggle::new("rank2", "Enforce rank 2").on();
 const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = knobs![COUNT, NOISE, NORMALIZE, RANK2, SEED];
 
-/// At first on the handle of the mug.
+/// Starts on the handle of the mug.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
     .over(PHOTO_SIZE)
     .step(4.0)
@@ -46,13 +46,13 @@ pub struct EightPoint {
 }
 
 impl EightPoint {
-    /// The photographs, or why there are none.
+    /// Returns the photographs, or a sentence on why there are none.
     pub(super) fn photographs(&self) -> Result<&Answer, &str> {
         let why = || self.asked.stand_in();
         self.asked.answer().ok_or_else(why)
     }
 
-    /// The estimate, or why there is none.
+    /// Returns the estimate, or a sentence on why there is none.
     pub(super) fn estimate(&self) -> Result<&Estimate, &str> {
         let known = self
             .estimate
@@ -83,18 +83,19 @@ impl EightPoint {
         self.settings.number(&NOISE)
     }
 
-    /// By how much the lines miss one another, pixels; `None` if they are nearly parallel.
+    /// Returns the mean distance of the lines from their intersection, pixels; `None` if they are
+    /// nearly parallel.
     pub(super) fn miss_px(&self) -> Option<f64> {
         Some(self.estimate().ok()?.meeting?.miss_px)
     }
 
-    /// F of the cameras themselves.
+    /// Returns F of the true cameras.
     pub(super) fn truth(&self) -> Option<Matrix3<f64>> {
         let [first, second] = cameras();
         fundamental_from_cameras(&first, &second).ok()
     }
 
-    /// The true epipole in photograph 2.
+    /// Returns the true epipole in photograph 2.
     pub(super) fn true_epipole2(&self) -> Option<Epipole> {
         Some(epipoles(&self.truth()?).ok()?.1)
     }
@@ -103,12 +104,12 @@ impl EightPoint {
         self.probe.point()
     }
 
-    /// The exact match of the probe, if photograph 2 shows it.
+    /// Returns the exact match of the probe, if photograph 2 shows it.
     pub(super) fn probe_match(&self) -> Option<Point2<f64>> {
         exact_match(&self.probe())
     }
 
-    /// How far the match of the probe is from its line.
+    /// Returns the distance of the probe's match from its epipolar line, pixels.
     pub(super) fn probe_px(&self) -> Option<f64> {
         let found = (self.probe(), self.probe_match()?);
         distance_px(&self.estimate().ok()?.fundamental, &found)
@@ -143,7 +144,7 @@ impl Model for EightPoint {
         vec![self.probe.handle()]
     }
 
-    /// Those of the probe.
+    /// Returns the symbols of the probe.
     fn symbols(&self) -> Vec<Symbol> {
         let estimate = self.estimate().ok();
         let line = estimate.and_then(|found| line2(&found.fundamental, &self.probe()));

@@ -1,5 +1,5 @@
-//! Both photographs. The matches need the scene's shapes alone, but a picture needs its light, which
-//! takes too long for a page.
+//! The photographs, as a job: the matches need only the shapes of the scene, but a photograph needs
+//! its light, which takes too long for a page.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::matches::cameras;
@@ -10,7 +10,7 @@ use image::RgbImage;
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
-/// What do both cameras see? That never changes.
+/// The request for both photographs; it has no parameters.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
@@ -23,7 +23,7 @@ impl question::Question for Question {
     const FAILED: &'static str = "There are no photographs";
 
     fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
-        // Posters of several sizes need them several times.
+        // Cached, because posters of several sizes need the photographs several times.
         static TAKEN: OnceLock<[RgbImage; 2]> = OnceLock::new();
         let taken = match TAKEN.get() {
             Some(taken) => taken,

@@ -1,4 +1,4 @@
-//! Both photographs with the matches and their lines; below, the place where the lines meet, much
+//! Both photographs with the matches and their lines; below, the intersection of the lines,
 //! enlarged, and the singular values.
 
 use super::estimate::Estimate;
@@ -17,9 +17,9 @@ use epipole::epipolar::Epipole;
 use nalgebra::Point2;
 
 const MARKER: f64 = 5.0;
-/// So many matches have their line drawn; more would hide the photograph.
+/// Maximum number of matches with a line; more would hide the photograph.
 const NUM_LINES: usize = 10;
-/// The enlarged place shows so many pixels of photograph 2 to each side: the first that is enough.
+/// Half widths of the enlarged view, pixels of photograph 2; the first sufficient one is used.
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
 
 /// Draws [`EightPoint`].
@@ -39,7 +39,7 @@ impl View for EightPointView {
         let shares = [[1.0, 1.15], [0.8, 1.0]];
         let [first, second, meeting, values] = grid.photographs_and_two(PHOTO_ASPECT, shares);
         let (place, half_width) = enlarged(model);
-        // As many pixels to a CSS pixel along the rows as along the columns.
+        // The same scale along the rows as along the columns.
         let half_height = half_width * meeting.height / meeting.width;
         let around = |middle: f64, half: f64| [middle - half, middle + half];
         let (columns, rows) = (around(place.x, half_width), around(place.y, half_height));
@@ -104,7 +104,7 @@ impl View for EightPointView {
     }
 }
 
-/// The place of photograph 2 that is enlarged, and how far it reaches to each side, pixels.
+/// Returns center and half width of the enlarged view in photograph 2, pixels.
 fn enlarged(model: &EightPoint) -> (Point2<f64>, f64) {
     let estimate = model.estimate().ok();
     let Some(meeting) = estimate.and_then(|estimate| estimate.meeting) else {
@@ -125,7 +125,7 @@ fn draw_first(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &m
     canvas.grip(panel.place_of(&probe), Role::Grip);
 }
 
-/// Matches without a line of their own are small.
+/// Draws a match, smaller if it has no line.
 fn draw_match(canvas: &mut Canvas, place: Place, index: usize) {
     if index < NUM_LINES {
         let (role, shape) = series(index);
@@ -166,7 +166,7 @@ fn draw_lines(estimate: &Estimate, panel: &Panel, canvas: &mut Canvas, cased: bo
     }
 }
 
-/// The lines around the place where they meet, and where they should have met.
+/// Draws the lines around their intersection, and the true epipole.
 fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
     if estimate.meeting.is_none() {
         return grid::notice(canvas, panel.rect, "The lines are nearly parallel.");
@@ -190,17 +190,17 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
             let away_px = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
             let text = format!("truth: {} px", format_number(away_px, 0));
             labels.keep_free(from, 6.0);
-            // Near the arrow, or farther off where the rule is in the way.
+            // Beside the arrow, or farther off if the scale bar is in the way.
             let places = [9.0, 26.0].map(|distance| Labels::around(from, distance));
             labels.draw(canvas, places.as_flattened(), &text, style);
         }
     }
 }
 
-/// Both lists of singular values, in decades.
+/// Draws both lists of singular values on a logarithmic axis.
 fn draw_values(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: &mut Canvas) {
     let [raw, normalized] = estimate.singular_values();
-    // Those that the figure works with are stronger.
+    // The list in use is drawn thicker.
     let list = |values, is_chosen: bool, role, shape, name| List {
         values,
         stroke: Stroke::solid(role, if is_chosen { 2.5 } else { 1.25 }),

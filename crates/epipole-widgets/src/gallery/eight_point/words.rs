@@ -1,4 +1,4 @@
-//! What `eight-point` says.
+//! Readouts and description of `eight-point`.
 
 use super::estimate::{Estimate, Meeting};
 use super::model::EightPoint;
@@ -6,7 +6,7 @@ use crate::contract::{Readout, Words, format_number};
 use crate::kit::words;
 use epipole::math::svd3;
 
-/// Lines that miss one another by less meet, pixels.
+/// Mean distance below which the lines count as meeting, pixels.
 const MEETS_PX: f64 = 1e-6;
 
 impl Words for EightPoint {
@@ -68,7 +68,8 @@ impl Words for EightPoint {
 }
 
 impl Meeting {
-    /// By how much the lines miss one another, without what rounding leaves.
+    /// Returns the mean distance of the lines from their intersection, pixels; 0 if only rounding
+    /// is left.
     fn shown_px(self) -> f64 {
         if self.miss_px < MEETS_PX {
             0.0
@@ -78,7 +79,7 @@ impl Meeting {
     }
 }
 
-/// What few readers want to know.
+/// Returns the secondary readouts: the intersection of the lines and the singular values.
 fn details(estimate: &Estimate) -> Vec<Readout> {
     let sigma = &estimate.chosen().singular_values;
     let values = [0, 7, 8].map(|k| words::magnitude(sigma[k], sigma[0]));

@@ -1,4 +1,4 @@
-//! Points of one photograph, and where the camera of the other one stands.
+//! Points in photograph 1, and the pose of camera 2.
 
 use crate::contract::{
     Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
@@ -28,7 +28,7 @@ const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-15.0, 30.0, 1.0)
     .at(4.0)
     .unit("°");
-/// The point that the readouts speak of; 0 stands for the last one, until one is touched.
+/// Number of the point shown in the readouts; 0 selects the last one until the reader touches one.
 const SELECTED: Slider = Slider::new("selected", "Selected point")
     .range(0.0, MAX_POINTS as f64, 1.0)
     .at(0.0)
@@ -37,9 +37,9 @@ const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SELECTED];
 const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
 const REMOVE: Button = Button::new("remove", "Remove a point", ButtonRole::Action).more();
 
-/// Where points begin, pixels: the first [`NUM_AT_START`] at the start, the others when added. They
-/// are on the sun in a picture, the vase's rim, the mug's handle, the border of the cloth, the tin and
-/// an orange.
+/// Initial positions of the points, pixels: the first [`NUM_AT_START`] at the start, the others
+/// when added. They lie on the sun in a picture, the vase's rim, the mug's handle, the border of
+/// the cloth, the tin and an orange.
 const PLACES_PX: [(f64, f64); MAX_POINTS] = [
     (216.0, 60.0),
     (332.0, 130.0),
@@ -49,15 +49,15 @@ const PLACES_PX: [(f64, f64); MAX_POINTS] = [
     (291.0, 332.0),
 ];
 const NUM_AT_START: usize = 4;
-/// What the handles of all points have in common.
+/// Handle settings shared by all points.
 const POINT: Probe = Probe::new("p", "first", "Point # in photograph 1")
     .over(PHOTO_SIZE)
     .step(4.0)
     .digits(1)
     .told(|place| place_words(place, 1));
-/// Two points on one epipolar line are no farther from it than this, pixels; and they are at least so
-/// far from each other.
+/// Maximum distance of a point from an epipolar line that it shares, pixels.
 const SAME_LINE_PX: f64 = 2.0;
+/// Minimum distance between two points that share a line, pixels.
 const APART_PX: f64 = 60.0;
 
 /// The model of `epipolar-click`.
@@ -72,25 +72,25 @@ impl EpipolarClick {
         still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
     }
 
-    /// Camera 2 in the frame of camera 1: meters to the right, meters forward, and degrees to the
-    /// left.
+    /// Returns the motion from camera 1 to camera 2: meters right, meters forward, and degrees of
+    /// rotation to the left.
     pub(super) fn motion(&self) -> (f64, f64, f64) {
         let number = |slider| self.settings.number(slider);
         (number(&BASELINE), number(&FORWARD), number(&TURN))
     }
 
-    /// None while both cameras stand at the same place.
+    /// Returns `None` while both cameras are at the same place.
     pub(super) fn geometry(&self) -> Option<Geometry> {
         Geometry::of(&self.cameras())
     }
 
-    /// The points with their index.
+    /// Returns the points with their index.
     pub(super) fn points(&self) -> impl Iterator<Item = (usize, Point2<f64>)> {
         let points = self.points.iter();
         points.map(|point| (point.number - 1, point.place))
     }
 
-    /// The point that the readouts speak of, with its index.
+    /// Returns the point shown in the readouts, with its index.
     pub(super) fn selected(&self) -> Option<(usize, Point2<f64>)> {
         let chosen = self.settings.count(&SELECTED).checked_sub(1);
         self.points()
@@ -98,12 +98,12 @@ impl EpipolarClick {
             .or_else(|| self.points().last())
     }
 
-    /// How camera 2 sees what is at a pixel of photograph 1.
+    /// Returns the visibility in camera 2 of the scene point at a pixel of photograph 1.
     pub(super) fn seen(&self, pixel1: &Point2<f64>) -> Seen {
         Seen::of(&self.cameras(), pixel1)
     }
 
-    /// Whether some point lies on the line of another one, apart from it.
+    /// Whether two distant points share an epipolar line.
     fn shares_a_line(&self) -> bool {
         let Some(geometry) = self.geometry() else {
             return false;
@@ -119,7 +119,7 @@ impl EpipolarClick {
         })
     }
 
-    /// Says the selection in full, so that a permalink restores it.
+    /// Writes the selection to the settings, so that a permalink restores it.
     fn keep_selection(&mut self) {
         let index = self.selected().map_or(0, |(index, _)| index);
         self.settings.slide(&SELECTED, (index + 1) as f64);
@@ -130,7 +130,7 @@ impl EpipolarClick {
         self.settings.slide(&SELECTED, number as f64);
     }
 
-    /// The smallest number that no point has.
+    /// Returns the smallest unused point number.
     fn free(&self) -> Option<usize> {
         (1..=MAX_POINTS).find(|number| !self.points.has(*number))
     }
@@ -166,7 +166,7 @@ impl Model for EpipolarClick {
         self.points.handles()
     }
 
-    /// Those of the selected point.
+    /// Returns the symbols of the selected point.
     fn symbols(&self) -> Vec<Symbol> {
         let pixel1 = self.selected().map(|(_, point)| point);
         let pixel2 = pixel1.and_then(|point| self.seen(&point).pixel());
@@ -189,7 +189,7 @@ impl Model for EpipolarClick {
                     self.keep_selection();
                 }
             }
-            // With every point in use, a click moves the selected one.
+            // With all points in use, a click moves the selected one.
             Event::Clicked { x, y, .. } => {
                 let selected = self.selected().map(|(index, _)| index + 1);
                 if let Some(number) = self.free().or(selected) {
@@ -291,8 +291,8 @@ mod tests {
         }
     }
 
-    /// What the caption asks for: from the start, the slider alone brings the epipole in, and it comes
-    /// nearer all the way.
+    /// Asserts the caption: the forward slider alone brings the epipole steadily into the
+    /// photograph.
     #[test]
     fn moving_camera_2_forward_brings_the_epipole_into_the_picture() {
         let mut last = epipole_column(&EpipolarClick::new());

@@ -12,7 +12,7 @@ use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, Seen};
 use crate::theme::Role;
 
 const MARKER: f64 = 5.5;
-/// A tall photograph must not push everything else off the screen.
+/// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
 const TALLEST: f64 = 430.0;
 
 /// Draws [`EpipolarClick`].
@@ -69,7 +69,7 @@ impl View for EpipolarClickView {
     }
 }
 
-/// The points, and through each the faint line of all points that share its epipolar line.
+/// Draws the points, and through each the faint line of all points with the same epipolar line.
 fn draw_first(
     model: &EpipolarClick,
     geometry: Option<&Geometry>,
@@ -100,7 +100,7 @@ fn draw_first(
     }
 }
 
-/// The epipolar lines, and on each the match.
+/// Draws the epipolar lines, and on each the match.
 fn draw_second(
     model: &EpipolarClick,
     geometry: Option<&Geometry>,
@@ -151,7 +151,7 @@ fn is_selected(model: &EpipolarClick, index: usize) -> bool {
     model.selected().map(|(selected, _)| selected) == Some(index)
 }
 
-/// A ring around the point that the readouts speak of.
+/// Draws a ring around the point shown in the readouts.
 fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mut Canvas) {
     if is_selected(model, index) {
         let ring = Stroke::solid(Role::Grip, 2.0).cased();
@@ -159,7 +159,7 @@ fn draw_selection(model: &EpipolarClick, index: usize, place: Place, canvas: &mu
     }
 }
 
-/// The number of a point beside its marker, perhaps with words.
+/// Draws the number of a point beside its marker, followed by `words`.
 fn draw_number(canvas: &mut Canvas, labels: &mut Labels, place: Place, index: usize, words: &str) {
     let (role, _) = series(index);
     let text = format!("{}{words}", index + 1);

@@ -1,4 +1,4 @@
-//! What `epipolar-click` says.
+//! Readouts and description of `epipolar-click`.
 
 use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
@@ -6,7 +6,7 @@ use crate::kit::geometry::Geometry;
 use crate::kit::scenes::Seen;
 use crate::kit::words::{self, matrix, pixel, short_epipole, side};
 
-/// What the figure says when both cameras stand at one place.
+/// Message while both cameras are at the same place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
     no epipolar geometry: a point fixes its match without any depth, and no line is left over. \
     Move camera 2.";
@@ -78,7 +78,7 @@ impl Words for EpipolarClick {
     }
 }
 
-/// Whether camera 2 sees a match, such as "no: the jug hides it".
+/// Describes the visibility of a match in camera 2, such as "no: the jug hides it".
 fn sight(found: Seen) -> String {
     match found {
         Seen::Visible(_) => "yes".to_owned(),
@@ -89,8 +89,8 @@ fn sight(found: Seen) -> String {
     }
 }
 
-/// Where camera 2 stands, such as "0.50 m to the right of camera 1 and 0.40 m behind it, turned 14° to
-/// the left".
+/// Describes the pose of camera 2, such as "0.50 m to the right of camera 1 and 0.40 m behind it,
+/// turned 14° to the left".
 fn motion(right_m: f64, forward_m: f64, left_deg: f64) -> String {
     let number = |value: f64| format_number(value.abs(), 2);
     let mut parts = Vec::new();

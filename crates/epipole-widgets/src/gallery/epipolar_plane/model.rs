@@ -1,5 +1,5 @@
-//! Where both cameras stand and where P is: kept as places in the world, to which every slider and handle
-//! is one way. So a camera that moves leaves P where it is, and P that slides keeps its ray.
+//! Positions of both cameras and of P, in world coordinates: a camera that moves leaves P in place,
+//! and P that slides keeps its ray.
 
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
@@ -15,7 +15,7 @@ use epipole::camera::PosedCamera;
 use epipole::epipolar::Epipole;
 use nalgebra::{Point2, Point3};
 
-/// What can be lit up.
+/// The highlighted element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lit {
     Point,
@@ -65,9 +65,9 @@ const X2: Slider = sideways("x2", "Camera 2 sideways").at(0.56);
 const Z2: Slider = forward("z2", "Camera 2 forward");
 const CAMERAS: [[&Slider; 2]; 2] = [[&X1, &Z1], [&X2, &Z2]];
 
-/// What p shows at the start: the mug.
+/// Pixel of p at the start, on the mug.
 const START_PX: Point2<f64> = Point2::new(410.0, 306.0);
-/// Coordinates of P reach so far, meters; the end of the range stands for "as at the start".
+/// Limit of the coordinates of P, ± meters; the lower end means "as at the start".
 const REACH_M: f64 = 8.0;
 const fn coordinate(id: &'static str, label: &'static str) -> Slider {
     let slider = Slider::new(id, label).range(-REACH_M, REACH_M, 1e-4);
@@ -80,10 +80,9 @@ const COORDINATES: [&Slider; 3] = [&PX, &PY, &PZ];
 
 const KNOBS: &[Knob] = knobs![DEPTH, SHOW, X1, Z1, X2, Z2, PX, PY, PZ];
 
-/// Height over width of the space, the same on every page, so that the model knows where things are
-/// seen.
+/// Height over width of the space view, fixed because the model projects points into it.
 pub(super) const SPACE_ASPECT: f64 = 0.505;
-/// What the space shows.
+/// Center and radius of the scene in view.
 pub(super) const SUBJECT: Subject = Subject {
     middle: Point3::new(0.03, -0.22, -0.67),
     radius: 0.68,
@@ -94,20 +93,20 @@ const PIXEL: Probe = Probe::new("p", "first", "p in photograph 1")
     .digits(DIGITS);
 const POINT: &str = "point";
 const CENTERS: [&str; 2] = ["camera1", "camera2"];
-/// Digits that places in the photograph and in the space are kept with.
+/// Decimal places of positions in the photograph and in the space view.
 const DIGITS: usize = 1;
 
 /// The model of `epipolar-plane`.
 pub(crate) struct EpipolarPlane {
     settings: Settings,
     pub(super) orbit: Orbit,
-    /// Where P is at the start.
+    /// Position of P at the start.
     start: Point3<f64>,
     scenery: Option<Scenery>,
 }
 
 impl EpipolarPlane {
-    /// `None` never, as long as cameras stand where they can.
+    /// Never `None` for cameras in the range of their sliders.
     pub(super) fn scenery(&self) -> Option<&Scenery> {
         self.scenery.as_ref()
     }
@@ -116,7 +115,7 @@ impl EpipolarPlane {
         ALL[self.settings.chosen(&SHOW).min(ALL.len() - 1)]
     }
 
-    /// How far the plane is tilted about the baseline, degrees.
+    /// Returns the tilt of the plane about the baseline, degrees.
     pub(super) fn tilt_deg(&self) -> Option<f64> {
         Some(self.scenery.as_ref()?.plane?.tilt_deg())
     }
@@ -138,7 +137,7 @@ impl EpipolarPlane {
         Point3::new(at(0), at(1), at(2))
     }
 
-    /// Puts P somewhere.
+    /// Moves P to a point, unless it is not finite.
     fn put(&mut self, point: &Point3<f64>) {
         if !point.coords.iter().all(|x| x.is_finite()) {
             return;
@@ -151,7 +150,7 @@ impl EpipolarPlane {
         self.compute();
     }
 
-    /// What follows from the places, and the slider that tells one of them.
+    /// Recomputes the scenery, and sets the depth slider to match.
     fn compute(&mut self) {
         let cameras = self.cameras();
         self.scenery = cameras.map(|cameras| Scenery::new(cameras, self.point()));
@@ -161,14 +160,14 @@ impl EpipolarPlane {
         }
     }
 
-    /// P slides along its ray to this depth.
+    /// Slides P along its ray to a depth, meters.
     fn slide(&mut self, depth_m: f64) {
         let Some(scenery) = &self.scenery else {
             return;
         };
         let first = &scenery.cameras[0];
         let center = first.center_in_world();
-        // Behind the camera P has no pixel, and the optical axis stands for its ray.
+        // Behind the camera P has no pixel, so the optical axis serves as its ray.
         let ray = match scenery.depth_m() {
             depth if depth > 1e-6 => (scenery.point - center) / depth,
             _ => first.ray_in_world(&first.intrinsics.principal_point()),
@@ -176,7 +175,7 @@ impl EpipolarPlane {
         self.put(&(center + ray * depth_m.clamp(DEPTHS_M[0], DEPTHS_M[1])));
     }
 
-    /// P is what camera 1 sees at a pixel, if it sees anything there.
+    /// Moves P to the surface that camera 1 sees at a pixel, if any.
     fn look_at(&mut self, u: f64, v: f64) {
         let pixel = Point2::new(u, v);
         if let Some(seen) = self.cameras().and_then(|pair| surface(&pair, &pixel)) {
@@ -188,7 +187,7 @@ impl EpipolarPlane {
         Lens::of_panel(SPACE_ASPECT, &self.orbit, &SUBJECT)
     }
 
-    /// A thing of the space takes the place under the pointer, as far as it can.
+    /// Moves P or a camera as near to the pointer in the space view as its constraint allows.
     fn drag(&mut self, id: &str, place: (f64, f64)) {
         let Some(lens) = self.lens() else {
             return;
@@ -302,8 +301,8 @@ impl Model for EpipolarPlane {
         match event {
             Event::Set { id, value } => {
                 self.settings.set(id, value)?;
-                // Once P, or a camera that tells its depth, has moved, all three coordinates are said, so
-                // that a permalink restores exactly this.
+                // After a move of P or of a camera all three coordinates are stored, so that a
+                // permalink restores them exactly.
                 let moves_camera = CAMERAS.as_flattened().iter().any(|slider| slider.id == id);
                 let is_put =
                     (COORDINATES.iter()).any(|slider| self.settings.number(slider) > -REACH_M);
@@ -316,7 +315,7 @@ impl Model for EpipolarPlane {
                 }
             }
             Event::HandleMoved { id, x, y } => {
-                // A place that is where the thing is already must not move it by what rounding left.
+                // An unchanged position must not move its handle by a rounding error.
                 let stays = |handle: &Handle| handle.id == *id && (handle.x, handle.y) == (*x, *y);
                 if self.handles().iter().any(stays) {
                     return Ok(());

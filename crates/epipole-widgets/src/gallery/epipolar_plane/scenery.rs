@@ -1,4 +1,4 @@
-//! Two cameras before the still life, a point, and the plane through the point and both centers.
+//! Two cameras before the still life, a point, and the plane through it and both centers.
 
 use crate::kit::geometry::Geometry;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
@@ -8,21 +8,21 @@ use epipole::math::Line2;
 use epipole_scenes::{Transfer, still_life_camera};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// How high both cameras stand; y is down and 0 on the table.
+/// World y of both cameras, meters; y points down and is 0 on the table.
 pub(super) const CAMERA_Y_M: f64 = -0.43;
-/// What both look at.
+/// Point that both cameras look at, meters.
 const TARGET: Point3<f64> = Point3::new(0.035, -0.165, 0.05);
-/// Centers that are nearer to each other are one place, meters.
+/// Distance below which two centers coincide, meters.
 const SAME_M: f64 = 1e-6;
-/// A point that is nearer to the baseline makes no plane with it, meters.
+/// Distance below which a point spans no plane with the baseline, meters.
 const ON_BASELINE_M: f64 = 1e-3;
-/// A point that is nearer to a surface is on it, meters.
+/// Distance below which a point lies on a surface, meters.
 const ON_SURFACE_M: f64 = 0.004;
 
-/// The camera that stands here and looks at the still life.
+/// Returns the camera at (x, z), meters, looking at the still life.
 ///
 /// # Errors
-/// As [`look_at`]: it stands above or below what it looks at.
+/// As [`look_at`]: the camera is straight above or below its target.
 pub(super) fn camera((x, z): (f64, f64)) -> Result<PosedCamera, Error> {
     let up = Vector3::new(0.0, -1.0, 0.0);
     Ok(PosedCamera {
@@ -31,40 +31,40 @@ pub(super) fn camera((x, z): (f64, f64)) -> Result<PosedCamera, Error> {
     })
 }
 
-/// What camera 1 shows at the pixel of the point.
+/// The surface that camera 1 sees at the pixel of the point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface {
     pub(super) point: Point3<f64>,
-    /// Where camera 2 would see it, hidden or not.
+    /// Its pixel in camera 2, even if hidden there; `None` behind the camera.
     pub(super) pixel2: Option<Point2<f64>>,
 }
 
 /// The epipolar plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
-    /// From the first center to the second, one long.
+    /// Unit vector from the first center to the second.
     pub(super) along: Vector3<f64>,
-    /// Square to it, in the plane, on the side of the point; one long.
+    /// Unit vector in the plane, perpendicular to `along`, toward the point.
     pub(super) towards: Vector3<f64>,
 }
 
 impl Plane {
-    /// How far the plane is tilted about the baseline, downwards from level, degrees.
+    /// Returns the tilt of the plane about the baseline, degrees; positive downward from level.
     pub(super) fn tilt_deg(&self) -> f64 {
         let level = libm::hypot(self.towards.x, self.towards.z);
         libm::atan2(self.towards.y, level).to_degrees()
     }
 }
 
-/// Everything that follows from where the cameras and the point are.
+/// The cameras, the point, and all that is derived from them.
 pub(super) struct Scenery {
     pub(super) cameras: [PosedCamera; 2],
     pub(super) point: Point3<f64>,
-    /// Where each camera sees the point; `None` behind it.
+    /// Pixel of the point in each camera; `None` behind it.
     pub(super) pixels: [Option<Point2<f64>>; 2],
-    /// `None` while both cameras stand at one place.
+    /// `None` while both cameras are at the same place.
     pub(super) geometry: Option<Geometry>,
-    /// `None` then, too, and where the point is on the baseline.
+    /// `None` without a baseline, or with the point on it.
     pub(super) plane: Option<Plane>,
     pub(super) surface: Option<Surface>,
 }
@@ -84,18 +84,18 @@ impl Scenery {
         }
     }
 
-    /// Meters from center to center.
+    /// Returns the length of the baseline, meters.
     pub(super) fn baseline_m(&self) -> f64 {
         let [one, two] = self.cameras.map(|camera| camera.center_in_world());
         (two - one).norm()
     }
 
-    /// How far the point is from camera 1, along its optical axis; negative behind it.
+    /// Returns the depth of the point in camera 1, meters; negative behind it.
     pub(super) fn depth_m(&self) -> f64 {
         (self.cameras[0].cam_from_world * self.point).z
     }
 
-    /// The epipolar line of the point in each photograph; `None` without a plane.
+    /// Returns the epipolar line of the point in each photograph; `None` without a plane.
     pub(super) fn lines(&self) -> [Option<Line2>; 2] {
         let of = |pixel: &Point2<f64>| {
             let geometry = self.geometry.as_ref().filter(|_| self.plane.is_some())?;
@@ -105,14 +105,14 @@ impl Scenery {
         [one, two]
     }
 
-    /// How far p′ is from its line, pixels.
+    /// Returns the distance of p′ from its line, pixels.
     pub(super) fn residual_px(&self) -> Option<f64> {
         let distance = self.lines()[1]?.signed_distance(&self.pixels[1]?);
         Some(distance.abs())
     }
 
-    /// How far the point is in front of the surface that camera 1 sees there, along the optical axis;
-    /// negative behind it. Zero on it.
+    /// Returns the depth in camera 1 of the surface seen at p minus that of the point, meters:
+    /// positive in front of the surface, 0 on it.
     pub(super) fn before_surface_m(&self) -> Option<f64> {
         let surface = self.cameras[0].cam_from_world * self.surface?.point;
         let before = surface.z - self.depth_m();
@@ -131,7 +131,7 @@ fn plane(one: &Point3<f64>, two: &Point3<f64>, point: &Point3<f64>) -> Option<Pl
     Some(Plane { along, towards })
 }
 
-/// What the first camera shows at a pixel.
+/// Returns the surface that the first camera sees at a pixel.
 pub(super) fn surface(cameras: &[PosedCamera; 2], pixel: &Point2<f64>) -> Option<Surface> {
     let [first, second] = cameras;
     match still_life().transfer(first, second, pixel) {

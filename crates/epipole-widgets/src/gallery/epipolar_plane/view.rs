@@ -1,5 +1,5 @@
-//! The space with both photographs standing in it; beside it the same photographs flat; below, the
-//! formula in which what is lit up is lit up, too.
+//! The space view with both photographs in it, the same photographs flat beside it, and below it
+//! the formula of the highlighted element.
 
 mod space;
 
@@ -29,7 +29,7 @@ pub(crate) struct EpipolarPlaneView {
     cloud: Vec<(Point3<f64>, Rgb)>,
 }
 
-/// The space and the two photographs.
+/// Returns the space view and the two photographs.
 fn cells(grid: &mut Grid, width: f64) -> (Rect, [Rect; 2]) {
     let aspect = PHOTO_ASPECT;
     if grid::is_narrow(width) {
@@ -112,7 +112,7 @@ impl View for EpipolarPlaneView {
     }
 }
 
-/// A line that is lit up, or not.
+/// Returns the stroke of a line, highlighted or not.
 fn stroke(is_lit: bool) -> Stroke {
     if is_lit {
         Stroke::solid(LIT, 3.0)
@@ -218,10 +218,10 @@ fn draw_name(canvas: &mut Canvas, labels: &mut Labels, place: Place, name: &str,
     labels.name(canvas, (place, 10.0), name, (role, TEXT + 1.0));
 }
 
-/// A piece of a formula: its letters, whether they are raised, and what lights it up.
+/// A piece of a formula: its text, whether it is raised, and the elements that highlight it.
 type Piece = (&'static str, bool, &'static [Lit]);
 
-/// The formula that speaks of what is lit up.
+/// Returns the formula of the highlighted element.
 fn formula(lit: Lit) -> &'static [Piece] {
     const T: Piece = ("T", true, &[]);
     match lit {

@@ -1,14 +1,14 @@
-//! What `epipolar-plane` says.
+//! Readouts and description of `epipolar-plane`.
 
 use super::model::{EpipolarPlane, Lit};
 use super::scenery::Scenery;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::words::{self, whole_pixel};
 
-/// What the figure says without a baseline.
+/// Message without a baseline.
 pub(super) const NO_BASELINE: &str =
     "Both cameras stand at the same place: no baseline, and so no plane. Move one.";
-/// What it says where P spans no plane.
+/// Message while P lies on the baseline.
 pub(super) const ON_BASELINE: &str =
     "P lies on the baseline, so it spans no plane with it: its image is the epipole. Move P.";
 
@@ -86,7 +86,7 @@ impl Words for EpipolarPlane {
 }
 
 impl EpipolarPlane {
-    /// What is lit up, in numbers.
+    /// Returns the values of the highlighted element.
     pub(super) fn meaning(&self) -> String {
         let none = || "none".to_owned();
         let Some(scenery) = self.scenery() else {

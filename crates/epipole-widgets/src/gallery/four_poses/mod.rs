@@ -1,4 +1,4 @@
-//! `four-poses`: what an essential matrix says of two cameras, four times, from above.
+//! `four-poses`: the four camera poses of an essential matrix, from above.
 
 mod model;
 mod poses;

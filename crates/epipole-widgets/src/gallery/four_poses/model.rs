@@ -1,4 +1,4 @@
-//! Where camera 2 stands before the house, and how far it is turned.
+//! Position and rotation of camera 2 before the house.
 
 use super::poses::{Ambiguity, Pose};
 use crate::contract::{
@@ -15,11 +15,11 @@ const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .unit("°");
 const KNOBS: &[Knob] = knobs![TURN];
 
-/// Where camera 2 may stand, in steps of the figure's world: to the right, and forward.
+/// Range of camera 2, scene units: to the right, and forward.
 pub(super) const X_RANGE: [f64; 2] = [-1.6, 1.6];
 pub(super) const Z_RANGE: [f64; 2] = [-1.0, 1.2];
-/// At the start it is so much nearer to the house than camera 1 that every pose keeps all corners near:
-/// a corner as far from one camera as from the other goes to infinity in the half-turned ones.
+/// Starts closer to the house than camera 1, so that all four poses keep all corners near: a corner
+/// at the same distance from both cameras goes to infinity in the half-turned poses.
 const CAMERA_2: Probe = Probe::new("camera2", "first", "Camera 2")
     .within([X_RANGE, Z_RANGE])
     .step(0.1)
@@ -31,7 +31,7 @@ const CAMERA_2: Probe = Probe::new("camera2", "first", "Camera 2")
         format!("{aside} to the {side}, {along} {way}")
     })
     .at(-0.8, 0.6);
-/// Farther away than this is as good as infinitely far, steps.
+/// Distance beyond which a corner counts as infinitely far, scene units.
 const FAR: f64 = 20.0;
 
 /// The model of `four-poses`.

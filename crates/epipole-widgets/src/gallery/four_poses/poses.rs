@@ -6,9 +6,9 @@ use epipole::epipolar::{decompose_essential, essential_from_motion};
 use epipole::triangulation::triangulate_midpoint;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-/// Nearer to camera 1 than this there is no step, so no E.
+/// Shortest baseline that has an essential matrix here, scene units.
 const SHORTEST: f64 = 0.05;
-/// Focal length and size of both pictures, pixels.
+/// Focal length and size of both photographs, pixels.
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 480);
 
@@ -23,18 +23,18 @@ const HOUSE: [[f64; 3]; 6] = [
 ];
 /// The corner whose rays are drawn: an end of the ridge.
 pub(super) const RIDGE: usize = 4;
-/// Corners that walls and ridge join.
+/// Edges between corners: walls and ridge.
 pub(super) const EDGES: [(usize, usize); 5] = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5)];
-/// Where the house stands, and how far it is turned, degrees.
+/// Position of the house, scene units, and its rotation about y, degrees.
 const HOUSE_AT: [f64; 3] = [0.15, 0.0, 3.0];
 const HOUSE_TURN_DEG: f64 = 24.0;
 
-/// A corner, where the rays of one pose cross.
+/// A corner triangulated with one of the poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
-    /// Where, in the frame of camera 1.
+    /// In the frame of camera 1.
     pub(super) point: Point3<f64>,
-    /// Whether that is in front of camera 1, and of camera 2.
+    /// Whether the point is in front of camera 1, and of camera 2.
     pub(super) in_front: [bool; 2],
 }
 
@@ -48,7 +48,7 @@ impl Crossing {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pose {
     pub(super) cam2_from_cam1: RigidTransform,
-    /// For each corner, if both cameras see it and its rays cross.
+    /// One entry per corner; `None` unless both cameras see it and its rays cross.
     pub(super) crossings: Vec<Option<Crossing>>,
 }
 
@@ -59,17 +59,17 @@ impl Pose {
     }
 }
 
-/// What two photographs of the house leave open.
+/// The poses that two photographs of the house allow.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ambiguity {
-    /// R and t; R and −t; the half-turned R and t; that and −t. Empty without a step.
+    /// (R, t), (R, −t), (half-turned R, t) and (half-turned R, −t); empty without a baseline.
     pub(super) poses: Vec<Pose>,
-    /// Corners that both cameras see.
+    /// Number of corners that both cameras see.
     pub(super) num_matches: usize,
 }
 
 impl Ambiguity {
-    /// * `motion`: camera 2 from camera 1, as it really stands
+    /// * `motion`: true `cam2_from_cam1`
     ///
     /// # Errors
     /// As [`decompose_essential`]: numbers that are not finite.
@@ -82,7 +82,7 @@ impl Ambiguity {
             return Ok(Self { poses, num_matches });
         }
         let found = decompose_essential(&essential_from_motion(motion)?)?;
-        // The true rotation first, and of each the true direction first.
+        // True rotation first, and true direction first within each.
         let key = |pose: &RigidTransform| {
             let turned = pose.rotation.angle_to(&motion.rotation) > 1e-3;
             let ahead = pose.translation.vector.dot(&motion.translation.vector) > 0.0;
@@ -90,7 +90,7 @@ impl Ambiguity {
         };
         let order = [(false, false), (false, true), (true, false), (true, true)];
         let pose = |mut pose: RigidTransform| {
-            // E has no length; the picture takes that of the true step.
+            // E does not fix the scale; the length of the true baseline is used.
             pose.translation.vector *= step;
             let crossing = |rays: &Option<[Vector3<f64>; 2]>| crossing(&pose, &(*rays)?);
             Pose {
@@ -107,13 +107,13 @@ impl Ambiguity {
     }
 }
 
-/// Corners of the house in the frame of camera 1.
+/// Returns the corners of the house in the frame of camera 1.
 fn house() -> [Point3<f64>; HOUSE.len()] {
     let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), HOUSE_TURN_DEG.to_radians());
     HOUSE.map(|corner| Point3::from(HOUSE_AT) + turn * Vector3::from(corner))
 }
 
-/// The rays of a corner in both cameras; `None` unless both see it.
+/// Returns the rays of a corner in both cameras; `None` unless both see it.
 fn rays(corner: &Point3<f64>, motion: &RigidTransform) -> Option<[Vector3<f64>; 2]> {
     let lens = Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1).ok()?;
     let camera = |cam_from_world| PosedCamera {
@@ -132,8 +132,8 @@ fn rays(corner: &Point3<f64>, motion: &RigidTransform) -> Option<[Vector3<f64>; 
     ])
 }
 
-/// Where two rays cross, forward or backward. A ray meets another behind its camera just where the
-/// reversed ray meets it in front.
+/// Returns the intersection of two rays, in front of or behind each camera. An intersection behind
+/// a camera is one in front of it on the reversed ray.
 fn crossing(pose: &RigidTransform, rays: &[Vector3<f64>; 2]) -> Option<Crossing> {
     let sides = [[true, true], [false, false], [true, false], [false, true]];
     sides.into_iter().find_map(|in_front| {

@@ -1,4 +1,4 @@
-//! The four poses from above, side by side: what is in front of both cameras, and what is not.
+//! The four poses from above, side by side, with the corners in front of both cameras marked.
 
 use super::model::{FourPoses, X_RANGE, Z_RANGE};
 use super::poses::{EDGES, FOCAL_PX, Pose, RIDGE, SIZE};
@@ -11,12 +11,12 @@ use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3, Vector3};
 
-/// What a panel shows around camera 1 at least: to each side, and along its axis.
+/// Minimum extent of a panel around camera 1, scene units: to each side, and along its axis.
 const HALF_WIDTH: f64 = 3.2;
 const HALF_DEPTH: f64 = 3.9;
 /// Height of a panel on a phone, CSS pixels.
 const LOW: f64 = 150.0;
-/// How far before a camera its image plane is drawn.
+/// Distance of the drawn image plane from its camera, scene units.
 const LENS: f64 = 0.6;
 const PANELS: [(&str, &str); 4] = [
     ("first", "R, t"),
@@ -69,7 +69,7 @@ impl View for FourPosesView {
     }
 }
 
-/// Where camera 2 may stand.
+/// Draws the range of camera 2.
 fn draw_room(panel: &Panel, canvas: &mut Canvas) {
     let room = panel.rect_between((X_RANGE[0], Z_RANGE[1]), (X_RANGE[1], Z_RANGE[0]));
     canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
@@ -80,7 +80,7 @@ fn is_wordy(panel: &Panel) -> bool {
     panel.rect.width >= 240.0
 }
 
-/// How many points are in front of both cameras.
+/// Draws the number of corners in front of both cameras, and frames the panel if all are.
 fn draw_count(model: &FourPoses, pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let (count, all) = (pose.num_in_front(), model.num_matches());
     let wins = count == all && all > 0;
@@ -104,7 +104,7 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     let inner = panel.rect.inset(1.5);
     canvas.clipped(inner, |canvas| {
         draw_house(pose, panel, canvas);
-        // The rays of the ridge's end: backward ones dotted.
+        // Rays of the ridge's end; dotted if they meet behind the camera.
         if let Some(crossing) = &pose.crossings[RIDGE] {
             for (index, center) in centers.iter().enumerate() {
                 let stroke = Stroke::solid(CAMERAS[index].0, 1.25);
@@ -133,7 +133,7 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
             false => (Role::Outlier, Shape::Cross),
         };
         if !inner.contains(place) {
-            // Too far away to be shown: where it is.
+            // Outside the panel: an arrow points to the corner.
             if let Some((from, to)) = border_arrow(inner, place) {
                 canvas.arrow(shorter(from, to), to, Stroke::solid(role, 1.5));
             }
@@ -158,8 +158,8 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     }
 }
 
-/// Walls and ridge, as far as both ends of each are on one side of the cameras: a wall from before them
-/// to behind them would pass through infinity.
+/// Draws the walls and the ridge, unless one end is in front of a camera and the other behind it:
+/// such an edge would pass through infinity.
 fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let at = |point: &Point3<f64>| panel.canvas_from_world((point.x, point.z));
     let base = pose.crossings[..4].iter().flatten();
@@ -183,7 +183,7 @@ fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     }
 }
 
-/// An arrow's start, nearer to its point.
+/// Returns the middle of an arrow, as a start closer to its tip.
 fn shorter(from: Place, to: Place) -> Place {
     ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0)
 }

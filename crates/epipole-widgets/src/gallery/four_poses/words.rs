@@ -1,4 +1,4 @@
-//! What `four-poses` says.
+//! Readouts and description of `four-poses`.
 
 use super::model::FourPoses;
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,4 @@
-//! An image, its gradient at every pixel, and an edge of which all that is known.
+//! An image with its gradient at every pixel, and a synthetic edge with known gradient.
 
 use crate::kit::picture;
 use epipole::imaging::{
@@ -10,17 +10,17 @@ use image::{Luma, RgbImage};
 use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;
 
-/// Columns and rows of the edge, of the part of a photograph that is shown as a surface, and of the grid
-/// of arrows on one.
+/// Columns and rows of the edge image, of a photograph's surface patch, and of its grid of arrows.
 pub(super) const GRID: (u32, u32) = (24, 18);
-/// Pixels around the edge that are not shown, so that no filter sees a border.
+/// Hidden margin around the edge image, pixels, so that no filter sees a border.
 const MARGIN: u32 = 22;
-/// Gray levels of the dark side, and from there to the bright one.
+/// Gray level of the dark side.
 const DARK: f64 = 68.0;
+/// Gray levels from the dark side to the bright one.
 const STEP: f64 = 120.0;
-/// From dark to bright, pixels: the slope is 20 gray levels a pixel.
+/// Width of the ramp, pixels: the slope is 20 gray levels per pixel.
 const RAMP_PX: f64 = 6.0;
-/// How far from the middle of the ramp a pixel still counts as on the edge.
+/// Maximum distance from the middle of the ramp at which a pixel is on the edge, pixels.
 const ON_EDGE_PX: f64 = 1.5;
 
 /// The gradient at a pixel.
@@ -28,7 +28,7 @@ const ON_EDGE_PX: f64 = 1.5;
 pub(super) struct Arrow {
     /// Column and row.
     pub(super) at: (f64, f64),
-    /// Iᵤ and Iᵥ, gray levels a pixel.
+    /// Iᵤ and Iᵥ, gray levels per pixel.
     pub(super) du: f64,
     pub(super) dv: f64,
 }
@@ -38,13 +38,13 @@ impl Arrow {
         libm::hypot(self.du, self.dv)
     }
 
-    /// From the direction to the right toward the one down, degrees in (−180, 180].
+    /// Returns the direction, clockwise from the right, degrees in (−180, 180].
     pub(super) fn angle_deg(&self) -> f64 {
         libm::atan2(self.dv, self.du).to_degrees()
     }
 }
 
-/// Gray levels, perhaps smoothed, and their slopes.
+/// Gray levels, smoothed or not, and their gradient.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Field {
     #[serde(with = "picture::floats")]
@@ -58,8 +58,8 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// The gradient of an image in gray levels: by centered differences, or by the derivative of a
-    /// Gaussian.
+    /// Computes the gradient of an image in gray levels: by centered differences, or by the
+    /// derivative of a Gaussian.
     ///
     /// # Errors
     /// As [`gaussian_derivative`].
@@ -81,7 +81,7 @@ impl Field {
         })
     }
 
-    /// The part without the margin of an edge.
+    /// Returns the part inside the margin of the edge image.
     fn inside(self) -> Self {
         let cut = |image: &GrayImage32| {
             image::imageops::crop_imm(image, MARGIN, MARGIN, GRID.0, GRID.1).to_image()
@@ -99,7 +99,7 @@ impl Field {
         self.levels.dimensions()
     }
 
-    /// Whether it is one field over an image of this size, without NaN.
+    /// Whether all images have this size and finite values.
     pub(super) fn fits(&self, size: (u32, u32)) -> bool {
         let is_good = |image: &GrayImage32| {
             image.dimensions() == size && image.iter().all(|value| value.is_finite())
@@ -111,7 +111,7 @@ impl Field {
         f64::from(self.levels.get_pixel(u, v).0[0])
     }
 
-    /// The gradient at a pixel of the image.
+    /// Returns the gradient at a pixel of the image.
     pub(super) fn at(&self, (u, v): (u32, u32)) -> Arrow {
         Arrow {
             at: (f64::from(u), f64::from(v)),
@@ -120,12 +120,13 @@ impl Field {
         }
     }
 
-    /// The image as a picture.
+    /// Returns the gray levels as a picture.
     pub(super) fn picture(&self) -> &RgbImage {
         &self.shown().0
     }
 
-    /// One gradient for each cell of the grid, the steepest in it; on an edge that is every pixel.
+    /// Returns one gradient per cell of the grid, the steepest in it; on an edge a cell is one
+    /// pixel.
     pub(super) fn arrows(&self) -> &[Arrow] {
         &self.shown().1
     }
@@ -162,7 +163,7 @@ impl Field {
 /// A straight edge: a ramp from dark to bright, with noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
-    /// From the direction to the right toward the one down, degrees.
+    /// Direction of the edge, clockwise from the right, degrees.
     pub(super) angle_deg: f64,
     /// Standard deviation of the noise of each pixel, gray levels.
     pub(super) noise: f64,
@@ -170,12 +171,13 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// The direction in which it grows brighter: a quarter turn to the left of the edge.
+    /// Returns the direction toward the bright side, 90° counterclockwise from the edge, degrees.
     pub(super) fn uphill_deg(&self) -> f64 {
         self.angle_deg - 90.0
     }
 
-    /// How far a shown pixel is on the bright side of the edge's middle line.
+    /// Returns the distance of a shown pixel from the edge's middle line, positive on the bright
+    /// side.
     fn distance_px(&self, (u, v): (f64, f64)) -> f64 {
         let up = self.uphill_deg().to_radians();
         let x = u - f64::from(GRID.0 - 1) / 2.0;
@@ -183,7 +185,7 @@ impl Edge {
         x * libm::cos(up) + y * libm::sin(up)
     }
 
-    /// Its field, without what lies around it.
+    /// Returns the gradient field of the edge, without the margin.
     ///
     /// # Errors
     /// As [`Field::new`].
@@ -197,7 +199,7 @@ impl Edge {
         Ok(Field::new(&levels, smooth_px)?.inside())
     }
 
-    /// How far the gradients on the edge are from its true direction, root mean square, degrees.
+    /// Returns the RMS angle of the gradients on the edge to their true direction, degrees.
     pub(super) fn off_deg(&self, field: &Field) -> f64 {
         let on_edge = |arrow: &&Arrow| self.distance_px(arrow.at).abs() <= ON_EDGE_PX;
         let squares: Vec<f64> = (field.arrows().iter().filter(on_edge))
@@ -215,7 +217,7 @@ fn ramp(distance_px: f64) -> f64 {
     DARK + STEP * (0.5 + distance_px / RAMP_PX).clamp(0.0, 1.0)
 }
 
-/// What smoothing leaves of noise of standard deviation 1, in a slope.
+/// Returns the standard deviation of a slope for pixel noise of standard deviation 1.
 ///
 /// # Errors
 /// As [`gaussian_derivative_kernels`].
@@ -227,7 +229,7 @@ pub(super) fn noise_left(smooth_px: Option<f64>) -> epipole::Result<f64> {
     Ok(noise_gain(&smooth) * noise_gain(&slope))
 }
 
-/// What smoothing leaves of the edge's slope, gray levels a pixel.
+/// Returns the slope of the edge after smoothing, gray levels per pixel.
 ///
 /// # Errors
 /// As [`Field::new`].
@@ -266,7 +268,8 @@ mod tests {
 
     #[test]
     fn noise_and_slope_fall_as_predicted() {
-        // NumPy: x = np.arange(-8, 9), g = exp(−x²/8) / Σ, Σ x g ramp / Σ x² g, with the ramp of 120 over 6.
+        // NumPy: x = np.arange(-8, 9), g = exp(−x²/8) / Σ, Σ x g ramp / Σ x² g, with the ramp of
+        // 120 over 6.
         for (smooth_px, slope) in [(None, 20.0), (Some(2.0), 17.495), (Some(4.0), 10.987)] {
             assert!((slope_left(smooth_px).unwrap() - slope).abs() < 0.001);
         }

@@ -1,4 +1,4 @@
-//! `gradient-field`: an edge, a photograph, and the gradient at every pixel of it.
+//! `gradient-field`: an edge or a photograph, and its gradient at every pixel.
 
 mod field;
 mod model;

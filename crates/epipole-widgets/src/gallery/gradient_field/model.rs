@@ -1,5 +1,5 @@
-//! An edge or a photograph, smoothed or not, its gradient, and a probe. The edge is computed at once, a
-//! photograph elsewhere; all of it is one state, and so one file.
+//! An edge or a photograph, smoothed or not, its gradient, and a probe. The edge is computed at
+//! once, a photograph by a job.
 
 use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};
@@ -45,27 +45,27 @@ const BESIDE: Choice = Choice::new(
 );
 const SEED: Slider = Slider::seed(3.0);
 const KNOBS: &[Knob] = knobs![SOURCE, ANGLE, NOISE, SMOOTH, SIGMA, BESIDE, SEED];
-/// What only the edge has.
+/// Ids of the settings that only the edge has.
 const OF_EDGE: [&str; 4] = [ANGLE.id, NOISE.id, SEED.id, BESIDE.id];
 const SLOTS: &[PhotoSlot] = &[slot(480)];
-/// A photograph must be as large as what is shown of it as a surface.
+/// Minimum side of a photograph, pixels: the width of its surface patch.
 const MIN_SIDE_PX: u32 = GRID.0;
 
-/// What stands beside the image.
+/// Content of the panel beside the image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Beside {
     Surface,
     Curve,
 }
 
-/// Slope and noise of the edge under some smoothing, gray levels a pixel.
+/// Slope of the edge and noise of a slope at some smoothing, gray levels per pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Quality {
     pub(super) slope: f64,
     pub(super) noise: f64,
 }
 
-/// At first on the edge whatever its angle, and not in the very middle.
+/// Starts on the edge at any of its angles, slightly off the center.
 const PROBE: Probe = Probe::new("probe", "image", "Probe")
     .over(GRID)
     .at(11.0, 10.0);
@@ -77,13 +77,13 @@ pub(crate) struct GradientField {
     pub(super) probe: Probe,
     pub(super) orbit: Orbit,
     edge: OnceCell<Result<Field, String>>,
-    /// The still life, once it has been rendered.
+    /// The still life, once rendered.
     taken: Option<Picture>,
     asked: Asked<Question>,
 }
 
 impl GradientField {
-    /// The edge, if that is what is shown.
+    /// Returns the edge, if it is the image shown.
     pub(super) fn edge(&self) -> Option<Edge> {
         (self.settings.chosen(&SOURCE) == 0).then(|| Edge {
             angle_deg: self.settings.number(&ANGLE),
@@ -92,7 +92,7 @@ impl GradientField {
         })
     }
 
-    /// What is shown; or a sentence on why nothing is.
+    /// Returns the gradient shown, or a sentence on why there is none.
     pub(super) fn field(&self) -> Result<&Field, &str> {
         if let Some(edge) = self.edge() {
             let look = || {
@@ -107,12 +107,12 @@ impl GradientField {
         answer.ok_or(self.asked.problem().unwrap_or(waiting))
     }
 
-    /// Why the photograph that was asked for is not there, although an older one is.
+    /// Returns why the requested photograph is missing, while an older one may be shown.
     pub(super) fn problem(&self) -> Option<&str> {
         self.asked.problem().filter(|_| self.edge().is_none())
     }
 
-    /// The image's width and height, pixels, also before it is there.
+    /// Returns width and height of the image, pixels, even before it is there.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
             0 => GRID,
@@ -136,13 +136,13 @@ impl GradientField {
         self.settings.flag(&SMOOTH).then(|| self.sigma_px())
     }
 
-    /// The gradient under the probe.
+    /// Returns the gradient at the probe.
     pub(super) fn probed(&self) -> Option<Arrow> {
         let field = self.field().ok()?;
         Some(field.at(self.probe.pixel()))
     }
 
-    /// Left and upper end of what is shown as a surface.
+    /// Returns the upper left pixel of the surface patch.
     pub(super) fn surface_from(&self) -> (u32, u32) {
         let (width, height) = self.size();
         let (u, v) = self.probe.pixel();
@@ -152,12 +152,12 @@ impl GradientField {
         (from(u, width, GRID.0), from(v, height, GRID.1))
     }
 
-    /// How far the arrows on the edge are off, degrees.
+    /// Returns the RMS direction error of the arrows on the edge, degrees.
     pub(super) fn off_deg(&self) -> Option<f64> {
         Some(self.edge()?.off_deg(self.field().ok()?))
     }
 
-    /// Slope and noise of the edge under this smoothing.
+    /// Returns slope and noise of the edge at this smoothing.
     pub(super) fn quality(&self, smooth_px: Option<f64>) -> Option<Quality> {
         Some(Quality {
             slope: slope_left(smooth_px).ok()?,
@@ -185,7 +185,7 @@ impl GradientField {
         self.asked.ask(Question { source, smooth_px });
     }
 
-    /// Another image: nothing that is known is of it.
+    /// Resets the probe and drops the last answer, because the image has changed.
     fn begin(&mut self) {
         self.probe = match self.settings.chosen(&SOURCE) {
             0 => PROBE,

@@ -1,4 +1,5 @@
-//! What is the gradient of a photograph? Rendering or smoothing one takes longer than a frame.
+//! The job of `gradient-field` for photographs: rendering or smoothing one takes longer than a
+//! frame.
 
 use super::field::Field;
 use crate::contract::{Problem, Progress};
@@ -11,12 +12,12 @@ use serde::{Deserialize, Serialize};
 /// Size of the rendered photograph, pixels.
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
 
-/// Where the photograph comes from.
+/// Source of the photograph.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Source {
-    /// The still life, which is still to be rendered.
+    /// The still life, not rendered yet.
     StillLife,
-    /// It has been taken.
+    /// A photograph at hand.
     Taken(Picture),
 }
 
@@ -24,14 +25,14 @@ pub(super) enum Source {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) source: Source,
-    /// Standard deviation of the Gaussian, if there is one.
+    /// Standard deviation of the Gaussian, pixels; `None` without smoothing.
     pub(super) smooth_px: Option<f64>,
 }
 
-/// What the computation finds.
+/// The photograph and its gradient.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
-    /// The photograph as it was.
+    /// The photograph before smoothing.
     pub(super) picture: Picture,
     pub(super) field: Field,
 }

@@ -1,5 +1,5 @@
-//! The image with an arrow for every pixel or patch; beside it the same as a surface, or what smoothing
-//! does to the edge's slope and to the noise.
+//! The image with an arrow per pixel or cell; beside it the same as a surface, or slope and noise
+//! of the edge over the smoothing.
 
 use super::field::{Arrow, Field, GRID};
 use super::model::{Beside, GradientField, SIGMA};
@@ -14,19 +14,20 @@ use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::{Role, mix};
 use nalgebra::Point3;
 
-/// Height of image and surface where there is room; of each on a phone, CSS pixels.
+/// Maximum height of image and surface, CSS pixels.
 const TALLEST: f64 = 328.0;
+/// Height of image and surface on a phone, CSS pixels.
 const PHONE: [f64; 2] = [168.0, 122.0];
-/// Slopes with an arrow as long as a cell: on the edge, and in a photograph.
+/// Gradient drawn about one cell long, gray levels per pixel: on the edge, and in a photograph.
 const FULL: [f64; 2] = [22.0, 60.0];
-/// Slopes below this share of a full one have a dot.
+/// Fraction of [`FULL`] below which a gradient is drawn as a dot.
 const FAINT: f64 = 0.12;
-/// Height of 255 gray levels, pixels of the image.
+/// Height of 255 gray levels on the surface, in pixels of the image.
 const HIGH: f64 = 11.0;
 const ARROW: Role = Role::Series(0);
 const NOISE: Role = Role::Series(1);
 const SLOPE: Role = Role::Series(2);
-/// Powers of ten of the plot.
+/// Range of the plot, powers of ten.
 const DECADES: [f64; 2] = [-1.0, 1.5];
 
 fn rulers() -> [Ruler; 2] {
@@ -53,7 +54,7 @@ impl View for GradientFieldView {
             [image] = grid.row([aspect], PHONE[0]);
             [beside] = grid.shares([1.0], PHONE[1]);
         } else {
-            // On a broad page both are as low as leaves room for a caption, and fill the width.
+            // On a broad page both fill the width and leave room for a caption.
             let of_beside = if grid::is_broad(width) { 0.515 } else { 0.75 };
             [image, beside] = grid.row([aspect, of_beside], TALLEST);
         }
@@ -109,7 +110,7 @@ impl View for GradientFieldView {
     }
 }
 
-/// Where a plot's numbers begin.
+/// Returns the left end of a plot's axis labels, CSS pixels.
 fn image_free(plot: &Panel) -> f64 {
     plot.rect.x - plot::LEFT
 }
@@ -122,20 +123,20 @@ fn entries() -> [legend::Entry; 2] {
     ]
 }
 
-/// Each pixel of the edge as a square.
+/// Draws each pixel of the edge as a square.
 fn draw_pixels(field: &Field, panel: &Panel, canvas: &mut Canvas) {
     let side = panel.scale_x();
     canvas.clipped(panel.rect, |canvas| {
         for (u, v, color) in field.picture().enumerate_pixels() {
             let (x, y) = panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5));
-            // Over the next ones by a hair, so that no line is left between them.
+            // Slightly overlapping, so that no seams show.
             let square = Rect::new(x, y, side + 0.5, side + 0.5);
             canvas.fill_color(square, color.0);
         }
     });
 }
 
-/// An arrow from the middle of each pixel or patch, and the probe's own, with the edge across it.
+/// Draws an arrow per pixel or cell, and the probe's own with the edge across it.
 fn draw_arrows(model: &GradientField, field: &Field, panel: &Panel, canvas: &mut Canvas) {
     let is_edge = model.edge().is_some();
     let cell = panel.rect.width / f64::from(GRID.0);
@@ -180,7 +181,7 @@ fn draw_arrows(model: &GradientField, field: &Field, panel: &Panel, canvas: &mut
     canvas.grip(place, Role::Grip);
 }
 
-/// Gray levels as heights, and at the probe the steepest way up.
+/// Draws gray levels as heights, with the steepest ascent at the probe.
 fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mut Canvas) {
     let (left, top) = model.surface_from();
     let (width, height) = field.size();
@@ -196,7 +197,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
         )
     };
     let subject = Subject {
-        // Below the surface, so that the cross to move it by is not on the probe.
+        // Below the surface, so that the handle that moves the scene does not cover the probe.
         middle: Point3::new(0.0, 3.0, 0.0),
         radius: 0.29 * f64::from(columns + rows),
     };
@@ -265,7 +266,7 @@ fn draw_surface(model: &GradientField, field: &Field, panel: &Panel, canvas: &mu
     draw_handles(canvas, panel, &model.orbit);
 }
 
-/// Slope and noise over the smoothing, and where the image is now.
+/// Draws slope and noise over the smoothing, and marks the current smoothing.
 fn draw_curves(model: &GradientField, panel: &Panel, canvas: &mut Canvas) {
     let [x, y] = rulers();
     plot::draw_axes(canvas, panel, &x, &y);

@@ -1,4 +1,4 @@
-//! What `gradient-field` says.
+//! Readouts and description of `gradient-field`.
 
 use super::model::{Beside, GradientField};
 use crate::contract::{Readout, Words, format_number};

@@ -37,12 +37,12 @@ const WINDOW: Slider = Slider::new("window", "Window")
 const KNOBS: &[Knob] = knobs![SOURCE, THRESHOLD, K, WINDOW];
 
 const SLOTS: &[PhotoSlot] = &[slot(640)];
-/// Smaller pictures have no room for a window.
+/// Minimum side of a photograph, pixels: the largest window must fit.
 const MIN_SIDE_PX: u32 = 16;
-/// Places whose larger eigenvalue is smaller hardly change in any direction, gray levels squared.
+/// Larger eigenvalue below which a place is flat, not an edge, gray levels squared.
 const FLAT: f64 = 400.0;
 
-/// What the neighborhood of a pixel is.
+/// Classification of a pixel's neighborhood.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
     Flat,
@@ -50,7 +50,7 @@ pub(super) enum Verdict {
     Corner,
 }
 
-/// The structure tensor under the probe and what follows from it.
+/// The structure tensor at the probe, its eigenvalues, response and verdict.
 pub(super) struct Probed {
     pub(super) tensor: WindowTensor,
     pub(super) lambda1: f64,
@@ -59,7 +59,7 @@ pub(super) struct Probed {
     pub(super) verdict: Verdict,
 }
 
-/// At first on a corner of the square.
+/// Starts on a corner of the square.
 const PROBE: Probe = Probe::new("probe", "picture", "Probe")
     .over(SQUARE_SIZE)
     .step(2.0)
@@ -74,7 +74,7 @@ pub struct Harris {
 }
 
 impl Harris {
-    /// The picture's width and height, pixels, also before it is there.
+    /// Returns width and height of the picture, pixels, even before it is there.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
             0 => SQUARE_SIZE,
@@ -87,12 +87,12 @@ impl Harris {
         self.settings.number(&THRESHOLD)
     }
 
-    /// The smallest response that counts as a corner.
+    /// Returns the smallest response that counts as a corner.
     fn threshold(&self, answer: &Answer) -> f32 {
         self.threshold_percent() as f32 / 100.0 * answer.strongest()
     }
 
-    /// The corners: local maxima above the threshold, strongest first.
+    /// Returns the corners: local maxima above the threshold, strongest first.
     pub(super) fn corners(&self) -> &[(u32, u32)] {
         let Some(answer) = self.asked.answer() else {
             return &[];
@@ -139,7 +139,7 @@ impl Harris {
         });
     }
 
-    /// Another picture: nothing that is known is of it.
+    /// Resets the probe and drops the last answer, because the picture has changed.
     fn begin(&mut self) {
         self.probe = match self.settings.chosen(&SOURCE) {
             0 => PROBE,

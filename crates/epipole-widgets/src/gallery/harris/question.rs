@@ -1,4 +1,4 @@
-//! Where are the corners? The picture, its Harris response and the local maxima.
+//! The job of `harris`: the picture, its Harris response and the local maxima.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::{self, Picture};
@@ -17,19 +17,19 @@ use std::cell::OnceCell;
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
 /// Noise of the test pattern, gray levels.
 const PATTERN_NOISE: f64 = 2.5;
-/// Half the window of non-maximum suppression, pixels.
+/// Radius of non-maximum suppression, pixels.
 const SUPPRESSION_RADIUS_PX: usize = 4;
-/// More maxima than this help nobody.
+/// Maximum number of local maxima kept, the strongest ones.
 const MAX_PEAKS: usize = 4000;
 
-/// Where the picture comes from.
+/// Source of the picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Source {
     /// A tilted square on a plain ground, with a little noise.
     Pattern,
     /// The rendered still life.
     StillLife,
-    /// The reader's own.
+    /// The reader's photograph.
     Own(Picture),
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Question {
     pub(super) window_px: usize,
 }
 
-/// What the computation finds.
+/// The picture, its Harris response and the local maxima.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) picture: Picture,
@@ -54,8 +54,8 @@ pub(super) struct Answer {
     gray: OnceCell<GrayImage32>,
 }
 
-/// Gray levels divided by 8, what Sobel's 3×3 filter multiplies slopes by: gradients are then gray
-/// levels a pixel.
+/// Returns gray levels divided by 8, the gain of Sobel's 3×3 filter, so that gradients are in gray
+/// levels per pixel.
 fn gray_levels(picture: &RgbImage) -> GrayImage32 {
     let mut gray = rgb_to_gray_f32(picture, &BT601_WEIGHTS);
     gray.pixels_mut()
@@ -68,7 +68,7 @@ impl Question {
         StructureTensorOptions::default().with_window(Window::Box(self.window_px))
     }
 
-    /// The structure tensor at a pixel of the answer's picture.
+    /// Returns the structure tensor at a pixel of the answer's picture.
     pub(super) fn tensor(&self, answer: &Answer, pixel: (u32, u32)) -> Option<WindowTensor> {
         let gray = (answer.gray).get_or_init(|| gray_levels(answer.picture.image()));
         WindowTensor::at(gray, pixel, &self.options()).ok()
@@ -114,7 +114,7 @@ impl question::Question for Question {
 }
 
 impl Answer {
-    /// The largest response of the picture; positive, so that shares of it make sense.
+    /// Returns the largest response of the picture; positive, so that fractions of it are defined.
     pub(super) fn strongest(&self) -> f32 {
         let first = self.peaks.first();
         first.map_or(f32::MIN_POSITIVE, |&(u, v)| {

@@ -9,7 +9,7 @@ use crate::kit::heat::{self, Fill, Heat, Signed};
 use crate::theme::{Role, Theme};
 use image::RgbImage;
 
-/// A tall photograph must not push everything else off the screen.
+/// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
 const TALLEST: f64 = 404.0;
 const LEGEND: f64 = 30.0;
 
@@ -65,7 +65,7 @@ impl View for HarrisView {
 fn draw_corners(canvas: &mut Canvas, panel: &Panel, model: &Harris) {
     let corners = model.corners();
     let (is_crowded, is_small) = (corners.len() > 60, panel.rect.width < 300.0);
-    // On a phone the circles of many corners would hide what they are around.
+    // On a phone, large circles around many corners would hide the corners.
     let (radius, width) = match (is_crowded, is_small) {
         (true, true) => (1.75, 1.25),
         (false, false) => (7.0, 2.0),
@@ -77,7 +77,7 @@ fn draw_corners(canvas: &mut Canvas, panel: &Panel, model: &Harris) {
     }
 }
 
-/// Warm where R is positive, cool and striped where it is negative.
+/// Returns the response in colors: warm where R > 0, cool and striped where R < 0.
 fn colored(answer: &Answer, theme: Theme) -> RgbImage {
     let (colors, strongest) = (Signed::of(theme), answer.strongest());
     RgbImage::from_fn(answer.response.width(), answer.response.height(), |u, v| {
@@ -88,7 +88,7 @@ fn colored(answer: &Answer, theme: Theme) -> RgbImage {
     })
 }
 
-/// Below the map, or below both pictures where the map is narrow.
+/// Draws the legend below the map, or below both panels on a phone.
 fn draw_legend(canvas: &mut Canvas, width: f64, map: Rect) {
     let narrow = grid::is_narrow(width);
     let y = map.bottom() + LEGEND / 2.0 + 2.0;

@@ -1,4 +1,4 @@
-//! What `harris` says.
+//! Readouts and description of `harris`.
 
 use super::model::{Harris, Verdict};
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,5 @@
-//! `kernel-stepper`: a small window over enlarged pixels: products, their sum, and the answer.
+//! `kernel-stepper`: a small window over enlarged pixels, with the products, their sum and the
+//! answer.
 
 mod kernel;
 mod model;

@@ -1,4 +1,4 @@
-//! An image of a few pixels, a kernel, a border, and a window that stops at one pixel after the other.
+//! A small image, a kernel, a border, and a window that steps from pixel to pixel.
 
 use super::kernel::Kernel;
 use super::pixels::{self, SIZE};
@@ -88,7 +88,7 @@ impl KernelStepper {
         }
     }
 
-    /// The reader's own kernel, also while another one is at work.
+    /// Returns the reader's own kernel, even while another one is chosen.
     pub(super) fn own(&self) -> Kernel {
         Kernel {
             weights: std::array::from_fn(|index| self.settings.number(&WEIGHTS[index]) as f32),
@@ -96,7 +96,7 @@ impl KernelStepper {
         }
     }
 
-    /// The label of the kernel, and the axis along which it measures, if it does.
+    /// Returns the label of the kernel, and the axis along which it measures a slope, if any.
     pub(super) fn names(&self) -> (&'static str, Option<&'static str>) {
         let measures = self.settings.chosen(&KERNEL) < 3;
         let along = ["u", "v"][self.settings.chosen(&ALONG)];
@@ -108,12 +108,12 @@ impl KernelStepper {
         borders[self.settings.chosen(&BORDER)]
     }
 
-    /// The gray level at a place of the image or beyond its border.
+    /// Returns the gray level at a place inside the image or beyond its border.
     pub(super) fn level(&self, u: i32, v: i32) -> f32 {
         self.border().value(&self.image, u as isize, v as isize)
     }
 
-    /// The nine gray levels in the window, in rows.
+    /// Returns the nine gray levels in the window, in row order.
     pub(super) fn window(&self) -> [f32; 9] {
         let (u, v) = self.window.pixel();
         std::array::from_fn(|index| {
@@ -122,18 +122,18 @@ impl KernelStepper {
         })
     }
 
-    /// The sum of products at a pixel.
+    /// Returns the sum of products at a pixel.
     pub(super) fn sum(&self, (u, v): (u32, u32)) -> f64 {
         let sums = self.sums.as_ref();
         sums.map_or(0.0, |sums| f64::from(sums.get_pixel(u, v).0[0]))
     }
 
-    /// The same divided: the answer of the filter.
+    /// Returns the answer of the filter at a pixel: the sum over the divisor.
     pub(super) fn answer(&self, pixel: (u32, u32)) -> f64 {
         self.sum(pixel) / f64::from(self.kernel().divisor)
     }
 
-    /// What is wrong or empty, in a sentence.
+    /// Returns a sentence on a filter that failed or a kernel of zeros.
     pub(super) fn remark(&self) -> Option<&str> {
         match &self.sums {
             Err(sentence) => Some(sentence),

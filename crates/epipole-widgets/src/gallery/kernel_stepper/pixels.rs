@@ -1,4 +1,4 @@
-//! Two small images, every gray level of which is to be read.
+//! Two images small enough to print every gray level.
 
 use epipole::imaging::GrayImage32;
 use image::Luma;
@@ -6,7 +6,7 @@ use image::Luma;
 /// Columns and rows.
 pub(super) const SIZE: (u32, u32) = (8, 6);
 
-/// A corner of something bright. Around column 3, row 2 lies the patch that the chapter works by hand.
+/// A bright corner. Around column 3, row 2 is the patch that the chapter works by hand.
 const PATCH: [[u8; 8]; 6] = [
     [20, 25, 28, 45, 80, 110, 118, 120],
     [22, 26, 30, 60, 90, 125, 130, 128],
@@ -16,7 +16,7 @@ const PATCH: [[u8; 8]; 6] = [
     [30, 60, 110, 150, 156, 155, 153, 151],
 ];
 
-/// Where in the rendered still life, 480 × 360 pixels, the photograph is cut out: left and top.
+/// Left and top of the cutout from the rendered still life of 480 × 360 pixels.
 #[cfg(test)]
 const FROM: (u32, u32) = (290, 212);
 
@@ -30,7 +30,7 @@ const PHOTOGRAPH: [[u8; 8]; 6] = [
     [62, 155, 174, 161, 152, 93, 78, 76],
 ];
 
-/// The gray levels of one of the two.
+/// Returns the gray levels of one of the two images.
 pub(super) fn image(is_photograph: bool) -> GrayImage32 {
     let levels = if is_photograph { &PHOTOGRAPH } else { &PATCH };
     GrayImage32::from_fn(SIZE.0, SIZE.1, |u, v| {

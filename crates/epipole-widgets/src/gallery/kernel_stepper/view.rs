@@ -1,4 +1,4 @@
-//! The pixels with their numbers, the nine products under the window, and the answer at every pixel.
+//! The pixels with their numbers, the nine products in the window, and the answer at every pixel.
 
 use super::model::KernelStepper;
 use super::pixels::SIZE;
@@ -10,8 +10,9 @@ use crate::kit::heat::Signed;
 use crate::kit::words::short;
 use crate::theme::{Rgb, Role, mix};
 
-/// Height of the pixels where there is room; of both rows on a phone, CSS pixels.
+/// Maximum height of the pixels, CSS pixels.
 const TALLEST: f64 = 332.0;
+/// Height of both rows on a phone, CSS pixels.
 const PHONE: [f64; 2] = [204.0, 100.0];
 /// Height of the line with the sum.
 const SUM: f64 = 26.0;
@@ -74,7 +75,7 @@ fn draw_pixels(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
             if is_inside {
                 cells::draw(canvas, rect, gray(level), &short(level));
             } else {
-                // Beyond the border: paler and smaller, so that nobody takes it for a pixel.
+                // Beyond the border: paler and smaller, to differ from pixels of the image.
                 let color = mix(gray(level), surface, 0.6);
                 cells::draw(canvas, rect.inset(0.13 * rect.width), color, &short(level));
             }
@@ -89,12 +90,12 @@ fn draw_pixels(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
     canvas.stroke_rect(middle.inset(1.0), Stroke::solid(Role::Grip, 1.5));
 }
 
-/// Window, weights and products: below each other, on a phone side by side; and the sum.
+/// Draws window, weights and products, stacked or on a phone side by side, and their sum.
 fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut Canvas) {
     let (window, kernel) = (model.window(), model.kernel());
     let products: [f32; 9] = std::array::from_fn(|index| window[index] * kernel.weights[index]);
     let room = Rect::new(rect.x, rect.y, rect.width, rect.height - SUM);
-    // Below each other, their titles stand above them, the first one above the panel.
+    // In the stack each title is above its table, and the first one above the panel.
     let tables = match narrow {
         true => grid::columns(room, [1.0; 3]),
         false => grid::stack(room, [1.0; 3]),
@@ -127,7 +128,7 @@ fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut C
     canvas.label(place, text, TextStyle::new(Role::Ink, size).middle());
 }
 
-/// The sign is in the number, too.
+/// Returns the color of a signed value; its printed number repeats the sign.
 fn shade(colors: &Signed, value: f64, most: f64) -> Rgb {
     let share = 0.65 * (value.abs() / most.max(1e-9)).min(1.0);
     colors.color(value < 0.0, share as f32)

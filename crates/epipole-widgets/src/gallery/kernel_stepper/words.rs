@@ -1,4 +1,4 @@
-//! What `kernel-stepper` says.
+//! Readouts and description of `kernel-stepper`.
 
 use super::kernel::Kernel;
 use super::model::{BORDER, KernelStepper};
@@ -6,7 +6,7 @@ use crate::contract::{Readout, Words};
 use crate::kit::words::{after, short};
 
 impl Kernel {
-    /// Its rows, such as "0 1 0; 1 −4 1; 0 1 0", and the divisor.
+    /// Formats the rows, such as "0 1 0; 1 −4 1; 0 1 0", and the divisor.
     fn words(&self) -> String {
         let row = |row: &[f32]| {
             let weights: Vec<String> = row.iter().map(|weight| short((*weight).into())).collect();

@@ -1,4 +1,4 @@
-//! F by the core's eight-point algorithm from matches of which one is wrong, and what that does to the
+//! F by the core's eight-point algorithm from matches with one outlier, and the effect on the
 //! others.
 
 use crate::kit::matches::{Match, distance_px};
@@ -6,23 +6,24 @@ use epipole::Error;
 use epipole::epipolar::fundamental_8point_explained;
 use nalgebra::{Matrix3, Point2, Vector2};
 
-/// F, and how it treats the matches.
+/// F, and the distances of the matches from their epipolar lines.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fit {
     pub(super) fundamental: Matrix3<f64>,
-    /// Of the stacked normalized rows, largest first.
+    /// Singular values of the stacked normalized rows, largest first.
     pub(super) singular_values: [f64; 9],
-    /// Distance of the true matches from their lines in photograph 2, pixels: mean and largest.
+    /// Mean distance of the true matches from their lines in photograph 2, pixels.
     pub(super) mean_px: f64,
+    /// Largest of these distances, pixels.
     pub(super) worst_px: f64,
     /// Distance of the wrong match from its line, pixels.
     pub(super) wrong_px: f64,
-    /// True matches that are farther from their lines than the wrong one.
+    /// Number of true matches farther from their lines than the wrong one.
     pub(super) num_farther: usize,
 }
 
 impl Fit {
-    /// F from the true matches and, if it is to be heard, the wrong one.
+    /// Estimates F from the true matches, and from the wrong one if `is_heard`.
     ///
     /// # Errors
     /// As [`fundamental_8point_explained`].
@@ -45,12 +46,13 @@ impl Fit {
     }
 }
 
-/// How far the curve leads the wrong match away, pixels, and in how many steps.
+/// Largest displacement of the wrong match on the curve, pixels.
 pub(super) const REACH_PX: f64 = 300.0;
+/// Number of steps of the curve.
 const NUM_STEPS: usize = 30;
 
-/// What becomes of F on the way from the right place towards where the wrong match is, and on: how far the
-/// match is led away at each step, pixels, and F with it.
+/// Fits F while the wrong match moves from its true position in the direction of `wrong`: pairs of
+/// displacement, pixels, and F.
 pub(super) fn led_away(truth: &[Match], right: &Match, wrong: &Point2<f64>) -> Vec<(f64, Fit)> {
     let direction = (wrong - right.1)
         .try_normalize(1e-9)
@@ -77,7 +79,7 @@ mod tests {
         let wrong = (right.0, right.1 + Vector2::new(0.0, 120.0));
         let bad = Fit::new(&exact, &wrong, true).unwrap();
         assert!(bad.mean_px > 1.0 && bad.worst_px > bad.mean_px);
-        // Not heard, it does nothing to the others, and stands out at once.
+        // Without the wrong match the others are unaffected, and its residual is large.
         let without = Fit::new(&exact, &wrong, false).unwrap();
         assert!(without.worst_px < 1e-6 && without.wrong_px > 20.0);
         assert_eq!(without.num_farther, 0);

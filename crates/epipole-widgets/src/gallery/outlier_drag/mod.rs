@@ -1,4 +1,4 @@
-//! `outlier-drag`: one match is dragged away, and F follows it with all of its lines.
+//! `outlier-drag`: one match is dragged away, and F follows it with all epipolar lines.
 
 mod fit;
 mod model;

@@ -1,4 +1,4 @@
-//! Matches of the still life, the first of them dragged to a wrong place.
+//! Matches of the still life, with the first one dragged to a wrong place.
 
 use super::fit::{Fit, led_away};
 use crate::contract::{
@@ -13,7 +13,7 @@ use epipole::epipolar::fundamental_from_cameras;
 use nalgebra::{Point2, Vector2};
 use std::cell::OnceCell;
 
-/// True matches; the wrong one comes on top.
+/// Number of true matches, to which the wrong one is added.
 const COUNT: Slider = Slider::new("count", "True matches")
     .range(8.0, 59.0, 1.0)
     .at(19.0);
@@ -31,24 +31,25 @@ const WRONG: Probe = Probe::new("wrong", "second", "Wrong match")
     .over(PHOTO_SIZE)
     .step(5.0)
     .digits(1);
-/// Where the wrong match is at first, seen from where it belongs, pixels.
+/// Initial displacement of the wrong match from its true position, pixels.
 const AWAY_PX: Vector2<f64> = Vector2::new(30.0, 130.0);
 
-/// Matches with the wrong one, and F from them.
+/// The true matches, the wrong one, and F.
 pub(super) struct State {
     pub(super) truth: Vec<Match>,
-    /// The match before it was dragged.
+    /// The dragged match at its true position.
     pub(super) right: Match,
     put: Probe,
     pub(super) wrong: Match,
-    /// As the toggle wants it, and from the true matches alone.
+    /// F with the wrong match, unless the toggle excludes it.
     pub(super) fit: Fit,
+    /// F from the true matches alone.
     pub(super) without: Fit,
     led: OnceCell<Vec<(f64, Fit)>>,
 }
 
 impl State {
-    /// As [`led_away`].
+    /// Returns [`led_away`] of this state, cached.
     pub(super) fn led(&self) -> &[(f64, Fit)] {
         let led = || led_away(&self.truth, &self.right, &self.wrong.1);
         self.led.get_or_init(led)
@@ -58,13 +59,13 @@ impl State {
 /// The model of `outlier-drag`.
 pub(crate) struct OutlierDrag {
     settings: Settings,
-    /// Where the reader has put it.
+    /// Position chosen by the reader; `None` for the initial one.
     put: Option<Probe>,
     state: Result<State, String>,
 }
 
 impl OutlierDrag {
-    /// The matches and F, or why there is none.
+    /// Returns the matches and F, or a sentence on why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
         self.state.as_ref().map_err(String::as_str)
     }
@@ -73,7 +74,7 @@ impl OutlierDrag {
         self.settings.flag(&HEARD)
     }
 
-    /// How far the wrong match is from where it belongs, pixels.
+    /// Returns the distance of the wrong match from its true position, pixels.
     pub(super) fn away_px(&self) -> f64 {
         let state = self.state.as_ref();
         state.map_or(0.0, |state| (state.wrong.1 - state.right.1).norm())
@@ -103,7 +104,7 @@ impl OutlierDrag {
     }
 }
 
-/// The wrong match as near to a place as it can be.
+/// Returns the handle of the wrong match at a place, clamped to the photograph.
 fn near(place: &Point2<f64>) -> Probe {
     let mut wrong = WRONG;
     wrong.put(place.x, place.y);
@@ -143,7 +144,7 @@ impl Model for OutlierDrag {
         vec![state.put.handle().told(told)]
     }
 
-    /// Those of the wrong match.
+    /// Returns the symbols of the wrong match.
     fn symbols(&self) -> Vec<Symbol> {
         let Ok(state) = self.state() else {
             return Vec::new();
@@ -165,7 +166,7 @@ impl Model for OutlierDrag {
     }
 }
 
-/// Where the true line of the dragged match leads to, so far from where the match belongs.
+/// Returns a place on the true line of the dragged match, `away_px` from its true position.
 fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
     let model = OutlierDrag::new();
     let (pixel1, pixel2) = model.state.ok()?.right;

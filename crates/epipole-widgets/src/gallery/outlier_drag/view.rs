@@ -1,5 +1,5 @@
-//! Both photographs with the matches and the lines of F; beside them the singular values, and how far the
-//! true matches are from their lines as the wrong one is led away.
+//! Both photographs with the matches and the lines of F; beside them the singular values, and the
+//! residuals of the true matches over the displacement of the wrong one.
 
 use super::fit::{Fit, REACH_PX};
 use super::model::{OutlierDrag, State};
@@ -14,10 +14,10 @@ use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
-/// So many true matches have their line drawn; more would hide the photograph.
+/// Maximum number of true matches with a line; more would hide the photograph.
 const NUM_LINES: usize = 8;
 const DECADES: [f64; 2] = [-1.2, 2.2];
-/// The names of the curves stand beside this step of the way.
+/// Index of the displacement beside which the curves are labeled.
 const NAMED: usize = 22;
 const MEAN: Role = Role::Series(0);
 const WORST: Role = Role::Series(3);
@@ -121,7 +121,7 @@ fn draw_second(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut C
         if index < NUM_LINES {
             draw_line(canvas, panel, &line, Stroke::solid(MEAN, 1.25).cased());
         }
-        // How far it is off: from the match square to its line.
+        // The residual: from the match perpendicular to its line.
         let [from, to] = [*pixel2, line.nearest(pixel2)].map(|pixel| panel.place_of(&pixel));
         canvas.line(from, to, Stroke::solid(WORST, 2.5).cased());
     }
@@ -150,7 +150,7 @@ fn draw_second(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut C
     }
 }
 
-/// Mean and worst distance of the true matches over how far the wrong one is led away.
+/// Draws mean and worst residual of the true matches over the displacement of the wrong one.
 fn draw_led(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut Canvas) {
     let away_px = model.away_px().min(REACH_PX);
     let world =
@@ -189,7 +189,7 @@ fn draw_led(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut Canv
     }
 }
 
-/// The singular values with the wrong match and without.
+/// Draws the singular values with and without the wrong match.
 fn draw_values(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut Canvas) {
     let without = List {
         values: &state.without.singular_values,
@@ -203,7 +203,7 @@ fn draw_values(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut C
         mark: (Shape::Square, 4.0),
         name: ("with it", 8),
     };
-    // Left out, both lists are the same.
+    // Both lists are equal if the wrong match is excluded.
     let lists = [without, with];
     let count = if model.is_heard() { 2 } else { 1 };
     plot::draw_lists(canvas, panel, &lists[..count]);

@@ -1,4 +1,4 @@
-//! What `outlier-drag` says.
+//! Readouts and description of `outlier-drag`.
 
 use super::model::{OutlierDrag, State};
 use crate::contract::{Readout, Words, format_number};

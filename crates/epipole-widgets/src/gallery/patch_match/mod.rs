@@ -1,4 +1,4 @@
-//! `patch-match`: five features to be matched by eye, and what their descriptors say.
+//! `patch-match`: five features to match by eye, and the distances of their descriptors.
 
 mod model;
 mod question;

@@ -1,4 +1,4 @@
-//! What the reader picks, and what is right.
+//! The reader's picks, and the score.
 
 use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
@@ -6,7 +6,7 @@ use crate::contract::{
 };
 use crate::kit::question::{Asked, carry_out};
 
-/// The panels of a round's options, and their names.
+/// Panel ids of the options of each round.
 pub(super) const OPTIONS: [[&str; NUM_OPTIONS]; NUM_ROUNDS] = [
     ["1a", "1b", "1c", "1d"],
     ["2a", "2b", "2c", "2d"],
@@ -43,7 +43,7 @@ pub(crate) struct PatchMatch {
 }
 
 impl PatchMatch {
-    /// The option that the reader has picked in a round.
+    /// Returns the index of the option picked in a round.
     pub(super) fn picked(&self, round: usize) -> Option<usize> {
         self.settings.chosen(&PICKS[round]).checked_sub(1)
     }
@@ -62,7 +62,7 @@ impl PatchMatch {
         self.asked.answer().map_or(&[], |answer| &answer.rounds)
     }
 
-    /// How many the reader has right.
+    /// Returns the number of rounds that the reader has right.
     pub(super) fn score(&self) -> usize {
         let rounds = self.rounds().iter().enumerate();
         rounds
@@ -70,7 +70,7 @@ impl PatchMatch {
             .count()
     }
 
-    /// How many the nearest descriptor has right.
+    /// Returns the number of rounds that the nearest descriptor has right.
     pub(super) fn machine_score(&self) -> usize {
         let is_right = |round: &&Round| round.machine() == usize::from(round.right);
         self.rounds().iter().filter(is_right).count()
@@ -115,7 +115,7 @@ impl Model for PatchMatch {
     }
 }
 
-/// Picks of all rounds, by letter.
+/// Returns the events that pick these letters in all rounds.
 fn picks(letters: [&'static str; NUM_ROUNDS]) -> Vec<Event> {
     let pairs = PICKS.iter().zip(letters);
     pairs
@@ -143,7 +143,7 @@ const CHALLENGES: &[Challenge<PatchMatch>] = &[
     },
 ];
 
-/// The right letters, as a test makes sure.
+/// The right letters, checked by a test.
 const RIGHT: [&str; NUM_ROUNDS] = ["c", "c", "b", "c", "a"];
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Which of four patches shows the same? Five features, four candidates each, one of them right.
+//! The job of `patch-match`: five features with four candidates each, one of them right.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{Pair, SIZE};
@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 
 pub(super) const NUM_ROUNDS: usize = 5;
 pub(super) const NUM_OPTIONS: usize = 4;
-/// About where the features are in photograph 1: the apple, a poster, the cloth, the vase, the fringe.
+/// Approximate positions of the features in photograph 1, pixels: the apple, a poster, the cloth,
+/// the vase, the fringe.
 const PLACES: [(f64, f64); NUM_ROUNDS] = [
     (88.0, 189.0),
     (339.0, 57.0),
@@ -20,23 +21,23 @@ const PLACES: [(f64, f64); NUM_ROUNDS] = [
     (202.0, 95.0),
     (217.0, 324.0),
 ];
-/// Bytes of a descriptor for a length of 1.
+/// Norm of a byte descriptor that corresponds to 1.
 const UNIT: f32 = 512.0;
 
-/// The rendered still life, always.
+/// The request for the rounds, always of the rendered still life.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
-/// A feature and its candidates, in no order.
+/// A feature and its candidates, the right one at a random place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Round {
-    /// In photograph 1.
+    /// Feature in photograph 1.
     pub(super) feature: Spot,
-    /// In photograph 2.
+    /// Candidates in photograph 2.
     pub(super) options: [Spot; NUM_OPTIONS],
-    /// Distances of the descriptors, of length 1.
+    /// Distances between the unit-length descriptors of the feature and of each candidate.
     pub(super) distances: [f32; NUM_OPTIONS],
-    /// Which option shows the same thing.
+    /// Index of the right option.
     pub(super) right: u8,
 }
 
@@ -48,7 +49,7 @@ impl Round {
     }
 }
 
-/// What the computation finds.
+/// The photographs and the rounds.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photographs: [Picture; 2],
@@ -89,7 +90,8 @@ impl question::Question for Question {
     }
 }
 
-/// The right match of a feature among the three nearest that are wrong; `None` if it has none.
+/// Returns the feature nearest to `place` with its right match and the three nearest wrong ones;
+/// `None` without a right match.
 fn round(pair: &Pair, place: (f64, f64), random: &mut Random) -> Result<Option<Round>, Error> {
     let [first, second] = pair.features;
     let far = |index: &usize| {
@@ -107,7 +109,7 @@ fn round(pair: &Pair, place: (f64, f64), random: &mut Random) -> Result<Option<R
     let Some(&right) = right.first() else {
         return Ok(None);
     };
-    // One of each place: a feature with two directions is the same patch twice.
+    // One option per place: a feature with two orientations would show the same patch twice.
     let mut options = vec![right];
     for other in wrong {
         let at = |index: usize| second.keypoints[index].point();

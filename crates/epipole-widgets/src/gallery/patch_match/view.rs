@@ -8,9 +8,9 @@ use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::patch::Cuts;
 use crate::theme::Role;
 
-/// Between the patches of a row, and of the rows.
+/// Gap between the patches of a row and between rows, CSS pixels.
 const BETWEEN: f64 = 7.0;
-/// Between the feature and its candidates.
+/// Gap between the feature and its candidates, CSS pixels.
 const APART: f64 = 22.0;
 const FEATURES: [&str; NUM_ROUNDS] = ["1", "2", "3", "4", "5"];
 
@@ -85,13 +85,13 @@ impl View for PatchMatchView {
     }
 }
 
-/// What a patch is called, in its corner.
+/// Draws the name of a patch in its corner.
 fn draw_name(canvas: &mut Canvas, rect: Rect, name: &str) {
     let style = TextStyle::new(Role::Ink, TEXT).cased();
     canvas.label((rect.x + 5.0, rect.y + 10.0), name, style);
 }
 
-/// Once a round is decided: which one it was; once all are, what the descriptors say.
+/// Marks the right option once its round is decided, and the descriptor distances once all are.
 fn draw_verdict(
     model: &PatchMatch,
     index: usize,

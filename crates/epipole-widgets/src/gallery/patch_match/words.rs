@@ -1,4 +1,4 @@
-//! What `patch-match` says.
+//! Readouts and description of `patch-match`.
 
 use super::model::PatchMatch;
 use super::question::NUM_ROUNDS;

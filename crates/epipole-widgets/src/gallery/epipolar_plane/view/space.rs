@@ -1,4 +1,4 @@
-//! The space: cameras with their photographs, the still life as a cloud, and the plane.
+//! The space view: cameras with their photographs, the still life as a cloud, and the plane.
 
 use super::{LIT, stroke};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -15,25 +15,25 @@ use epipole_scenes::{Sampling, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 
-/// The photographs stand so far before their centers, meters.
+/// Distance of the photographs from the camera centers, meters.
 const PICTURE_M: f64 = 0.58;
-/// The sheet of the plane reaches so far from the baseline, and beyond its ends, meters.
+/// Extent of the plane's sheet from the baseline, and beyond its ends, meters.
 const SHEET_M: f64 = 1.75;
 const BEYOND_M: f64 = 0.12;
-/// A line towards an epipole ends so far from its center, meters.
+/// Maximum length of the line from a center toward its epipole, meters.
 const TOWARDS_M: f64 = 3.0;
-/// Columns and rows of the picture whose pixels become the cloud of the still life.
+/// Columns and rows of the render whose pixels become the cloud of the still life.
 const CLOUD: (u32, u32) = (84, 63);
-/// From where to where they look, and which way is up.
+/// Eye, target and up vector of that render, meters.
 const CLOUD_SEEN: [[f64; 3]; 3] = [[0.0, -0.95, -1.1], [0.03, -0.12, 0.0], [0.0, -1.0, 0.0]];
-/// Walls are left out: the cloud ends so far away.
+/// Maximum z of the cloud, meters, which leaves out the walls.
 const CLOUD_END_Z_M: f64 = 0.62;
 const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(2), Shape::Square),
 ];
 
-/// The still life as colored points, seen from above, where things hide little of each other.
+/// Returns the still life as colored points, seen from above to avoid occlusions.
 pub(super) fn cloud() -> Vec<(Point3<f64>, Rgb)> {
     let [eye, target, up] = CLOUD_SEEN.map(Vector3::from);
     let Ok(cam_from_world) = look_at(&eye.into(), &target.into(), &up) else {
@@ -111,7 +111,7 @@ pub(super) fn draw_space(
     if lit == Lit::Epipole {
         draw_epipoles(&mut space, scenery);
     }
-    // Where P could be: its whole ray.
+    // The whole ray of p: all positions P could have.
     let ray = scenery.point - one;
     if ray.norm() > 1e-9 {
         let far = one + ray.normalize() * (SHEET_M + 0.4);
@@ -138,7 +138,7 @@ pub(super) fn draw_space(
     });
 }
 
-/// The plane as a sheet that hinges on the baseline, and the triangle of both centers and P in it.
+/// Draws the plane as a sheet hinged on the baseline, with the triangle of both centers and P.
 fn draw_plane(space: &mut Space<'_>, scenery: &Scenery, plane: &Plane, is_lit: bool) {
     let [one, two] = scenery.cameras.map(|camera| camera.center_in_world());
     let (back, on) = (plane.along * -BEYOND_M, plane.along * BEYOND_M);
@@ -157,7 +157,7 @@ fn draw_plane(space: &mut Space<'_>, scenery: &Scenery, plane: &Plane, is_lit: b
     }
 }
 
-/// From each center to where the baseline meets the picture's plane, as far as that is near.
+/// Draws the line from each center to its epipole in the picture's plane, if that is near.
 fn draw_epipoles(space: &mut Space<'_>, scenery: &Scenery) {
     let Some(geometry) = &scenery.geometry else {
         return;
@@ -179,7 +179,7 @@ fn draw_epipoles(space: &mut Space<'_>, scenery: &Scenery) {
     }
 }
 
-/// Where a line enters and leaves the photograph.
+/// Returns the pixels at which a line enters and leaves the photograph.
 fn across(line: &Line2) -> Option<[Point2<f64>; 2]> {
     let (right, bottom) = (f64::from(PHOTO_WIDTH) - 0.5, f64::from(PHOTO_HEIGHT) - 0.5);
     let at_u = |u: f64| Point2::new(u, -(line.a * u + line.c) / line.b);
