@@ -105,7 +105,7 @@ impl Grid {
     ///
     /// * `aspect`: height over width of a photograph
     /// * `shares`: fractions of the smaller panels, of the height where beside and of the width
-    /// where below
+    ///   where below
     pub(crate) fn photographs_and_two(&mut self, aspect: f64, shares: [[f64; 2]; 2]) -> [Rect; 4] {
         const BESIDE: f64 = 404.0;
         const ABOVE: f64 = 254.0;
