@@ -1,8 +1,8 @@
-//! Drawing: every mark that a figure can make. The only room that names tiny-skia.
+//! Drawing: every mark that a figure can make. The only module that uses tiny-skia.
 //!
-//! Places and sizes are CSS pixels; the canvas knows how many device pixels each has. Lines are cut
-//! at the clip rectangle by arithmetic, and a marker is drawn whole or not at all, so that no
-//! costly pixel masks are needed.
+//! Positions and sizes are in CSS pixels, converted by the canvas to device pixels. Lines are
+//! clipped arithmetically, and a marker is drawn whole or not at all, so that no costly pixel masks
+//! are needed.
 
 mod clip;
 mod coverage;
@@ -114,7 +114,7 @@ impl Canvas {
         self.theme
     }
 
-    /// Draws with everything outside `rect` cut off.
+    /// Draws with everything outside `rect` clipped.
     pub fn clipped(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
         let outer = self.clip;
         let (left, top) = (rect.x.max(outer.x), rect.y.max(outer.y));
@@ -127,7 +127,7 @@ impl Canvas {
         self.clip = outer;
     }
 
-    /// A filled rectangle, its sides moved to the nearest device pixels.
+    /// Fills a rectangle, its sides rounded to device pixels.
     pub fn fill_rect(&mut self, rect: Rect, role: Role, opacity: f64) {
         self.fill(rect, self.theme.color(role), opacity);
     }
@@ -221,7 +221,7 @@ impl Canvas {
         ((place.0 * self.scale) as f32, (place.1 * self.scale) as f32)
     }
 
-    /// Blends the color of a role wherever `add` covers the picture.
+    /// Blends the color of a role where `add` covers the picture.
     fn cover(&mut self, role: Role, opacity: f64, add: impl FnOnce(&mut Coverage)) {
         add(&mut self.coverage);
         let color = self.theme.color(role);

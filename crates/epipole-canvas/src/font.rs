@@ -6,8 +6,8 @@ use ttf_parser::{GlyphId, OutlineBuilder, RawFace, Tag, cmap, glyf, head, hhea, 
 /// Height of a capital letter of size 1.
 pub(crate) const CAP_HEIGHT: f64 = 0.698;
 
-/// The tables that we use. `ttf_parser::Face` would bring those of every other kind of font into
-/// the module.
+/// The tables needed here. `ttf_parser::Face` would add those of every other kind of font to the
+/// module.
 struct Font {
     units_per_em: u16,
     letters: cmap::Subtable<'static>,
@@ -46,7 +46,7 @@ fn font() -> &'static Font {
     FONT.get_or_init(|| Font::parse().expect("the embedded font is valid; a test reads it"))
 }
 
-/// A character that the font lacks is drawn as a question mark, never as nothing.
+/// Returns the glyph of a character, a question mark if the font lacks it.
 fn glyph(character: char) -> GlyphId {
     let font = font();
     font.glyph_index(character)

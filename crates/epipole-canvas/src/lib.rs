@@ -1,7 +1,8 @@
-//! What the figures of Epipole are drawn with, on the processor.
+//! Software renderer of the figures of Epipole.
 //!
-//! [`canvas`] has every mark that a figure can make, [`theme`] its colors, [`cloud`] points and cameras in space.
-//! Nothing here knows what a figure is. Equal calls give equal bits on every machine.
+//! [`canvas`] has every mark that a figure can make, [`theme`] its colors, [`cloud`] points and
+//! cameras in space. The crate knows nothing of figures. Equal calls give identical bits on every
+//! machine.
 //!
 //! ```
 //! # fn main() -> Result<(), epipole_canvas::canvas::BadSize> {

@@ -1,4 +1,4 @@
-//! Where on a picture something is drawn.
+//! Rectangles on a picture.
 
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// A rectangle from its top left corner and size.
+    /// Creates a rectangle from its top left corner and size.
     pub fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
         Self {
             x,
@@ -26,12 +26,12 @@ impl Rect {
         }
     }
 
-    /// The rectangle around its middle that reaches so far to each side.
+    /// Creates a square around its center, `half` to each side.
     pub fn around((x, y): (f64, f64), half: f64) -> Self {
         Self::new(x - half, y - half, 2.0 * half, 2.0 * half)
     }
 
-    /// The corners in turn, the upper left one first.
+    /// Returns the corners in order, the upper left one first.
     pub fn corners(&self) -> [(f64, f64); 4] {
         let (left, top, right, bottom) = (self.x, self.y, self.right(), self.bottom());
         [(left, top), (right, top), (right, bottom), (left, bottom)]
@@ -57,7 +57,7 @@ impl Rect {
         (self.x..=self.right()).contains(&x) && (self.y..=self.bottom()).contains(&y)
     }
 
-    /// The rectangle without a margin on every side; never of negative size.
+    /// Shrinks the rectangle by a margin on every side, never to a negative size.
     pub fn inset(&self, margin: f64) -> Self {
         Self::new(
             self.x + margin,

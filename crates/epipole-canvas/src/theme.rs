@@ -1,4 +1,4 @@
-//! Color roles: a view says what a mark means, the theme says which color that is.
+//! Color roles: a view gives the meaning of a mark, and the theme its color.
 //!
 //! Hues follow Okabe & Ito 2008 ("Color universal design"), darkened on light pages and lightened
 //! on dark ones until marks have a contrast of at least 3:1 and text 4.5:1 with the surface.
@@ -6,7 +6,7 @@
 
 use std::str::FromStr;
 
-/// What a mark means.
+/// Meaning of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// The page behind the panels.
@@ -35,9 +35,9 @@ pub enum Role {
     Truth,
     /// Something to compare with.
     Reference,
-    /// The thing that the reader holds.
+    /// A handle that the reader drags.
     Grip,
-    /// One of several things of equal rank, told apart by hue and by shape.
+    /// One of several equal things, distinguished by hue and shape.
     Series(u8),
 }
 
@@ -99,10 +99,10 @@ impl Theme {
     }
 }
 
-/// Dark blue to yellow, in even steps of brightness and the same for readers who confuse red and
-/// green.
+/// Dark blue to yellow, with even steps of brightness, also for readers with red-green color
+/// blindness.
 ///
-/// Source: the map "viridis" by van der Walt & Smith 2015, at nine of its places.
+/// Source: the map "viridis" by van der Walt & Smith 2015, at nine positions.
 const SCALE: [Rgb; 9] = [
     [68, 1, 84],
     [71, 44, 122],
@@ -116,7 +116,7 @@ const SCALE: [Rgb; 9] = [
 ];
 
 impl Theme {
-    /// Ink or paper, whichever is easier to read on a color.
+    /// Returns ink or paper, whichever is easier to read on a color.
     ///
     /// ```
     /// use epipole_canvas::theme::{Role, Theme};
@@ -136,7 +136,7 @@ impl Theme {
         }
     }
 
-    /// The color of a value on a scale from 0 to 1: the larger, the brighter, in every theme.
+    /// Returns the color of a value from 0 to 1: larger is brighter, in every theme.
     pub fn scale(self, share: f64) -> Rgb {
         let share = if share.is_nan() { 0.0 } else { share };
         let at = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
@@ -145,11 +145,11 @@ impl Theme {
     }
 }
 
-/// The color at a share of the way from one to another.
+/// Interpolates between two colors; `share` is that of `to`, 0 to 1.
 pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
     std::array::from_fn(|channel| {
         let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
-        // A cast cuts off: `round` is a call in WebAssembly.
+        // The cast truncates after adding 0.5; `round` is a call in WebAssembly.
         (a + (b - a) * share + 0.5) as u8
     })
 }

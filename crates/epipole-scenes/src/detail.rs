@@ -1,11 +1,11 @@
-//! How finely paint and light are computed.
+//! Level of detail of textures and light maps.
 
-/// Fineness of textures and light maps.
+/// Level of detail of textures and light maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Detail {
     /// Every cell.
     Full,
-    /// For drafts: a sixteenth of the cells.
+    /// For drafts: a sixteenth of the light cells and a 64th of the texels.
     Sketch,
 }
 

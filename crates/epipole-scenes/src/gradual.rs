@@ -1,13 +1,12 @@
-//! Things that are computed once: all at once when they are first needed, or before that piece by
-//! piece.
+//! Values that are computed once: at once on first use, or ahead of it piece by piece.
 
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// A thing `T`, of which `P` is there already while it is being made.
+/// A value `T`, with the partial state `P` of its computation.
 ///
-/// The work is given with each call: `work(&mut part, amount)` does so much of it and gives the whole
-/// once nothing is left. However it was divided, the whole is the same.
+/// Each call takes the work: `work(&mut part, amount)` does this amount of it and returns the value
+/// once nothing is left. The value does not depend on the division of the work.
 pub(crate) struct Gradual<P, T> {
     whole: OnceLock<T>,
     part: Mutex<P>,
@@ -21,10 +20,10 @@ impl<P: Default, T> Gradual<P, T> {
         }
     }
 
-    /// The whole; what is still missing is made now.
+    /// Returns the value, computing what is missing.
     pub(crate) fn get(&self, work: impl Fn(&mut P, usize) -> Option<T>) -> &T {
         self.whole.get_or_init(|| {
-            // Nobody else finds a part that is taken, so two threads never wait for each other.
+            // A taken part is seen by no other thread, so two threads never wait for each other.
             let mut part = std::mem::take(&mut *self.lock());
             loop {
                 if let Some(whole) = work(&mut part, usize::MAX) {
@@ -42,7 +41,7 @@ impl<P: Default, T> Gradual<P, T> {
         let Some(whole) = work(&mut self.lock(), amount) else {
             return true;
         };
-        // Another thread may have made the same whole meanwhile.
+        // Another thread may have finished the same value meanwhile.
         let _ = self.whole.set(whole);
         false
     }

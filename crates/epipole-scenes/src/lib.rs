@@ -1,23 +1,23 @@
 //! Photographs of still lifes with ground truth: exact depth, exact rays, exact correspondences.
 //!
 //! * [`Scene`]: a furnished room. [`Scene::still_life`] is a table by a window,
-//!   [`Scene::long_table`] a hall with one thing that moves, [`Scene::studio`] a mug that moves and
-//!   grows. A scene gives photographs with exact
-//!   depth ([`Scene::render`]), exact rays ([`Scene::cast`]) and exact correspondences between
-//!   any two cameras ([`Scene::transfer`]).
+//!   [`Scene::long_table`] a hall with one movable thing, [`Scene::studio`] a mug that moves and
+//!   grows. A scene gives photographs with exact depth ([`Scene::render`]), exact rays
+//!   ([`Scene::cast`]) and exact correspondences between any two cameras ([`Scene::transfer`]).
 //! * [`Photograph::reproject`]: a photograph as another camera would have taken it.
 //!
-//! A photograph is made in three steps. Surfaces are *painted* once into textures, with their
-//! smaller copies for distant views. Light is *baked* once into maps: the part of the window that
-//! each place of a surface sees, and how open its surroundings are. A pixel then needs one ray,
-//! one look into the texture and one into the light; edges get eight rays more.
+//! A photograph is made in three steps. Surfaces are *painted* once into mipmapped textures. Light
+//! is *baked* once into maps: the part of the window visible from each point of a surface, and how
+//! open its surroundings are. A pixel then needs one ray, one texture look-up and one light
+//! look-up; edges get eight more rays.
 //!
-//! Geometry is exact (`f64`, closed form or iterated to convergence), shading is `f32`. No
-//! function outside of `libm` and nothing that depends on threads or the platform touches a pixel.
+//! Geometry is exact (`f64`, closed form or iterated to convergence), shading is `f32`. Pixels
+//! use no mathematical functions besides those of `libm`, and depend on neither threads nor the
+//! platform.
 //!
-//! The folders are rooms; each uses those listed before it:
+//! Each module uses only those listed before it:
 //!
-//! | room | what it holds |
+//! | module | contents |
 //! |---|---|
 //! | `shape` | cuboids, lathes and rings that rays meet |
 //! | `paint` | noise, textures, and everything that is painted on surfaces |

@@ -5,7 +5,7 @@
 //! cargo run -p epipole-widgets --example draw -- stereo-slider out.png baseline=0.2 dark 340 2
 //! ```
 //!
-//! It prints the description, the readouts and how long a drawing took.
+//! Prints the description, the readouts and the drawing time.
 
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure, POSTER_WIDTH};

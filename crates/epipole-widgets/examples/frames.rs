@@ -1,12 +1,12 @@
-//! How long a frame takes while a reader drags, at two device pixels each CSS pixel.
+//! Measures the time per frame while dragging, at two device pixels per CSS pixel.
 //!
 //! ```text
 //! cargo run --release -p epipole-widgets --example frames [-- NAME [CONTROL]]
 //! ```
 //!
-//! Of one figure or of all, every slider and the first handle, or one of them, are dragged through their ranges, and
-//! a frame is drawn after every event, as on a page. What long computations find is there from the
-//! start.
+//! Drags every slider and the first handle of one figure or of all, or only the named control,
+//! through their ranges, and draws a frame after every event, as a page does. Long computations are
+//! finished beforehand.
 
 use epipole_widgets::Figure;
 use epipole_widgets::contract::{ControlKind, Event, Problem, Value, WIDTHS};
@@ -15,7 +15,7 @@ use epipole_widgets::theme::Theme;
 use std::time::Instant;
 
 const NUM_FRAMES: usize = 60;
-/// The broadest picture that pages show.
+/// Width of the broadest picture on pages, CSS pixels.
 const WIDTH: f64 = WIDTHS[2];
 const SCALE: f64 = 2.0;
 

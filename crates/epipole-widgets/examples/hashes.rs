@@ -1,5 +1,4 @@
-//! Prints fingerprints of frames of figures: a change that should alter no picture prints the same
-//! before and after.
+//! Prints hashes of frames of figures, to confirm that a change alters no picture.
 //!
 //! `cargo run -q -p epipole-widgets --example hashes [NAME…] > before`
 
@@ -13,7 +12,7 @@ use epipole_widgets::theme::Theme;
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-/// Draws the figure as it is at a width, at once and then at full quality, and prints what it shows.
+/// Prints the hashes of a figure at a width, drawn at once and at full quality.
 fn print(figure: &mut Figure, what: &str, width: f64, theme: Theme) {
     let at_once = figure.draw(width, 1.0, theme).unwrap().hash();
     let hash = figure.draw_settled(width, 1.0, theme).unwrap().hash();
@@ -38,7 +37,7 @@ fn main() {
         for round in 0..12 {
             for _ in 0..4 {
                 let event = common::random_event(&figure, &mut random);
-                // A refused event changes nothing, which the next fingerprint shows.
+                // A refused event changes nothing, which the next hash shows.
                 let _ = figure.update(&event);
                 figure.finish_job();
             }

@@ -1,4 +1,4 @@
-//! What `new-figure` says.
+//! Readouts and description of `new-figure`.
 
 use super::model::NewFigure;
 use crate::contract::{Readout, Words, format_number};

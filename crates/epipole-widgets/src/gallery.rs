@@ -41,19 +41,19 @@ pub struct Entry {
     pub name: &'static str,
     /// Title.
     pub title: &'static str,
-    /// What a reader can do with it.
+    /// Instructions for the reader.
     pub help: &'static str,
     pub(crate) make: fn() -> Box<dyn Stage>,
 }
 
-/// The long computations of a figure.
+/// Entry point of a figure's long computations.
 struct Worker {
     name: &'static str,
     compute: Compute,
 }
 
-/// Makes two lists of one, so that a module without long computations leaves the code for them
-/// out, and one with nothing else leaves out the figures.
+/// Makes separate lists of figures and of computations, so that a wasm module without one of them
+/// leaves its code out.
 macro_rules! figures {
     ($($view:ty),* $(,)?) => {
         /// Every figure, in the order of the book.
@@ -113,7 +113,7 @@ const fn worker<V: View>() -> Worker {
     }
 }
 
-/// The figure of this name.
+/// Returns the figure of this name.
 ///
 /// # Errors
 /// [`Problem::UnknownFigure`], with the names that exist.
@@ -124,7 +124,7 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
         .ok_or_else(|| unknown(name, FIGURES.iter().map(|entry| entry.name)))
 }
 
-/// Carries out a job of the figure `name`; needs no figure, so a worker can do it.
+/// Carries out a job of the figure `name`. It needs no figure, so a worker can do it.
 ///
 /// # Errors
 /// [`Problem::UnknownFigure`], or a sentence about the data.
@@ -141,7 +141,7 @@ fn unknown(name: &str, known: impl Iterator<Item = &'static str>) -> Problem {
     }
 }
 
-/// The template of `make new-figure`, compiled so that it cannot rot.
+/// The template of `make new-figure`, compiled to keep it valid.
 #[cfg(test)]
 #[path = "../scaffold/mod.rs"]
 mod new_figure;

@@ -1,9 +1,9 @@
 //! The interactive figures of Epipole.
 //!
 //! A figure is a **model** (state and mathematics, no drawing) and a **view** (drawing, no
-//! mathematics beyond layout), both in `gallery/<name>/`, listed once in [`gallery`]. What a figure
-//! promises is in [`contract`]; its users drive it through [`Figure`]. The crate knows no browser
-//! and no clock: it turns events into state, and state into pixels.
+//! mathematics beyond layout), both in `gallery/<name>/` and listed once in [`gallery`].
+//! [`contract`] defines the interface of a figure; users drive it through [`Figure`]. The crate
+//! depends on neither browser nor clock: it turns events into state, and state into pixels.
 //!
 //! ```
 //! # fn main() -> Result<(), epipole_widgets::contract::Problem> {

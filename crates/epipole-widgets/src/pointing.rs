@@ -1,12 +1,12 @@
-//! From a pointer or a key to an event: what turns a mouse, a finger and the arrow keys alike
-//! into [`Event::HandleMoved`].
+//! Conversion of pointer and key input to events, so that mouse, finger and arrow keys alike give
+//! [`Event::HandleMoved`].
 
 use crate::contract::{Event, Handle, Layout, Panel};
 
-/// How near a finger or mouse must come to take a handle, CSS pixels.
+/// Largest distance at which a finger or mouse takes a handle, CSS pixels.
 pub const GRAB_RADIUS: f64 = 22.0;
 
-/// Where an arrow key points, on the page.
+/// Direction of an arrow key on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// Towards the left edge.
@@ -19,14 +19,14 @@ pub enum Direction {
     Down,
 }
 
-/// Where a handle is on the page, CSS pixels.
+/// Returns the position of a handle on the page, CSS pixels.
 pub fn place_of(handle: &Handle, layout: &Layout) -> (f64, f64) {
     layout
         .panel(handle.panel)
         .canvas_from_world((handle.x, handle.y))
 }
 
-/// The handle that a press at `place` takes: the nearest within [`GRAB_RADIUS`].
+/// Returns the handle that a press at `place` takes: the nearest within [`GRAB_RADIUS`].
 pub fn handle_at<'a>(
     handles: &'a [Handle],
     layout: &Layout,
@@ -44,7 +44,7 @@ pub fn handle_at<'a>(
         .map(|(_, handle)| handle)
 }
 
-/// The event of dragging a handle so that it lies at `place` on the page.
+/// Returns the event of dragging a handle to `place` on the page.
 pub fn drag(handle: &Handle, layout: &Layout, place: (f64, f64)) -> Event {
     let (x, y) = layout.panel(handle.panel).world_from_canvas(place);
     Event::HandleMoved {
@@ -54,8 +54,8 @@ pub fn drag(handle: &Handle, layout: &Layout, place: (f64, f64)) -> Event {
     }
 }
 
-/// The event of an arrow key: `steps` of the handle's own step towards `direction`. Right is right
-/// on the page, whichever way the panel's axis runs.
+/// Returns the event of an arrow key: `steps` of the handle's own step towards `direction` on the
+/// page, whichever way the panel's axis runs.
 pub fn nudge(handle: &Handle, layout: &Layout, direction: Direction, steps: f64) -> Event {
     let panel = layout.panel(handle.panel);
     let (x_sign, y_sign) = signs(panel);
@@ -72,8 +72,8 @@ pub fn nudge(handle: &Handle, layout: &Layout, direction: Direction, steps: f64)
     }
 }
 
-/// The event of Home (`Left`) and End (`Right`): as far as the handle goes. A handle that cannot
-/// move sideways goes up and down instead.
+/// Returns the event of Home (`Left`) and End (`Right`), which move a handle to the end of its
+/// range. A handle that cannot move sideways moves up and down instead.
 pub fn to_the_end(handle: &Handle, layout: &Layout, direction: Direction) -> Event {
     let panel = layout.panel(handle.panel);
     let (x_sign, y_sign) = signs(panel);
@@ -93,7 +93,7 @@ pub fn to_the_end(handle: &Handle, layout: &Layout, direction: Direction) -> Eve
     }
 }
 
-/// The event of a click at `place`, if a panel there takes clicks.
+/// Returns the event of a click at `place`, if the panel there is clickable.
 pub fn click(layout: &Layout, place: (f64, f64)) -> Option<Event> {
     let panel = layout.panel_at(place).filter(|panel| panel.clickable)?;
     let (x, y) = panel.world_from_canvas(place);

@@ -1,5 +1,5 @@
-//! Everything that a page shows beside the picture, as one piece of plain data: the page in a browser
-//! and the builder of pages, which writes it without one, take it from here.
+//! Snapshot of everything that a page shows beside the picture, as plain data for pages in the
+//! browser and for pages built ahead of time.
 
 use crate::contract::{
     Aspect, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space,
@@ -7,7 +7,7 @@ use crate::contract::{
 use crate::{ChallengeStatus, Figure, pointing};
 use serde::Serialize;
 
-/// A figure's present state, laid out for a width of the page.
+/// A figure's current state, laid out for a page width.
 #[derive(Serialize)]
 pub struct Snapshot {
     layout: Layout,
@@ -21,13 +21,13 @@ pub struct Snapshot {
     description: String,
     running: bool,
     photos: &'static [PhotoSlot],
-    /// What can be saved besides the picture.
+    /// File that can be saved besides the picture.
     file: Option<FileOffer>,
-    /// What to say while the figure waits for a long computation.
+    /// Status while the figure waits for a long computation.
     waiting: Option<&'static str>,
 }
 
-/// A handle and where it is on the page, CSS pixels.
+/// A handle with its position on the page, CSS pixels.
 #[derive(Serialize)]
 struct PlacedHandle {
     #[serde(flatten)]
@@ -36,7 +36,7 @@ struct PlacedHandle {
 }
 
 impl Snapshot {
-    /// The present state of a figure whose picture is `width` CSS pixels wide.
+    /// Takes a snapshot of a figure whose picture is `width` CSS pixels wide.
     pub fn of(figure: &mut Figure, width: f64) -> Self {
         let layout = figure.layout(width);
         let place = |handle: Handle| PlacedHandle {

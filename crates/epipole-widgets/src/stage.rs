@@ -1,4 +1,4 @@
-//! A model together with its view, with the types erased, so that figures can stand in one list.
+//! A model with its view, types erased, so that one list can hold all figures.
 
 use crate::canvas::Canvas;
 use crate::contract::{
@@ -6,7 +6,7 @@ use crate::contract::{
 };
 use crate::figure::ChallengeStatus;
 
-/// What [`Figure`](crate::Figure) needs of any model and view.
+/// Interface of [`Figure`](crate::Figure) to any model and view.
 pub(crate) trait Stage {
     fn model(&self) -> &dyn Model;
     fn model_mut(&mut self) -> &mut dyn Model;
@@ -27,7 +27,7 @@ struct Pair<V: View> {
     view: V,
 }
 
-/// A model in its default state, with its view.
+/// Creates a model in its default state with its view.
 pub(crate) fn set_up<V: View>() -> Box<dyn Stage> {
     Box::new(Pair::<V> {
         model: V::Model::new(),

@@ -1,4 +1,4 @@
-//! What every figure of the gallery promises, whatever it shows.
+//! Checks that hold for every figure of the gallery.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -13,12 +13,12 @@ use epipole_widgets::{Figure, POSTER_WIDTH};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Every figure, with what it computes at first.
+/// Every figure, with its first jobs finished.
 fn figures() -> impl Iterator<Item = Figure> {
     FIGURES.iter().map(|entry| finished(entry.name, &[]))
 }
 
-/// A figure after some events, with all that it computes.
+/// Returns a figure after some events, with its jobs finished.
 fn finished(name: &str, events: &[Event]) -> Figure {
     let mut figure = Figure::new(name).expect("it exists");
     for event in events {
@@ -105,7 +105,7 @@ fn labels_have_three_words_at_most_and_readouts_two() {
     assert!(long.is_empty(), "{long:#?}");
 }
 
-/// A value that a control does not have now.
+/// Returns a value other than the control's current one.
 fn another_value(control: &Control) -> Option<Value> {
     match &control.kind {
         ControlKind::Slider {
@@ -273,7 +273,7 @@ fn a_settled_picture_does_not_depend_on_the_past() {
 #[test]
 fn preparations_end_and_change_no_picture() {
     let mut num_steps = 0;
-    // Scenes are shared: who comes later finds them prepared.
+    // Scenes are shared, so later figures find them prepared.
     for mut figure in figures() {
         let name = figure.name();
         let steps = (0..2000).take_while(|_| figure.prepare()).count();
@@ -311,7 +311,7 @@ fn models_name_no_drawing_and_no_clock() {
     assert_eq!(num_models, FIGURES.len());
 }
 
-/// The words of Rust source outside of comments and strings.
+/// Returns the identifiers of Rust source, without comments and strings.
 fn identifiers(source: &str) -> Vec<String> {
     let mut code = String::new();
     let mut rest = source;

@@ -1,7 +1,7 @@
-//! Thousands of random event sequences for every figure: whatever a reader or a page does, nothing
-//! breaks, every number is a number, and a link to the state restores it.
+//! Thousands of random event sequences for every figure: nothing panics, every number is finite,
+//! and a permalink restores the state.
 //!
-//! `FUZZ_SEQUENCES` says how many sequences each figure bears: `make fuzz` takes a night's worth.
+//! `FUZZ_SEQUENCES` sets the number of sequences per figure; `make fuzz` runs a night's worth.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -14,11 +14,11 @@ use epipole_widgets::theme::Theme;
 use epipole_widgets::{Answers, Figure};
 use std::ops::ControlFlow;
 
-/// With four or five events each, that is ten thousand a figure.
+/// Number of sequences per figure; at four or five events each, ten thousand events.
 const NUM_SEQUENCES: u64 = 2000;
 const LONGEST: usize = 8;
 
-/// How many sequences of events each figure bears.
+/// Returns the number of event sequences per figure.
 fn num_sequences() -> u64 {
     let wanted = std::env::var("FUZZ_SEQUENCES").ok();
     wanted.map_or(NUM_SEQUENCES, |number| {
@@ -52,14 +52,14 @@ fn fuzz(name: &str, seed: u64) {
                 }
             }
         }
-        // Jobs take long, so most states are looked at while theirs is still to be done.
+        // Jobs take long, so most states are checked while theirs is pending.
         let finishes_job = sequence % 250 == 0;
         if finishes_job {
             answers.finish(&mut figure);
             assert!(figure.job().is_none(), "{name} computes forever");
         }
         assert_sound(&figure, random.uniform(280.0, 1200.0));
-        // Links to hundreds of points take long to read.
+        // Permalinks of hundreds of points take long to parse.
         if figure.handles().len() < 20 || sequence % 8 == 0 {
             let mut copy = copy_of(&figure);
             if finishes_job {
@@ -95,7 +95,7 @@ fn jobs_survive_requests_of_any_bytes() {
                 assert!(!problem.to_string().is_empty());
             }
         }
-        // Whatever an answer holds, the figure shows something.
+        // A malformed answer must leave the figure sound.
         while let Some(key) = figure.job().map(|job| job.key()) {
             let answer = (0..random.below(50)).map(|_| random.below(256) as u8);
             let taken = figure.job_done(key, Ok(answer.collect()));

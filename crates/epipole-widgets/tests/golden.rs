@@ -1,8 +1,7 @@
 //! A few small pictures of every figure, compared with a tolerance.
 //!
-//! They catch a picture that is empty, shifted or in the wrong colors, not a pixel here or there.
-//! After a change on purpose, `EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden` writes
-//! them anew.
+//! They catch a picture that is empty, shifted or in the wrong colors, not single pixels. After an
+//! intended change, `EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden` rewrites them.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -13,9 +12,9 @@ use std::path::PathBuf;
 
 /// Pixels of the picture for each pixel of the golden one, along each side.
 const BLOCK: u32 = 8;
-/// Largest mean difference of a channel.
+/// Largest mean difference of a channel, gray levels.
 const MEAN: f64 = 1.5;
-/// Largest difference of one channel.
+/// Largest difference of one channel, gray levels.
 const MOST: u8 = 40;
 
 const GOLDEN: &[(&str, &str, &str, Theme)] = &[
@@ -75,7 +74,7 @@ fn pictures_look_as_before() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
-/// The settled picture, averaged over blocks.
+/// Returns the settled picture, averaged over blocks.
 fn reduced(figure: &mut Figure, theme: Theme) -> RgbImage {
     let drawn = figure.draw_settled(600.0, 1.0, theme);
     let picture = drawn.expect("the size is good");

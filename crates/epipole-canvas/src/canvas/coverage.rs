@@ -1,8 +1,7 @@
-//! How much of each pixel a mark covers.
+//! Coverage of each pixel by a mark.
 //!
-//! A mark first says how much of each pixel it covers, all its parts together, and only then its
-//! color is blended: where parts overlap, as the pieces of a curve do at their joints, nothing is
-//! drawn twice.
+//! All parts of a mark add to its coverage before its color is blended once, so that overlapping
+//! parts, such as the pieces of a curve at their joints, are not drawn twice.
 
 use super::polygons::Edge;
 use crate::theme::Rgb;
@@ -12,20 +11,20 @@ use std::ops::Range;
 #[derive(Default)]
 pub(super) struct Coverage {
     width: usize,
-    /// 0 to 255 for each pixel.
+    /// Coverage of each pixel, 0 to 255.
     alpha: Vec<u8>,
-    /// The columns of each row outside of which all is 0.
+    /// Column range of each row outside of which the coverage is 0.
     touched: Vec<Range<usize>>,
-    /// The rows outside of which all is 0.
+    /// Row range outside of which the coverage is 0.
     rows: Range<usize>,
-    /// Room for one row of [`Coverage::add_polygon`]; 0 between rows.
+    /// Scratch memory for one row of [`Coverage::add_polygon`]; 0 between rows.
     pub(super) sums: Vec<f32>,
-    /// Room for its edges.
+    /// Scratch memory for its edges.
     pub(super) edges: Vec<Edge>,
 }
 
 impl Coverage {
-    /// Nothing is covered yet; the memory of `self` is used again.
+    /// Returns an empty coverage that reuses the memory of `self`.
     pub(super) fn sized(mut self, width: usize, height: usize) -> Self {
         self.width = width;
         self.alpha.resize(width * height, 0);
@@ -41,17 +40,17 @@ impl Coverage {
         self.touched.len()
     }
 
-    /// The rows whose centers are within `low..=high`, pixels.
+    /// Returns the rows with centers within `low..=high`, pixels.
     pub(super) fn rows_within(&self, low: f32, high: f32) -> Range<usize> {
         centers_within(low, high, self.height())
     }
 
-    /// The columns whose centers are within `low..=high`, pixels.
+    /// Returns the columns with centers within `low..=high`, pixels.
     pub(super) fn columns_within(&self, low: f32, high: f32) -> Range<usize> {
         centers_within(low, high, self.width)
     }
 
-    /// Part of a row, to be covered by whoever asks for it.
+    /// Returns part of a row for writing and marks it as touched.
     pub(super) fn part(&mut self, row: usize, columns: Range<usize>) -> &mut [u8] {
         if columns.is_empty() {
             return &mut [];
@@ -65,12 +64,12 @@ impl Coverage {
         &mut self.alpha[row * self.width..][columns]
     }
 
-    /// How much of each pixel is covered.
+    /// Returns the coverage of each pixel, 0 to 255.
     pub(super) fn into_alpha(self) -> Vec<u8> {
         self.alpha
     }
 
-    /// Blends a color where the picture is covered, and covers nothing again.
+    /// Blends a color by the coverage, and clears the coverage.
     pub(super) fn blend(&mut self, pixels: &mut [u8], color: Rgb, opacity: f64) {
         let opacity = (opacity.clamp(0.0, 1.0) * 256.0).round() as u16;
         let ink = Ink::new(color);
@@ -80,12 +79,12 @@ impl Coverage {
             let alphas = &mut self.alpha[start..][..self.width - columns.start];
             let touched = &mut alphas[..columns.len()];
             if opacity < 256 {
-                // Sixteen bits hold it, so that a vector holds eight.
+                // The product fits in 16 bits, so that a vector holds eight.
                 for alpha in touched.iter_mut() {
                     *alpha = ((u16::from(*alpha) * opacity + 128) >> 8) as u8;
                 }
             }
-            // What is not covered stays as it is, and together with it nothing is left over.
+            // Uncovered pixels do not change, so round up to whole vectors.
             let together = columns.len().next_multiple_of(AT_ONCE).min(alphas.len());
             ink.blend_row(
                 &mut pixels[4 * start..][..4 * together],
@@ -97,19 +96,19 @@ impl Coverage {
 }
 
 fn centers_within(low: f32, high: f32, count: usize) -> Range<usize> {
-    // A cast takes what is negative for 0 and what is no number, too.
+    // The cast saturates: negative values and NaN become 0.
     let start = ((low - 0.5).ceil() as usize).min(count);
     let end = ((high + 0.5).floor() as usize).min(count);
     start..end.max(start)
 }
 
-/// Pixels that are looked at together.
+/// Number of pixels blended together.
 pub(super) const AT_ONCE: usize = 8;
 const BYTES: usize = 4 * AT_ONCE;
 
 /// A color to be blended into pixels of red, green, blue and an alpha of 255.
 pub(super) struct Ink {
-    /// The bytes of two pixels of the color.
+    /// Bytes of two pixels of the color.
     color: [u16; 8],
 }
 
@@ -121,13 +120,14 @@ impl Ink {
         }
     }
 
-    /// Blends the color into a row of pixels, each covered to its share.
+    /// Blends the color into a row of pixels by the coverage of each.
     #[inline]
     pub(super) fn blend_row(&self, pixels: &mut [u8], alphas: &[u8]) {
         let (chunks, last_pixels) = pixels.as_chunks_mut::<BYTES>();
         let (alpha_chunks, last_alphas) = alphas.as_chunks::<AT_ONCE>();
         for (pixels, alphas) in chunks.iter_mut().zip(alpha_chunks) {
-            // Most marks are small or narrow in what they touch, and large ones are even inside.
+            // Most marks are small or narrow within their bounds, and large ones are uniform
+            // inside.
             if *alphas == [0; AT_ONCE] {
                 continue;
             }
@@ -138,7 +138,7 @@ impl Ink {
         }
         let count = last_alphas.len();
         if count > 0 {
-            // In a place of the size of the others: one by one they would take longer.
+            // A padded copy is faster than pixel by pixel.
             let (mut few, mut shares) = ([0; BYTES], [0; AT_ONCE]);
             few[..4 * count].copy_from_slice(last_pixels);
             shares[..count].copy_from_slice(last_alphas);
@@ -147,8 +147,8 @@ impl Ink {
         }
     }
 
-    /// Blends this color into a row of pixels and another one over it, each covering them to its own shares.
-    // Inlined, it would lose that nothing of what it is given lies in the same memory, and its vectors.
+    /// Blends this color into a row of pixels, and another one over it, each by its own coverage.
+    // Inlining would lose the no-alias guarantee of the arguments, and with it vectorization.
     #[inline(never)]
     pub(super) fn blend_row_under(
         &self,
@@ -179,8 +179,7 @@ impl Ink {
         }
     }
 
-    /// Made for vector instructions, eight bytes of pixels at once in sixteen bits each, into which a mixture fits;
-    /// nothing branches.
+    /// Blends eight bytes at a time in 16 bits each, without branches, for vector instructions.
     #[inline(always)]
     fn mix(&self, pixels: &mut [u8; BYTES], alphas: &[u8; AT_ONCE]) {
         let twos = pixels.as_chunks_mut::<8>().0.iter_mut();
@@ -193,7 +192,7 @@ impl Ink {
         }
     }
 
-    /// [`mix`](Self::mix) where all pixels are covered to the same share.
+    /// Blends as [`mix`](Self::mix), with equal coverage of all pixels.
     #[inline(always)]
     fn mix_evenly(&self, pixels: &mut [u8; BYTES], alpha: u8) {
         let share = u16::from(alpha);
@@ -206,14 +205,15 @@ impl Ink {
     }
 }
 
-/// The nearest whole number to a 255th of a number up to 255².
+/// Divides a number up to 255² by 255, rounded to nearest.
 #[inline]
 fn nearest_255th(sum: u16) -> u8 {
     let sum = sum + 128;
     ((sum + (sum >> 8)) >> 8) as u8
 }
 
-// Unlike `f32::min` and `f32::max`, these are one instruction, also of a vector, and no call: for what is a number.
+// Unlike `f32::min` and `f32::max`, these compile to one instruction, also for vectors; not for
+// NaN.
 
 #[inline]
 pub(super) fn lesser(a: f32, b: f32) -> f32 {
@@ -225,10 +225,10 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// A share of a pixel, 0 to 1, in 255 parts.
+/// Converts a coverage from 0 to 1 to 255ths.
 #[inline]
 pub(super) fn parts(share: f32) -> u8 {
-    // At this size a number's last bits count ones: a cast that vector instructions have.
+    // Adding 2²³ rounds to an integer in the low bits: a cast that vector instructions have.
     const WHOLE_ONLY: f32 = 8_388_608.0;
     (share * 255.0 + WHOLE_ONLY).to_bits() as u8
 }

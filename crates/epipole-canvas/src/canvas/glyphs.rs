@@ -1,8 +1,7 @@
 //! Text, drawn from glyphs that are rasterized once.
 //!
-//! Outlines are costly to fill and far more costly to stroke, and a figure shows the same few
-//! characters in every frame. So each is rasterized once for a size and a quarter of a pixel, and
-//! then only blended.
+//! Filling and stroking outlines is costly, and a figure shows the same few characters in every
+//! frame. So each is rasterized once per size and quarter pixel, and then only blended.
 
 use super::coverage::Coverage;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
@@ -12,14 +11,14 @@ use crate::theme::Rgb;
 use std::cell::RefCell;
 use tiny_skia::Pixmap;
 
-/// A curve's pieces leave it by less than this, pixels.
+/// Maximum distance of a curve from its line segments, pixels.
 const FLATNESS: f32 = 0.05;
 
 thread_local! {
     static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
 }
 
-/// What a glyph looks like, in device pixels.
+/// Cache key of a glyph, in device pixels.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     character: char,
@@ -27,13 +26,13 @@ struct Key {
     size: u32,
     /// Bits of the casing's width; 0 for the glyph itself.
     casing: u32,
-    /// Place within the pixel, in steps.
+    /// Subpixel position, in steps.
     step: u8,
 }
 
 /// Draws text; everything in device pixels.
 ///
-/// * `left`, `baseline`: where it begins; the baseline is moved to the nearest row of pixels
+/// * `left`, `baseline`: start of the text; the baseline is rounded to a row of pixels
 /// * `casing`: width of the casing to draw instead of the text; 0 for the text
 pub(super) fn draw(
     pixmap: &mut Pixmap,
@@ -78,7 +77,7 @@ fn rasterize(key: Key) -> Stamp {
     cover(pen.0, casing)
 }
 
-/// The inside of an outline, and the casing around it.
+/// Covers the inside of an outline, or the casing around it.
 fn cover(mut contours: Vec<Vec<At>>, casing: f32) -> Stamp {
     let places = || contours.iter().flatten();
     if places().next().is_none() {
@@ -174,8 +173,8 @@ mod tests {
         assert!(first.iter().any(|&byte| byte < 40));
     }
 
-    /// tiny-skia's own filling and stroking of an outline eight times as large, averaged: a share of 255
-    /// for each pixel.
+    /// Returns the coverage by tiny-skia's own fill or stroke of an eight times larger outline,
+    /// averaged, 0 to 255 per pixel.
     fn by_tiny_skia(character: char, size: f64, casing: f32) -> Vec<u8> {
         use tiny_skia::{FillRule, LineCap, LineJoin, Mask, PathBuilder, Stroke, Transform};
         struct Path(PathBuilder);

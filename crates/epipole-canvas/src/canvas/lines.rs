@@ -7,7 +7,7 @@ use super::{Canvas, Dash, Place, Stroke};
 use crate::Rect;
 use crate::theme::Role;
 
-/// By how much a casing is wider than its line, CSS pixels.
+/// Extra width of a casing over its line, CSS pixels.
 const CASING: f64 = 2.5;
 
 impl Canvas {
@@ -66,7 +66,7 @@ impl Canvas {
         let (scale, clip) = (self.scale, self.clip);
         let device = |place: Place| ((place.0 * scale) as f32, (place.1 * scale) as f32);
         let thick = (width * scale) as f32;
-        // Round ends on every dot would make dots of dashes.
+        // Round caps would turn dashes into dots.
         let cap = if dash == Dash::Solid {
             Cap::Round
         } else {
@@ -99,8 +99,8 @@ fn pattern(dash: Dash, width: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// Cuts lines into dashes; where one begins at the end of another, the pattern goes on, and a dash
-/// that goes on around the corner says so.
+/// Cuts lines into dashes. The pattern continues where a line begins at the end of another, and
+/// each dash reports whether it continues around the corner.
 fn cut(
     pieces: impl Iterator<Item = (Place, Place)>,
     (on, gap): (f64, f64),

@@ -1,7 +1,7 @@
-//! Markers, drawn from shapes that are covered once.
+//! Markers, drawn from cached shapes.
 //!
-//! A figure shows hundreds of a few kinds of markers. Each kind is covered once for a quarter of a
-//! pixel both ways and then only blended.
+//! A figure shows hundreds of markers of a few kinds. Each kind is covered once per quarter pixel
+//! in both directions, and then only blended.
 
 use super::coverage::Coverage;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
@@ -10,14 +10,14 @@ use super::{Canvas, Place, Shape};
 use crate::theme::{Rgb, Role};
 use std::cell::RefCell;
 
-/// Half the size from which a marker is not worth keeping, device pixels.
+/// Radius from which a marker is not cached, device pixels.
 const LARGE: f32 = 64.0;
 
 thread_local! {
     static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
 }
 
-/// What a marker looks like, in device pixels.
+/// Cache key of a marker, in device pixels.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     shape: Shape,
@@ -25,17 +25,17 @@ struct Key {
     radius: u32,
     /// Bits of the outline's width; 0 for the filled shape.
     width: u32,
-    /// Place within the pixel, in steps.
+    /// Subpixel position, in steps.
     step: (u8, u8),
-    /// Whether it is a disk with a rim, whose radius stands in place of the width.
+    /// Whether it is a disk with a rim; `width` then holds the bits of the rim's radius.
     is_dot: bool,
 }
 
-/// How much shows through the rim of a dot, of 256.
+/// Transparency of a dot's rim, of 256.
 const RIM_SEE_THROUGH: u16 = 115;
-/// Width of that rim, CSS pixels.
+/// Width of a dot's rim, CSS pixels.
 const RIM: f64 = 0.7;
-/// Sizes of dots are kept in steps of this, device pixels: a cloud has as many sizes as depths.
+/// Size step of cached dots, device pixels, since a cloud has as many sizes as depths.
 const DOT_STEP: f64 = 0.125;
 
 /// Draws a shape, or its outline if `width` is not 0; everything in CSS pixels.
@@ -98,7 +98,7 @@ fn cover(key: Key) -> Stamp {
     if !key.is_dot {
         return stamp(key, radius, width, 256);
     }
-    // What is wider than the disk shows its rim.
+    // The rim shows where it is wider than the disk.
     let rim = stamp(key, width, 0.0, 256 - RIM_SEE_THROUGH);
     rim.bearing(&stamp(key, radius, 0.0, 256))
 }
@@ -141,7 +141,7 @@ fn add(coverage: &mut Coverage, center: At, radius: f32, shape: Shape, width: f3
     }
 }
 
-/// The corners of a shape in turn; none for those that are round.
+/// Returns the corners of a shape in order; none for round shapes.
 fn corners((x, y): At, radius: f32, shape: Shape) -> Vec<At> {
     let unit: &[At] = match shape {
         Shape::Disk | Shape::Ring => &[],

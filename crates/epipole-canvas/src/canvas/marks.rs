@@ -32,7 +32,7 @@ impl Canvas {
         self.mark(center, radius, shape, role, cased, true);
     }
 
-    /// The outline of a marker: the same thing, but only where it would be.
+    /// Draws the outline of a marker, for something not yet there.
     pub fn hollow_marker(
         &mut self,
         center: Place,
@@ -77,16 +77,16 @@ impl Canvas {
         }
     }
 
-    /// A small disk in a color of the world, such as a point of a colored cloud, with a rim of the
-    /// theme so that it shows on any background. Made for thousands.
+    /// Draws a small disk in a fixed color, such as a point of a colored cloud, with a rim of the
+    /// theme for contrast on any background. Fast enough for thousands.
     pub fn dot(&mut self, center: Place, radius: f64, color: Rgb) {
         if self.clip.contains(center) && radius.is_finite() {
             markers::draw_dot(self, center, radius.clamp(0.5, 20.0), color);
         }
     }
 
-    /// A small square of whole device pixels in a color of the world, such as a point of a surface: neighbors
-    /// grow together; `side` in CSS pixels. Made for tens of thousands.
+    /// Draws a small square of whole device pixels in a fixed color, such as a point of a surface,
+    /// so that neighbors merge; `side` in CSS pixels. Fast enough for tens of thousands.
     pub fn speck(&mut self, center: Place, side: f64, color: Rgb) {
         if !self.clip.contains(center) || !side.is_finite() {
             return;
@@ -94,7 +94,7 @@ impl Canvas {
         let side = side.clamp(0.5, 40.0);
         let num_pixels = (side * self.scale).round().max(1.0);
         let device = |middle: f64, clip: (f64, f64)| {
-            // As `round` where there are pixels, which is a call in WebAssembly.
+            // Equals `round` for positions on the picture; `round` is a call in WebAssembly.
             let first = (self.scale * (middle - side / 2.0) + 0.5).floor();
             let low = first.max((clip.0 * self.scale).round()).max(0.0);
             let high = (first + num_pixels).min((clip.1 * self.scale).round());

@@ -1,4 +1,4 @@
-//! Photographs, scaled to where they are shown.
+//! Photographs, scaled to their place in the picture.
 
 use super::Canvas;
 use crate::Rect;
@@ -8,7 +8,7 @@ use std::ops::Range;
 impl Canvas {
     /// A photograph, scaled to fill `rect`.
     ///
-    /// Interpolation is bilinear in fixed-point arithmetic, so it is fast and the same everywhere.
+    /// Interpolation is bilinear in fixed-point arithmetic: fast, and identical on all platforms.
     pub fn photograph(&mut self, rect: Rect, photograph: &RgbImage) {
         let device = |value: f64| (value * self.scale).round() as i64;
         let (left, top) = (device(rect.x), device(rect.y));
@@ -39,17 +39,17 @@ impl Canvas {
     }
 }
 
-/// Which device pixels a photograph takes.
+/// Device pixels of a photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
-    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
+    /// Requested left, top, right and bottom, possibly beyond the picture.
     asked: [i64; 4],
-    /// What the picture has of it.
+    /// The part within the picture.
     pub(super) columns: Range<usize>,
     pub(super) rows: Range<usize>,
 }
 
-/// Draws the photograph into RGBA bytes with so many bytes a row.
+/// Draws the photograph into RGBA bytes, with the stride in bytes.
 fn scale(
     photograph: &RgbImage,
     columns: &Taps,
@@ -71,8 +71,8 @@ fn scale(
             pixel.copy_from_slice(&[0, 16, 32, 48].map(|bits| (mixed >> bits) as u16));
         }
     };
-    // Two neighboring rows of the photograph, stretched to the target's width and kept while
-    // they last, then blended: the inner loop runs along memory.
+    // Stretch two neighboring rows of the photograph to the target's width, keep them while needed,
+    // and blend them, so that the inner loop accesses memory in order.
     let length = columns.taps.len() * 4;
     let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u16; length]));
     for (y, tap) in rows.taps.iter().enumerate() {
@@ -97,19 +97,19 @@ fn scale(
     }
 }
 
-/// `(a (256 − weight) + b weight) / 256`, rounded, of four numbers of sixteen bits at once: these
-/// hold 255 · 256.
+/// Returns `(a (256 − weight) + b weight) / 256`, rounded, of four packed 16-bit numbers, which
+/// hold up to 255 · 256.
 #[inline]
 pub(super) fn blend(a: u64, b: u64, weight_256: u64) -> u64 {
     const LOW: u64 = 0x00ff_00ff_00ff_00ff;
     const HALF: u64 = 0x0080_0080_0080_0080;
-    // 256 a + (b − a) weight is the same with one multiplication less. The difference may go round,
-    // and comes back with the sum.
+    // Equals 256 a + (b − a) weight, with one multiplication less. The difference may wrap; the sum
+    // wraps back.
     let sum = (a << 8).wrapping_add(b.wrapping_sub(a).wrapping_mul(weight_256));
     (sum.wrapping_add(HALF) >> 8) & LOW
 }
 
-/// Where each device pixel along one side takes its color from.
+/// Interpolation taps of each device pixel along one side.
 struct Taps {
     begin: i64,
     taps: Vec<Tap>,
@@ -141,7 +141,7 @@ impl Taps {
         Self { begin, taps }
     }
 
-    /// The device pixels.
+    /// Returns the range of device pixels.
     fn visible(&self) -> Range<usize> {
         let begin = self.begin as usize;
         begin..begin + self.taps.len()

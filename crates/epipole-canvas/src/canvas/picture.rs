@@ -1,4 +1,4 @@
-//! What is left when drawing has ended.
+//! The result of drawing.
 
 use super::coverage::Coverage;
 use super::scaled::Scaled;
@@ -24,7 +24,8 @@ impl Picture {
         self.pixmap.as_ref().map_or(0, Pixmap::height)
     }
 
-    /// `width * height * 4` bytes. Every pixel is opaque, so premultiplied or not is the same.
+    /// Returns `width * height * 4` bytes. All pixels are opaque, so premultiplication does not
+    /// matter.
     pub fn rgba(&self) -> &[u8] {
         self.pixmap.as_ref().map_or(&[], Pixmap::data)
     }

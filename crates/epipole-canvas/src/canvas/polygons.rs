@@ -1,20 +1,20 @@
-//! Filled polygons: covered by exact area.
+//! Filled polygons with exact-area coverage.
 
 use super::coverage::{Coverage, greater, lesser, parts};
 use super::strokes::At;
 use std::ops::Range;
 
-/// Pixels that are looked at together.
+/// Number of pixels checked together.
 const AT_ONCE: usize = 16;
 
 impl Coverage {
-    /// The area that a polygon winds around.
+    /// Adds the area that a polygon winds around.
     pub(super) fn add_polygon(&mut self, corners: &[At]) {
         self.add_contours(&[corners]);
     }
 
-    /// The area that closed contours wind around and nothing else: one that turns the other way cuts a
-    /// hole. What lies outside of the picture is cut off.
+    /// Adds the area that closed contours wind around; a contour of opposite orientation cuts a
+    /// hole. Clipped to the picture.
     ///
     /// Source: the signed-area accumulation of font rasterizers, e.g. R. Levien's `font-rs` (2016):
     /// each edge adds to each pixel what it changes of the area to its right, and a running sum
@@ -29,7 +29,7 @@ impl Coverage {
             low = (lesser(low.0, x), lesser(low.1, y));
             high = (greater(high.0, x), greater(high.1, y));
         }
-        // Casts take what is negative for 0.
+        // The casts saturate negative values at 0.
         let right = (high.0.ceil() as usize).min(self.width());
         let left = (low.0 as usize).min(right);
         let bottom = (high.1.ceil() as usize).min(self.height());
@@ -47,7 +47,7 @@ impl Coverage {
         }
         for row in low.1 as usize..bottom {
             let (above, below) = (row as f32, row as f32 + 1.0);
-            // The places between which the area changes within this row.
+            // Range of columns in which the area changes within this row.
             let (mut start, mut end) = (usize::MAX, 0);
             for edge in &edges {
                 let (y0, y1) = (greater(edge.upper.1, above), lesser(edge.lower.1, below));
@@ -91,7 +91,7 @@ impl Coverage {
 pub(super) struct Edge {
     upper: At,
     lower: At,
-    /// How far it goes to the right for each row down.
+    /// Change of x per row down.
     slope: f32,
     /// 1 if it goes down, −1 if it goes up.
     sign: f32,
@@ -112,7 +112,8 @@ impl Edge {
     }
 }
 
-/// Adds what an edge within one row changes: to its right the area grows by `rise`. Says where.
+/// Adds the change by an edge within one row: the area to its right grows by `rise`. Returns the
+/// range of columns.
 fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) -> Range<usize> {
     let (low, high) = (lesser(x0, x1), greater(x0, x1));
     let first = low as usize;

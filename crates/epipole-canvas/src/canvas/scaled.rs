@@ -1,10 +1,10 @@
-//! Photographs as they were last scaled: most frames show the same ones in the same places, and
-//! copying them takes a fraction of the time.
+//! Cache of scaled photographs: most frames show the same ones in the same places, and a copy takes
+//! a fraction of the time.
 
 use super::photograph::Target;
 use image::RgbImage;
 
-/// What was scaled to where.
+/// Cache key: photograph and target.
 #[derive(PartialEq)]
 struct Key {
     fingerprint: u64,
@@ -14,8 +14,8 @@ struct Key {
 
 struct Kept {
     key: Key,
-    /// RGBA bytes of the target; none before it has been seen twice, since a photograph that changes
-    /// from frame to frame is not worth keeping.
+    /// RGBA bytes of the target; empty until a second frame, since a photograph that changes in
+    /// every frame is not worth caching.
     pixels: Vec<u8>,
     is_shown: bool,
 }
@@ -25,7 +25,8 @@ struct Kept {
 pub(super) struct Scaled(Vec<Kept>);
 
 impl Scaled {
-    /// Copies the photograph into the picture if it is known, or else calls `scale` to draw it there.
+    /// Copies the photograph into the picture if it is cached, or else calls `scale` to draw it
+    /// there.
     ///
     /// * `picture`: RGBA bytes, `stride` bytes a row
     pub(super) fn draw(
@@ -62,21 +63,21 @@ impl Scaled {
         }
     }
 
-    /// What remains after a frame: the photographs that it has shown.
+    /// Returns the cache after a frame: only the photographs that the frame has shown.
     pub(super) fn after_frame(mut self) -> Self {
         self.0.retain_mut(|kept| std::mem::take(&mut kept.is_shown));
         self
     }
 }
 
-/// A number that hardly ever is the same for two photographs, in a twentieth of a millisecond.
+/// Hashes a photograph in a twentieth of a millisecond.
 fn fingerprint(photograph: &RgbImage) -> u64 {
     let mix = |hash: u64, word: &[u8; 8]| {
         let product = (hash ^ u64::from_le_bytes(*word)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         product ^ (product >> 32)
     };
     let (words, rest) = photograph.as_raw().as_chunks::<8>();
-    // A multiplication waits for the one before: four rows of them, side by side, do not.
+    // Each multiplication waits for the one before, so run four independent chains.
     let (fours, last) = words.as_chunks::<4>();
     let mut hashes = [0, 1, 2, 3];
     for four in fours {

@@ -1,24 +1,24 @@
-//! Small shapes that are covered once and then only blended: glyphs and markers.
+//! Small shapes with cached coverage: glyphs and markers.
 
 use super::coverage::{AT_ONCE, Ink};
 use crate::theme::Rgb;
 use std::ops::Range;
 use tiny_skia::Pixmap;
 
-/// Steps of a place within a pixel.
+/// Subpixel steps along each axis.
 pub(super) const STEPS: i32 = 4;
 
-/// The pixel of a place and its step within, the place moved to the nearest step.
+/// Returns the pixel of a position and its subpixel step, rounded to the nearest.
 pub(super) fn pixel_and_step(at: f64) -> (i32, u8) {
     let steps = (at * f64::from(STEPS)).round() as i32;
     (steps.div_euclid(STEPS), steps.rem_euclid(STEPS) as u8)
 }
 
-/// Stamps kept before all are forgotten: a page that is zoomed needs new ones each time.
+/// Maximum number of stamps before the cache is cleared: a zoomed page needs new ones each time.
 const MOST_KEPT: usize = 2048;
 
-/// Stamps in the order of their keys: in a list, because a page would download a map's code for each kind of key. What
-/// is kept changes no pixel: a stamp is the same whenever it is made.
+/// Stamps sorted by key. A sorted list, since a map would add code to the download for every key
+/// type. Caching changes no pixel: equal keys give equal stamps.
 pub(super) struct Kept<K>(Vec<(K, Stamp)>);
 
 impl<K: Copy + Ord> Kept<K> {
@@ -26,7 +26,7 @@ impl<K: Copy + Ord> Kept<K> {
         Self(Vec::new())
     }
 
-    /// The stamp of a key, made if it is not there.
+    /// Returns the stamp of a key, created on the first call.
     pub(super) fn stamp(&mut self, key: K, make: impl FnOnce(K) -> Stamp) -> &Stamp {
         if self.0.len() > MOST_KEPT {
             self.forget();
@@ -46,30 +46,30 @@ impl<K: Copy + Ord> Kept<K> {
     }
 }
 
-/// How broad a stamp is made for a shape of this width: its rows are blended without anything left over.
+/// Rounds the width of a stamp up to whole vectors, so that blending has no remainder.
 pub(super) fn stamp_width(width: usize) -> usize {
     width.next_multiple_of(AT_ONCE)
 }
 
-/// How much of each pixel a shape covers.
+/// Coverage of each pixel by a shape.
 #[derive(Default)]
 pub(super) struct Stamp {
-    /// Where the first column is, from the shape's place, pixels.
+    /// First column relative to the shape's position, pixels.
     pub(super) left: i32,
-    /// Where the first row is.
+    /// First row relative to the shape's position, pixels.
     pub(super) top: i32,
     pub(super) width: usize,
-    /// Rows of `width` pixels, 0 to 255.
+    /// Coverage in rows of `width` pixels, 0 to 255.
     pub(super) alpha: Vec<u8>,
-    /// The same of what lies on it; nothing if it bears nothing.
+    /// Coverage of the shape on top; empty without one.
     pub(super) over: Vec<u8>,
 }
 
 impl Stamp {
-    /// A stamp without the rows and columns around the shape that it does not cover.
+    /// Creates a stamp without uncovered rows and columns at the border.
     ///
-    /// * `left`, `top`: where the first column and row are, from the shape's place
-    /// * `alpha`: rows of `width` pixels
+    /// * `left`, `top`: first column and row relative to the shape's position
+    /// * `alpha`: coverage in rows of `width` pixels
     pub(super) fn trimmed((left, top): (i32, i32), width: usize, alpha: &[u8]) -> Self {
         let is_covered = |alphas: &[u8]| alphas.iter().any(|&alpha| alpha != 0);
         let rows: Vec<&[u8]> = alpha.chunks_exact(width.max(1)).collect();
@@ -96,7 +96,7 @@ impl Stamp {
         }
     }
 
-    /// With another shape of the same place on it, of which it keeps what lies within its own rows and columns.
+    /// Puts another shape of the same position on top, clipped to this shape's rows and columns.
     pub(super) fn bearing(mut self, other: &Self) -> Self {
         self.over = vec![0; self.alpha.len()];
         if self.width == 0 || other.width == 0 {
@@ -116,7 +116,7 @@ impl Stamp {
         self
     }
 
-    /// Blends a color where the shape covers the picture.
+    /// Blends a color by the coverage.
     pub(super) fn blend(&self, pixmap: &mut Pixmap, at: (i32, i32), color: Rgb) {
         let ink = Ink::new(color);
         self.rows(pixmap, at, |pixels, places| {
@@ -124,7 +124,7 @@ impl Stamp {
         });
     }
 
-    /// Blends a color where the shape covers the picture, and another one over it where what lies on it does.
+    /// Blends a color by the coverage, and another one over it by that of the shape on top.
     pub(super) fn blend_both(&self, pixmap: &mut Pixmap, at: (i32, i32), colors: [Rgb; 2]) {
         let [under, over] = colors.map(Ink::new);
         self.rows(pixmap, at, |pixels, places| {
@@ -133,7 +133,8 @@ impl Stamp {
         });
     }
 
-    /// The part of each row that is on the picture: its bytes there, and its places in the stamp.
+    /// Iterates over the visible part of each row: its bytes in the picture, and its range in the
+    /// stamp.
     #[inline(always)]
     fn rows(
         &self,

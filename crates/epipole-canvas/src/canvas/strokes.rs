@@ -1,24 +1,24 @@
-//! Straight strokes, disks and rings: covered by distance.
+//! Straight strokes, disks and rings, covered by distance.
 //!
-//! A pixel is covered by how far its center is from the middle of the line. This takes no outline,
-//! no edges and no samples, which is why hundreds of lines fit into a frame.
+//! The coverage of a pixel follows from the distance of its center to the middle of the line. This
+//! needs no outline, edges or samples, so hundreds of lines fit into a frame.
 
 use super::coverage::{Coverage, greater, lesser, parts};
 
-/// How a stroke ends.
+/// End of a stroke.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cap {
-    /// In half a disk around the end.
+    /// Half a disk around the end.
     Round,
-    /// At the end.
+    /// Cut at the end.
     Flat,
 }
 
 /// A place, device pixels.
 pub(super) type At = (f32, f32);
 
-/// How much of a pixel a band of half-width `half` covers, if the pixel's center is `distance` from
-/// the band's middle.
+/// Returns the coverage of a pixel by a band of half-width `half`, for a pixel center at `distance`
+/// from the band's middle.
 #[inline]
 fn band(distance: f32, half: f32) -> f32 {
     let end = lesser(distance + 0.5, half);
@@ -26,7 +26,7 @@ fn band(distance: f32, half: f32) -> f32 {
     lesser(greater(end - start, 0.0), 1.0)
 }
 
-/// Covers part of a row by the share that a pixel's index has.
+/// Covers part of a row with a function of the pixel's index.
 #[inline]
 fn cover(part: &mut [u8], share: impl Fn(f32) -> f32) {
     for (index, alpha) in part.iter_mut().enumerate() {
@@ -51,7 +51,7 @@ impl Coverage {
         let overhang = if cap == Cap::Flat { 0.5 } else { 0.0 };
         for row in self.rows_within(from.1.min(to.1) - reach, from.1.max(to.1) + reach) {
             let y = row as f32 + 0.5 - from.1;
-            // Where the row meets the rectangle around the line, columns relative to its start …
+            // Intersect the row with the rectangle around the line, columns relative to its start …
             let along = within(ux, uy * y, -overhang, length + overhang);
             let across = within(-uy, ux * y, -reach, reach);
             let (mut low, mut high) = (greater(along.0, across.0), lesser(along.1, across.1));
@@ -108,7 +108,7 @@ impl Coverage {
             let (far, near) = (room(outer), room(inner));
             let left = self.columns_within(center.0 - far, center.0 - near);
             let right = self.columns_within(center.0 + near, center.0 + far);
-            // Above and below the hole both are one.
+            // Above and below the hole both ranges are one.
             let right = right.start.max(left.end)..right.end.max(left.end);
             for columns in [left, right] {
                 let first = columns.start as f32 + 0.5 - center.0;

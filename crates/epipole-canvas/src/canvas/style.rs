@@ -1,17 +1,17 @@
-//! How marks look: lines, markers and text.
+//! Styles of marks: lines, markers and text.
 
 use crate::theme::Role;
 
-/// How a line looks.
+/// Style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// What it means.
+    /// Meaning, which gives the color.
     pub role: Role,
     /// Width, CSS pixels.
     pub width: f64,
     /// Pattern.
     pub dash: Dash,
-    /// Whether it has a casing, so that it can be seen on a photograph.
+    /// Whether it has a casing, for visibility on a photograph.
     pub cased: bool,
 }
 
@@ -115,7 +115,7 @@ impl Shape {
     }
 }
 
-/// Where a text lies relative to its place.
+/// Horizontal alignment of a text relative to its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
     /// It begins there.
@@ -126,16 +126,16 @@ pub enum Align {
     End,
 }
 
-/// How a text looks.
+/// Style of a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextStyle {
-    /// What it means.
+    /// Meaning, which gives the color.
     pub role: Role,
     /// Size, CSS pixels.
     pub size: f64,
-    /// Where it lies.
+    /// Horizontal alignment.
     pub align: Align,
-    /// Whether it has a casing, so that it can be read on a photograph or across lines.
+    /// Whether it has a casing, for legibility on a photograph or across lines.
     pub cased: bool,
 }
 

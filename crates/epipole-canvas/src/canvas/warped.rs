@@ -1,4 +1,4 @@
-//! Photographs seen from the side: each pixel of the page asks the photograph for its color.
+//! Photographs in perspective: each pixel of the page samples the photograph.
 
 use super::photograph::blend;
 use super::{Canvas, Place};
@@ -6,17 +6,17 @@ use image::RgbImage;
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Cow;
 
-/// A photograph is halved until this many of its pixels, or fewer, lie along a device pixel.
+/// Maximum number of the photograph's pixels per device pixel; the photograph is halved until then.
 const FINE: f64 = 1.6;
 
 impl Canvas {
     /// A photograph on a plane in space, seen in perspective.
     ///
-    /// * `corners`: where its corners are, in turn; none lies behind the reader
+    /// * `corners`: positions of its corners, in order; all in front of the reader
     /// * `photo_from_page`: the homography from CSS pixels to pixels of the photograph, centers at
-    ///   whole numbers
+    ///   integers
     ///
-    /// Interpolation is bilinear, of the photograph halved so often that nothing flickers.
+    /// Interpolation is bilinear, in a photograph halved enough to avoid aliasing.
     pub fn warped_photograph(
         &mut self,
         corners: &[Place; 4],
@@ -94,15 +94,15 @@ impl Canvas {
     }
 }
 
-/// Device pixels of a row whose places are exact at both ends and evenly spaced between: a division for each would
-/// take longer than its color. Over a thousand device pixels, at one end twice as near as at the other, they are off by
-/// a thirtieth of a pixel of the photograph at most.
+/// Length of pieces of a row with exact positions at both ends and linear interpolation between,
+/// since a division per pixel costs more than its color. The error is at most 1/30 pixel of the
+/// photograph, over a thousand device pixels with a depth ratio of two.
 const PIECE: usize = 8;
 
-/// Fractional bits of a place.
+/// Fractional bits of a position.
 const BITS: u32 = 16;
 
-/// A photograph that answers for every place.
+/// A photograph that can be sampled everywhere.
 struct Source {
     /// Red, green and blue, sixteen bits each.
     pixels: Vec<u64>,
@@ -124,15 +124,16 @@ impl Source {
         }
     }
 
-    /// Draws pixels whose places go evenly from `start` up to `end`, which is the next one's.
+    /// Draws pixels at positions spaced evenly from `start` up to `end`, the position of the next
+    /// pixel.
     fn draw(&self, start: (f64, f64), end: (f64, f64), pixels: &mut [u8]) {
         let count = (pixels.len() / 4) as i64;
-        // A cast takes what is no number for 0. Beyond this many pixels it is the edge all the same.
+        // The cast makes NaN 0. Beyond the clamp the color is that of the edge anyway.
         let fixed = |value: f64| (value.clamp(-1e9, 1e9) * f64::from(1 << BITS) + 0.5) as i64;
         let [u0, v0, u1, v1] = [start.0, start.1, end.0, end.1].map(fixed);
         let (step_u, step_v) = ((u1 - u0) / count, (v1 - v0) / count);
         let (mut u, mut v) = (u0, v0);
-        // Between two places that are inside all are.
+        // Positions between two inside ones are inside.
         let is_inside = |a: i64, b: i64, last: i64| a.min(b) >= 0 && a.max(b) < last;
         let are_inside = is_inside(u0, u1, self.last.0) && is_inside(v0, v1, self.last.1);
         for pixel in pixels.as_chunks_mut::<4>().0 {
@@ -145,7 +146,7 @@ impl Source {
         }
     }
 
-    /// The color at a place, that of the edge beyond it.
+    /// Samples the color; beyond the edge, that of the edge.
     #[inline(always)]
     fn color(&self, u: i64, v: i64) -> u64 {
         let (u, v) = (u.clamp(0, self.last.0), v.clamp(0, self.last.1));
@@ -160,7 +161,7 @@ impl Source {
         blend(blend(a, b, across), blend(c, d, across), down)
     }
 
-    /// The same where there is a pixel to the right and one below.
+    /// Samples the color where there are pixels to the right and below.
     #[inline(always)]
     fn color_inside(&self, u: i64, v: i64) -> u64 {
         let first = (v >> BITS) as usize * self.width + (u >> BITS) as usize;
@@ -172,13 +173,13 @@ impl Source {
     }
 }
 
-/// How much the second of two neighbors counts at a place, of 256.
+/// Returns the weight of the second of two neighbors, of 256.
 #[inline(always)]
 fn weight(at: i64) -> u64 {
     ((at >> (BITS - 8)) & 0xff) as u64
 }
 
-/// The photograph at half its size, four pixels in one.
+/// Returns the photograph at half its size, averaging four pixels.
 fn halved(photograph: &RgbImage) -> RgbImage {
     let (width, height) = (photograph.width() / 2, photograph.height() / 2);
     let stride = photograph.width() as usize * 3;
@@ -209,7 +210,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// From where to where a line of the page is inside a convex quadrilateral.
+/// Returns the span of a horizontal line of the page within a convex quadrilateral.
 fn span(corners: &[Place; 4], y: f64) -> Option<(f64, f64)> {
     let crossings = (0..4).filter_map(|index| {
         let (from, to) = (corners[index], corners[(index + 1) % 4]);

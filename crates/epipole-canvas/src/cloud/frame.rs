@@ -1,16 +1,16 @@
-//! A picture of a space, with depth and the number of the point in each pixel.
+//! A picture of a space, with the depth and the point index of each pixel.
 
 use super::picture::Standing;
 use super::{Line, Orbit, Scene};
 
-/// How a space is drawn.
+/// Options for drawing a space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// The side of a point at the distance of the middle, pixels.
+    /// Side of a point at the orbit's distance, pixels.
     pub point_px: f64,
-    /// Draw one point in so many: coarse, for while something moves.
+    /// Stride over the points; above 1 for coarse pictures during motion.
     pub every: usize,
-    /// The color behind everything.
+    /// Color of the background.
     pub background: [u8; 3],
 }
 
@@ -24,10 +24,10 @@ impl Default for Look {
     }
 }
 
-/// No point.
+/// Index for no point.
 const NONE: u32 = u32::MAX;
 
-/// A picture. Its memory is used again for the next one.
+/// A picture. Its memory is reused for the next one.
 #[derive(Debug, Clone, Default)]
 pub struct Frame {
     width: usize,
@@ -48,7 +48,7 @@ impl Frame {
         &self.rgba
     }
 
-    /// Draws the scene in place of whatever was there.
+    /// Draws the scene, replacing the previous picture.
     pub fn draw(&mut self, scene: &Scene, orbit: &Orbit, size: (usize, usize), look: &Look) {
         (self.width, self.height) = size;
         let pixels = size.0 * size.1;
@@ -109,7 +109,8 @@ impl Frame {
                 continue;
             }
             let side = (side_at_middle / depth).clamp(1.0, 7.0);
-            // To the nearest whole number, and to 0 from below: browsers have no instruction for `round`.
+            // Adding 0.5 rounds, and the cast saturates at 0: browsers have no instruction for
+            // `round`.
             let from = |at: f32| (at - side / 2.0 + 0.5) as usize;
             let to = |at: f32, most: usize| ((at + side / 2.0 + 0.5) as usize).min(most);
             for row in from(v)..to(v, size.1) {
@@ -152,7 +153,7 @@ impl Frame {
             return;
         };
         let (du, dv) = (to[0] - from[0], to[1] - from[1]);
-        // Two to a pixel: with one, rounding would leave gaps.
+        // Two steps per pixel, since rounding with one would leave gaps.
         let steps = (2.0 * (end - start) * du.abs().max(dv.abs()))
             .ceil()
             .clamp(1.0, 40_000.0);
@@ -173,7 +174,7 @@ impl Frame {
         }
     }
 
-    /// The point that is shown nearest to a pixel, at most so many pixels away.
+    /// Returns the index of the point drawn nearest to a pixel, at most `radius_px` pixels away.
     pub fn pick(&self, u: f64, v: f64, radius_px: usize) -> Option<usize> {
         if !(u.is_finite() && v.is_finite()) {
             return None;
@@ -199,7 +200,7 @@ impl Frame {
     }
 }
 
-/// The part of a line that is in the picture, as shares of its length.
+/// Returns the part of a line within the picture, as fractions of its length.
 fn inside(from: [f64; 2], to: [f64; 2], size: (usize, usize)) -> Option<(f64, f64)> {
     let (mut start, mut end) = (0.0_f64, 1.0_f64);
     for (axis, side) in [size.0 as f64, size.1 as f64].into_iter().enumerate() {

@@ -1,7 +1,8 @@
-//! Points and cameras in space, drawn on the processor: a point cloud of millions that one turns.
+//! Software rendering of points and cameras in space: point clouds of millions that the user
+//! rotates.
 //!
-//! Every pixel keeps the depth and the number of the point that it shows, so a click finds a point
-//! without a search. No figure uses this room, so a page of figures does not carry it.
+//! Every pixel keeps the depth and the index of its point, so a click finds a point without a
+//! search. Figures do not use this module, so their pages do not include it.
 //!
 //! ```
 //! use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
@@ -21,23 +22,23 @@ pub use frame::{Frame, Look};
 pub use orbit::Orbit;
 pub use picture::Picture;
 
-/// What is drawn.
+/// Content of a space.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
-    /// Places and colors.
+    /// Positions and colors.
     pub points: Vec<([f32; 3], [u8; 3])>,
     /// Lines, such as the edges of a camera's frustum.
     pub lines: Vec<Line>,
-    /// Photographs that stand in the space.
+    /// Photographs in the space.
     pub pictures: Vec<Picture>,
 }
 
-/// A line between two places.
+/// A line between two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Where it begins.
+    /// Start.
     pub from: [f32; 3],
-    /// Where it ends.
+    /// End.
     pub to: [f32; 3],
     /// Its color.
     pub color: [u8; 3],

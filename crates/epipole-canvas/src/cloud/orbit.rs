@@ -1,4 +1,4 @@
-//! Where a space is seen from: it turns about its middle.
+//! Viewpoint of a space, orbiting about its center.
 
 use super::Scene;
 use super::outermost::Outermost;
@@ -7,17 +7,18 @@ use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 /// A view of a space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
-    /// What is in the middle of the picture.
+    /// Center of the orbit and of the picture.
     pub middle: Point3<f64>,
-    /// How far away it is.
+    /// Distance from the center.
     pub distance: f64,
-    /// Turn about the upright axis, radians.
+    /// Rotation about the upright axis, radians.
     pub yaw_rad: f64,
-    /// How far the view is from above, radians, −π/2 to π/2.
+    /// Elevation of the viewpoint, radians, −π/2 to π/2.
     pub pitch_rad: f64,
-    /// The frame with x right, y down and z forward at no yaw and pitch, from the world.
+    /// Rotation from the world to the frame with x right, y down and z forward at zero yaw and
+    /// pitch.
     upright: UnitQuaternion<f64>,
-    /// The size of the scene, by which distances are bounded.
+    /// Size of the scene, which bounds the distance.
     size: f64,
 }
 
@@ -27,9 +28,9 @@ pub(super) const FOCAL: f64 = 1.2;
 pub(super) const NEAREST: f64 = 1e-3;
 
 impl Orbit {
-    /// A view of all points but the outermost.
+    /// Creates a view of all but the outermost points.
     ///
-    /// * `down`: which direction of the world is down, of any length
+    /// * `down`: the downward direction of the world, of any length
     pub fn around(scene: &Scene, down: [f64; 3]) -> Self {
         let (mut middle, mut size) = (Point3::origin(), 1.0);
         if !scene.points.is_empty() {
@@ -64,7 +65,7 @@ impl Orbit {
         }
     }
 
-    /// Turns so that the view goes along a direction of the world, as far as that goes without tilting.
+    /// Turns the view toward a direction of the world, by yaw only.
     pub fn look_along(&mut self, forward: [f64; 3]) {
         let ahead = self.upright * Vector3::from(forward);
         if libm::hypot(ahead.x, ahead.z) > 1e-9 * ahead.norm() {
@@ -72,7 +73,7 @@ impl Orbit {
         }
     }
 
-    /// Comes as near as it can with all of these places in the picture, and some border around them.
+    /// Moves as near as possible with all points in the picture, within a border.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
         let rotation = self.rotation();
         let turned = places
@@ -81,7 +82,7 @@ impl Orbit {
         let outermost = Outermost::of(turned);
         let (mut too_near, mut far) = self.bounds();
         let mut aside = Vector3::zeros();
-        // Halved again and again: near to a place the picture grows so fast that steps by what is missing overshoot.
+        // Bisection: near to a point, projections grow so fast that proportional steps overshoot.
         for _ in 0..24 {
             let distance = (too_near * far).sqrt();
             match outermost.centered(aside, distance, self.size) {
@@ -92,38 +93,38 @@ impl Orbit {
         self.middle += rotation.transpose() * aside;
     }
 
-    /// The least and the greatest distance.
+    /// Returns the smallest and the largest distance.
     fn bounds(&self) -> (f64, f64) {
         (0.02 * self.size, 20.0 * self.size)
     }
 
-    /// Camera from world: the camera looks along +z with y down.
+    /// Returns the rotation from world to camera; the camera looks along +z with y down.
     pub fn rotation(&self) -> Matrix3<f64> {
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), self.yaw_rad);
         let pitch = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), self.pitch_rad);
         *(pitch * yaw * self.upright).to_rotation_matrix().matrix()
     }
 
-    /// Focal length for a picture of this size, pixels.
+    /// Returns the focal length for a picture of this size, pixels.
     pub fn focal_px(size: (usize, usize)) -> f64 {
         FOCAL * size.0.min(size.1) as f64
     }
 
-    /// Turns by so many radians.
+    /// Rotates the view, radians.
     pub fn turn(&mut self, yaw_rad: f64, pitch_rad: f64) {
         let most = 1.55;
         self.yaw_rad += yaw_rad;
         self.pitch_rad = (self.pitch_rad + pitch_rad).clamp(-most, most);
     }
 
-    /// Moves the middle so that the picture moves by so many pixels.
+    /// Moves the center so that the picture moves by these pixels.
     pub fn pan(&mut self, right_px: f64, down_px: f64, size: (usize, usize)) {
         let units = self.distance / Self::focal_px(size).max(1.0);
         let moved = Vector3::new(-right_px * units, -down_px * units, 0.0);
         self.middle += self.rotation().transpose() * moved;
     }
 
-    /// Comes nearer by a factor above 1.
+    /// Divides the distance by a factor: above 1 moves nearer.
     pub fn zoom(&mut self, factor: f64) {
         if factor > 0.0 && factor.is_finite() {
             let (near, far) = self.bounds();
@@ -131,7 +132,7 @@ impl Orbit {
         }
     }
 
-    /// The pixel and the depth of a place; `None` behind the eye.
+    /// Returns the pixel and the depth of a point; `None` behind the eye.
     pub fn project(&self, place: [f32; 3], size: (usize, usize)) -> Option<([f64; 2], f64)> {
         let place = Point3::from(place.map(f64::from));
         let p = self.rotation() * (place - self.middle);
@@ -148,7 +149,7 @@ impl Orbit {
     }
 }
 
-/// A frame whose y is `down` and whose z is as much as can be that of the world.
+/// Returns a frame with y along `down` and z as near as possible to that of the world.
 fn upright(down: Vector3<f64>) -> UnitQuaternion<f64> {
     let y = down.try_normalize(1e-12).unwrap_or_else(Vector3::y);
     let forward = match y.z.abs() < 0.9 {
@@ -193,7 +194,7 @@ mod tests {
             let spans = [span(0), span(1)];
             assert!(spans[0].max(spans[1]) > 800.0, "{forward:?} {spans:?}");
         }
-        // Nothing, one place, and what is nowhere leave the view as it was.
+        // No points, a single point and points that are not finite leave the view unchanged.
         let before = Orbit::around(&scene, [0.0, 1.0, 0.0]);
         for places in [&[][..], &[[f64::NAN; 3]]] {
             let mut orbit = before;

@@ -1,19 +1,20 @@
-//! The places that decide how far away a view has to be: of many, those few that are ever at an edge of the picture.
+//! The outermost points, which determine how near a view can be: few of many ever touch an edge of
+//! the picture.
 
 use super::orbit::{FOCAL, NEAREST};
 use nalgebra::Vector3;
 
-/// Places in the frame of a camera that may come nearer, go farther and step aside, but does not turn.
+/// Outermost points in the frame of a camera that may translate but not rotate.
 ///
-/// An edge of the picture is met by the place whose `x / z` is the least or the greatest, wherever the camera stands; so
-/// it is on the hull of all `(x, z)`, and likewise of all `(y, z)`.
+/// The point at an edge of the picture has the smallest or largest `x / z`, wherever the camera is,
+/// so it is on the convex hull of all `(x, z)`, and likewise of all `(y, z)`.
 pub(super) struct Outermost {
-    /// `(x, z)` and `(y, z)`.
+    /// Hulls of `(x, z)` and `(y, z)`.
     hulls: [Vec<[f64; 2]>; 2],
 }
 
 impl Outermost {
-    /// Of these places; those that are nowhere do not count.
+    /// Selects them from points; ignores points that are not finite.
     pub(super) fn of(places: impl Iterator<Item = Vector3<f64>>) -> Self {
         let places: Vec<Vector3<f64>> = places
             .filter(|place| place.iter().all(|x| x.is_finite()))
@@ -24,8 +25,8 @@ impl Outermost {
         }
     }
 
-    /// From where to where places are along an axis of a square picture, in shares of its side; `None` if one of them is
-    /// not seen, or there is none.
+    /// Returns the range of the points along an axis of a square picture, as fractions of its side;
+    /// `None` if one of them is not visible, or there is none.
     fn reach(&self, axis: usize, aside: f64, distance: f64, nearest: f64) -> Option<[f64; 2]> {
         let mut reach = None;
         for [across, ahead] in &self.hulls[axis] {
@@ -40,19 +41,19 @@ impl Outermost {
         reach
     }
 
-    /// How far to step aside for the middle of these places to be in the middle of the picture, if all are in it then,
-    /// and not all at one place.
+    /// Returns the sideways shift that centers the points in the picture, if all are then inside
+    /// and not all at one position.
     ///
-    /// * `aside`: a first guess
-    /// * `distance`: of what the camera turns about
-    /// * `size`: of the scene
+    /// * `aside`: initial guess
+    /// * `distance`: distance from the orbit's center
+    /// * `size`: size of the scene
     pub(super) fn centered(
         &self,
         mut aside: Vector3<f64>,
         distance: f64,
         size: f64,
     ) -> Option<Vector3<f64>> {
-        /// Of the side of the picture.
+        /// Border, as a fraction of the picture's side.
         const BORDER: f64 = 0.04;
         let mut is_inside = false;
         for _ in 0..32 {
@@ -64,7 +65,7 @@ impl Outermost {
             let inside = |x: &f64| (BORDER..=1.0 - BORDER).contains(x);
             is_inside = reaches.iter().flatten().all(inside);
             for (axis, [low, high]) in reaches.into_iter().enumerate() {
-                // What is nearer moves farther than what is missing, so each step is a part of it.
+                // Near points move more than the average, so damp each step.
                 aside[axis] -= 0.4 * (0.5 - 0.5 * (low + high)) * distance / FOCAL;
             }
         }
@@ -72,14 +73,14 @@ impl Outermost {
     }
 }
 
-/// The corners of the hull of these places in a plane.
+/// Returns the corners of the convex hull of points in a plane.
 ///
 /// Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
 fn hull(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     places.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     places.dedup();
     let mut corners: Vec<[f64; 2]> = Vec::new();
-    // Along one side, and back along the other.
+    // First along one side, then back along the other.
     let there_and_back = [places.clone(), places.into_iter().rev().collect()];
     for way in there_and_back {
         let begun = corners.len();

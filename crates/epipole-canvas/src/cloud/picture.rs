@@ -1,4 +1,4 @@
-//! Photographs that stand in a space: textured parallelograms with the depth of every pixel.
+//! Photographs in a space: textured parallelograms with per-pixel depth.
 
 use super::Orbit;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -7,11 +7,11 @@ use std::sync::Arc;
 /// A photograph on a parallelogram.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Where its upper left corner is.
+    /// Position of its upper left corner.
     pub corner: [f32; 3],
-    /// From there to the upper right corner.
+    /// Vector from there to the upper right corner.
     pub right: [f32; 3],
-    /// From the upper left to the lower left corner.
+    /// Vector from the upper left to the lower left corner.
     pub down: [f32; 3],
     /// Width and height, pixels.
     pub size: (usize, usize),
@@ -19,20 +19,21 @@ pub struct Picture {
     pub rgb: Arc<[u8]>,
 }
 
-/// A picture as it is seen from somewhere: which of its pixels is where, and how far away.
+/// A picture in a view, with its mapping from pixels of the view and its depth.
 pub(super) struct Standing<'a> {
     picture: &'a Picture,
-    /// From a ray `(x, y, 1)` of the view to `(s, t, 1) / depth`, s and t being shares of the two sides.
+    /// Maps a ray `(x, y, 1)` of the view to `(s, t, 1) / depth`; s and t are fractions of the two
+    /// sides.
     shares_of_ray: Matrix3<f64>,
     focal_px: f64,
     half: (f64, f64),
-    /// Columns and rows that it may be seen in.
+    /// Columns and rows that may show it.
     pub(super) columns: std::ops::Range<usize>,
     pub(super) rows: std::ops::Range<usize>,
 }
 
 impl<'a> Standing<'a> {
-    /// `None` for a picture that is seen from its edge, that has no pixels, or that is out of sight.
+    /// Prepares a picture; `None` if it is edge-on, empty or out of view.
     pub(super) fn new(picture: &'a Picture, orbit: &Orbit, size: (usize, usize)) -> Option<Self> {
         let (width, height) = picture.size;
         if width == 0 || height == 0 || picture.rgb.len() < 3 * width * height {
@@ -55,7 +56,7 @@ impl<'a> Standing<'a> {
         let corners = [corner, corner + right, corner + right + down, corner + down];
         let (mut columns, mut rows) = (0..size.0, 0..size.1);
         if corners.iter().all(|c| c.z > 1e-3 * orbit.distance) {
-            // In front of the view, it is seen between its corners.
+            // In front of the view, it lies within its projected corners.
             let span = |axis: usize, half: f64, most: usize| {
                 let seen = corners.map(|c| c[axis] / c.z * focal_px + half);
                 let low = seen.iter().copied().fold(f64::INFINITY, f64::min);
@@ -76,7 +77,8 @@ impl<'a> Standing<'a> {
         })
     }
 
-    /// The depth and the color of the picture in a pixel of the view; `None` beside it and behind the view.
+    /// Returns the depth and the color of the picture at a pixel of the view; `None` outside of it
+    /// and behind the view.
     pub(super) fn seen(&self, column: usize, row: usize) -> Option<(f32, [u8; 3])> {
         let x = (column as f64 + 0.5 - self.half.0) / self.focal_px;
         let y = (row as f64 + 0.5 - self.half.1) / self.focal_px;
@@ -197,7 +199,7 @@ mod tests {
                     .all(|pixel| pixel[..3] == [9; 3])
             );
         }
-        // Around the viewer: nothing is seen twice, and nothing panics.
+        // Around the viewer: no part is drawn twice, and nothing panics.
         let mut around = picture();
         around.corner = [-1.0, -1.0, -4.0];
         around.right = [2.0, 0.0, 8.0];

@@ -1,4 +1,4 @@
-//! Light and shade are computed, a few cells at a time.
+//! Incremental computation of light and shade, a few cells at a time.
 
 use super::lighting::Lighting;
 use super::maps::{Decal, LightMap};
@@ -10,7 +10,7 @@ use crate::things::body::Body;
 /// Cells along each side of the shade of a movable thing.
 const DECAL_CELLS: usize = 96;
 
-/// Light maps as far as they are computed: one per body and chart.
+/// Partial light maps: one per body and chart.
 #[derive(Debug, Default)]
 pub(crate) struct Baking {
     maps: Vec<Vec<LightMap>>,
@@ -18,7 +18,7 @@ pub(crate) struct Baking {
 }
 
 impl Baking {
-    /// Computes so many cells more, and counts them off; all maps once none is missing.
+    /// Computes cells and subtracts them from `num_cells`; returns all maps once none is missing.
     pub(crate) fn advance(
         &mut self,
         bodies: &[&Body],
@@ -52,15 +52,15 @@ impl Baking {
     }
 }
 
-/// The shade of a movable thing as far as it is computed.
+/// Partial shade of a movable thing.
 #[derive(Debug, Default)]
 pub(crate) struct Shading {
     factors: Vec<[f32; 2]>,
 }
 
 impl Shading {
-    /// Computes so many cells more of the shade on a square of `side_m` around the origin of the
-    /// plane y = 0, and counts them off; the shade once none is missing.
+    /// Computes cells of the shade on a square of `side_m` meters around the origin of the plane y
+    /// = 0, and subtracts them from `num_cells`; returns the shade once none is missing.
     pub(crate) fn advance(
         &mut self,
         bodies: &[&Body],
@@ -70,7 +70,7 @@ impl Shading {
     ) -> Option<Decal> {
         let shade = Shade::new(bodies, lighting);
         let cells = detail.side(DECAL_CELLS);
-        // The edge of the square must not show.
+        // Fade out, so that the edge of the square does not show.
         let rim = |i: usize| {
             let share = DECAL_CELLS as f32 / cells as f32;
             (i.min(cells - 1 - i) as f32 * share / 3.0).min(1.0)

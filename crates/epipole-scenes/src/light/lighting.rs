@@ -1,8 +1,8 @@
-//! What shines in a scene: a window, and the glow of the room.
+//! Light sources of a scene: a window, and the ambient light of the room.
 
 use nalgebra::Vector3;
 
-/// What shines: a rectangle such as a window, and soft light from six sides.
+/// Light sources: a rectangle such as a window, and ambient light from six sides.
 #[derive(Debug, Clone)]
 pub(crate) struct Lighting {
     pub(crate) center: Vector3<f64>,
@@ -17,7 +17,7 @@ pub(crate) struct Lighting {
     pub(crate) mirror: Mirror,
 }
 
-/// The rectangle in the form in which reflections meet it.
+/// The rectangle as reflections need it.
 #[derive(Debug, Clone)]
 pub(crate) struct Mirror {
     /// Its plane: `normal · x = offset`.
@@ -32,8 +32,8 @@ pub(crate) struct Mirror {
 
 impl Lighting {
     /// * `center`, `half_u`, `half_v`: the rectangle, meters; u × v points into the room
-    /// * `reference_m`: where it has full strength; `None` if far away
-    /// * `sides`: soft light on surfaces that face −x, +x, −y (up), +y, −z, +z
+    /// * `reference_m`: distance of full strength; `None` if far away
+    /// * `sides`: ambient light on surfaces that face −x, +x, −y (up), +y, −z, +z
     pub(crate) fn new(
         [center, half_u, half_v]: [Vector3<f64>; 3],
         color: [f32; 3],
@@ -64,10 +64,10 @@ impl Lighting {
         }
     }
 
-    /// Even light from far away, as through the high windows of a hall.
+    /// Creates even light from far away, as through the high windows of a hall.
     ///
-    /// * `toward`: where it comes from
-    /// * `half_side`: half the side of its square, as a share of the distance
+    /// * `toward`: direction to the light
+    /// * `half_side`: half the side of its square, as a fraction of the distance
     pub(crate) fn even(toward: [f64; 3], far_m: f64, half_side: f64, color: [f32; 3]) -> Self {
         let toward = Vector3::from(toward).normalize();
         let half_u = toward.cross(&Vector3::y()).normalize() * (half_side * far_m);
@@ -87,7 +87,7 @@ impl Lighting {
         )
     }
 
-    /// Soft light from all around on a surface with this normal: the sides mixed by the squares
+    /// Returns the ambient light on a surface with this normal: the sides weighted by the squares
     /// of the normal's components (McTaggart 2004).
     #[inline]
     pub(crate) fn ambient(&self, normal: [f32; 3]) -> [f32; 3] {

@@ -1,8 +1,8 @@
-//! Light and shade as they are kept: on every chart of a body, and below what can be moved.
+//! Stored light and shade: on every chart of a body, and below movable things.
 
 use crate::paint::noise::split;
 
-/// Light on a chart: red, green, blue, and the part of the window that is seen.
+/// Light on a chart: red, green, blue, and the visible fraction of the window.
 #[derive(Debug, Clone)]
 pub(crate) struct LightMap {
     pub(super) width: usize,
@@ -12,7 +12,7 @@ pub(crate) struct LightMap {
 }
 
 impl LightMap {
-    /// Light at chart coordinates (s, t), between the centers of four cells.
+    /// Interpolates the light at chart coordinates (s, t) between the centers of four cells.
     #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32) -> [f32; 4] {
         let (x, fx) = split(s * self.width as f32 - 0.5);
@@ -44,7 +44,7 @@ impl LightMap {
     }
 }
 
-/// The shade that a movable thing throws on the table, carried along with it.
+/// Shade of a movable thing on the table, which moves with it.
 #[derive(Debug)]
 pub(crate) struct Decal {
     pub(super) cells: usize,
@@ -53,7 +53,8 @@ pub(crate) struct Decal {
 }
 
 impl Decal {
-    /// Factors for window and soft light at a place relative to the thing's foot; `None` outside.
+    /// Returns factors for window and ambient light at a position relative to the thing's foot;
+    /// `None` outside.
     pub(crate) fn sample(&self, x_m: f64, z_m: f64) -> Option<[f32; 2]> {
         let n = self.cells as f64;
         let (x, z) = (

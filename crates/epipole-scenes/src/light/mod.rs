@@ -1,7 +1,7 @@
-//! Light: a window, the glow of the room, and maps of both on every surface.
+//! Light: a window, the ambient light of the room, and maps of both on every surface.
 //!
-//! Nothing in a scene moves its light, so shadows and the shade near contacts are computed once,
-//! for the first photograph, and a pixel only looks them up.
+//! Light sources never move, so shadows and contact shade are computed once, for the first
+//! photograph, and pixels only look them up.
 
 mod baking;
 mod lighting;

@@ -1,4 +1,4 @@
-//! How much light reaches a place, and how much is held off.
+//! Light that reaches a point, and its occlusion.
 
 use super::lighting::Lighting;
 use crate::shape::Ray;
@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 /// Offset that lifts a surface point off its own surface, meters.
 const LIFT_M: f64 = 2e-4;
 
-/// Heights above a surface at which the room's openness is probed, meters, and their weights.
+/// Heights above a surface at which its openness is probed, meters, and their weights.
 const PROBES: [(f64, f32); 5] = [
     (0.006, 0.16),
     (0.02, 0.20),
@@ -19,7 +19,7 @@ const PROBES: [(f64, f32); 5] = [
     (0.28, 0.20),
 ];
 
-/// Sixteen places on the window, spread evenly in both directions (Roberts 2018, the R2
+/// Returns sixteen points on the window, evenly spread in both directions (Roberts 2018, the R2
 /// sequence).
 fn window_places(lighting: &Lighting) -> [Vector3<f64>; 16] {
     std::array::from_fn(|i| {
@@ -30,7 +30,7 @@ fn window_places(lighting: &Lighting) -> [Vector3<f64>; 16] {
     })
 }
 
-/// Directions of the upper half space, more of them near its pole, as cosines demand.
+/// Returns directions of the upper half space with cosine-weighted density.
 fn dome() -> [Vector3<f64>; 14] {
     std::array::from_fn(|i| {
         let share = (i as f64 + 0.5) / 14.0;
@@ -40,13 +40,13 @@ fn dome() -> [Vector3<f64>; 14] {
     })
 }
 
-/// Everything that casts shade, gathered once.
+/// All occluders of a scene.
 pub(crate) struct Shade<'a> {
     lighting: &'a Lighting,
     places: [Vector3<f64>; 16],
     dome: [Vector3<f64>; 14],
     casters: Vec<(usize, &'a Body, Vector3<f64>, f64)>,
-    /// With the index of the body that each belongs to.
+    /// Proxies with the index of their body.
     proxies: Vec<(usize, &'a Proxy)>,
 }
 
@@ -75,8 +75,8 @@ impl<'a> Shade<'a> {
         }
     }
 
-    /// Part of the window's light that reaches a point, weighted with the cosine at its surface,
-    /// and the plain part of the window that is seen.
+    /// Returns the fraction of the window's light that reaches a point, weighted by the cosine at
+    /// its surface, and the unweighted visible fraction of the window.
     fn window(&self, own: usize, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> (f64, f64) {
         let origin = p + n * LIFT_M;
         let to_center = self.lighting.center - origin;
@@ -87,13 +87,13 @@ impl<'a> Shade<'a> {
             if *index == own && !body.hollow {
                 continue;
             }
-            // Is some of its box above the surface?
+            // Skip casters whose box is below the surface.
             let (half, _) = caster.shape.bounds();
             let reach = half.dot(&(caster.local_from_world * n).abs());
             if (center - p).dot(n) + reach < 2.0 * LIFT_M {
                 continue;
             }
-            // Does the cone from the point to the window touch the caster's sphere?
+            // Keep casters whose sphere meets the cone from the point to the window.
             let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
             let off = length(&(center - (origin + to_center * along)));
             if off < radius + spread * along.max(0.02) {
@@ -124,8 +124,8 @@ impl<'a> Shade<'a> {
         (lit / 16.0 * strength, seen / 16.0)
     }
 
-    /// How open the surroundings of a surface point are, from 0 to 1 (after Evans 2006: compare
-    /// heights above the surface with distances to whatever is near).
+    /// Returns the openness of a surface point's surroundings, 0 to 1, by comparing heights above
+    /// the surface with distances to nearby proxies (after Evans 2006).
     fn openness(&self, own: usize, p: &Vector3<f64>, n: &Vector3<f64>) -> f32 {
         let reach = PROBES[PROBES.len() - 1].0 * 2.0;
         let mut near: Vec<&Proxy> = Vec::new();
@@ -146,7 +146,7 @@ impl<'a> Shade<'a> {
         open
     }
 
-    /// The part of the upper half space that a hollow body leaves open above its own surface.
+    /// Returns the fraction of the upper half space that a hollow body itself leaves open.
     fn own_openness(&self, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> f32 {
         let side = if n.x.abs() < 0.7 {
             Vector3::x()
@@ -169,7 +169,7 @@ impl<'a> Shade<'a> {
         num_open as f32 / self.dome.len() as f32
     }
 
-    /// Light at one point of a surface.
+    /// Returns the light at a point of a surface.
     fn at(&self, own: usize, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> [f32; 4] {
         let (lit, seen) = self.window(own, body, p, n);
         let mut open = self.openness(own, p, n);
@@ -188,7 +188,7 @@ impl<'a> Shade<'a> {
         ]
     }
 
-    /// Light in one cell of a chart, of which there are so many across and down.
+    /// Returns the light in a cell of a chart, given the numbers of cells across and down.
     pub(super) fn cell(
         &self,
         (own, body, chart): (usize, &Body, usize),
@@ -203,8 +203,8 @@ impl<'a> Shade<'a> {
         self.at(own, body, &p, &n)
     }
 
-    /// How much darker the plane y = 0 becomes at a place because these bodies stand on it: factors
-    /// of window light and of soft light.
+    /// Returns the darkening of the plane y = 0 at a position by the bodies on it: factors of
+    /// window light and of ambient light.
     pub(super) fn darker(&self, x_m: f64, z_m: f64, ground: &Body) -> [f32; 2] {
         let p = Vector3::new(x_m, 0.0, z_m);
         let up = Vector3::new(0.0, -1.0, 0.0);

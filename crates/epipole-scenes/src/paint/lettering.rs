@@ -56,14 +56,14 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Capitals, digits, point and hyphen; anything else leaves a gap.
+    /// Sets a text in capitals, digits, points and hyphens; other characters leave a gap.
     pub(crate) fn new(text: &str) -> Self {
         Self {
             letters: text.chars().map(rows).collect(),
         }
     }
 
-    /// Its width, in heights.
+    /// Returns the width, in heights.
     pub(crate) fn width(&self) -> f32 {
         let columns = (COLUMNS + 1) * self.letters.len() as i32 - 1;
         columns as f32 / ROWS as f32
@@ -84,8 +84,8 @@ impl Line {
         })
     }
 
-    /// How much ink there is at (x, y), from the line's upper left corner, in heights: 0 or 1 with
-    /// soft, rounded edges.
+    /// Returns the ink at (x, y), in heights from the line's upper left corner: 0 or 1 with soft,
+    /// rounded edges.
     pub(crate) fn at(&self, x: f32, y: f32) -> f32 {
         if !(-0.2..=1.2).contains(&y) || x < -0.2 || x > self.width() + 0.2 {
             return 0.0;

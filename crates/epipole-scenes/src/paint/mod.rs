@@ -1,6 +1,6 @@
-//! Painted surfaces. Each function returns a texture that depends on nothing but its arguments.
+//! Painted surfaces. Each function returns a texture that depends only on its arguments.
 //!
-//! Colors are linear, so they look darker as numbers than on the screen: 0.2 is middle gray.
+//! Colors are linear, so numbers are smaller than they look: 0.2 is middle gray.
 
 mod books;
 mod lettering;

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 /// Side of the lattice; the noise repeats with this period.
 const SIDE: usize = 256;
 
-/// The noise from which both scenes are painted.
+/// The noise from which all scenes are painted.
 pub(crate) static NOISE: LazyLock<Noise> = LazyLock::new(|| Noise::new(1859));
 
 /// Value noise: random numbers on an integer lattice, smoothly interpolated.
@@ -16,7 +16,7 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
-    /// Noise that depends on nothing but `seed`.
+    /// Creates noise that depends only on `seed`.
     pub(crate) fn new(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let mut lattice = Box::new([0.0; SIDE * SIDE]);
@@ -26,18 +26,18 @@ impl Noise {
         Self { lattice }
     }
 
-    /// The number at a lattice point, in [−1, 1): white noise.
+    /// Returns the number at a lattice point, in [−1, 1): white noise.
     pub(crate) fn at(&self, x: i32, y: i32) -> f32 {
         self.lattice[(y as usize & (SIDE - 1)) * SIDE + (x as usize & (SIDE - 1))]
     }
 
-    /// Smooth noise in [−1, 1] whose features are about one unit wide.
+    /// Returns smooth noise in [−1, 1] with features about one unit wide.
     #[inline]
     pub(crate) fn value(&self, x: f32, y: f32) -> f32 {
         self.masked(x, y, SIDE - 1, SIDE - 1)
     }
 
-    /// Noise that closes when `s` or `t` grows by 1, with this many features on the way.
+    /// Returns noise with period 1 in `s` and `t`, with these numbers of features per period.
     ///
     /// The numbers of features are powers of two, at most 256.
     #[inline]
@@ -52,7 +52,7 @@ impl Noise {
         )
     }
 
-    /// Called from so many places that copies of it would be a good part of a module.
+    /// Not inlined: it has so many callers that copies would be a good part of a module.
     #[inline(never)]
     fn masked(&self, x: f32, y: f32, mask_x: usize, mask_y: usize) -> f32 {
         let (xi, fx) = split(x);
@@ -61,7 +61,7 @@ impl Noise {
         let (x0, x1) = (xi as usize & mask_x, (xi + 1) as usize & mask_x);
         let row0 = (yi as usize & mask_y) * SIDE;
         let row1 = ((yi + 1) as usize & mask_y) * SIDE;
-        // The masks are already below the side; saying so again spares the bounds checks.
+        // The masks are already below the side; repeating it avoids bounds checks.
         let at = |index: usize| self.lattice[index & (SIDE * SIDE - 1)];
         let a = mix(at(row0 + x0), at(row0 + x1), fx);
         let b = mix(at(row1 + x0), at(row1 + x1), fx);
@@ -94,8 +94,8 @@ impl Noise {
 /// Integer and fractional part, the latter in [0, 1), for |x| < 2²².
 #[inline]
 pub(crate) fn split(x: f32) -> (i32, f32) {
-    // Adding 1.5 · 2²³ leaves no bits for a fraction: the sum is rounded to a whole number, which
-    // sits in its lowest bits. Two additions in place of slow conversions.
+    // Adding 1.5 · 2²³ rounds to an integer in the lowest bits: two additions instead of slow
+    // conversions.
     const SHIFT: f32 = 12_582_912.0;
     let shifted = x + SHIFT;
     let nearest = shifted - SHIFT;
@@ -131,7 +131,7 @@ pub(crate) fn blend(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
     [mix(a[0], b[0], t), mix(a[1], b[1], t), mix(a[2], b[2], t)]
 }
 
-/// A color made `factor` times as bright.
+/// Scales the brightness of a color by `factor`.
 #[inline]
 pub(crate) fn dim(color: [f32; 3], factor: f32) -> [f32; 3] {
     [color[0] * factor, color[1] * factor, color[2] * factor]

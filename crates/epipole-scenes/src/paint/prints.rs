@@ -4,7 +4,7 @@ use super::lettering::Line;
 use super::noise::{Noise, blend, dim, mix, split, step, with_gloss};
 use super::texture::Texture;
 
-/// 1 inside of a shape whose signed distance is `d`, with an edge `soft` wide.
+/// Returns 1 inside of a shape with signed distance `d`, with an edge `soft` wide.
 fn inside(d: f32, soft: f32) -> f32 {
     step(soft, -soft, d)
 }
@@ -40,7 +40,7 @@ pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
             let petals = inside(r - (0.27 + 0.085 * eight), 0.02);
             let hole = inside(r - 0.15, 0.02);
             let eye = inside(r - 0.085, 0.02);
-            // No two prints of a block take the ink alike.
+            // The ink of a block varies from print to print.
             let print = 0.80 + 0.14 * noise.at(column * 3 + 11, row * 5);
             color = blend(color, indigo, petals * (1.0 - hole) * print);
             color = blend(color, rust, eye * print);
@@ -74,7 +74,7 @@ pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
     })
 }
 
-/// The frame around a picture; `None` where the picture itself is seen, else the color.
+/// Returns the color of the frame around a picture; `None` where the picture itself is visible.
 ///
 /// (x, y) and the picture's size are in meters.
 fn frame(
@@ -119,7 +119,7 @@ fn frame(
 /// A framed landscape: hills behind hills, a lake and a low sun.
 pub(crate) fn landscape(noise: &'static Noise, size: [f32; 2]) -> Texture {
     const SIDE: u32 = 256;
-    // The skyline of each ridge, one number a column.
+    // Skyline of each ridge, one value per column.
     let skylines: [Vec<f32>; 5] = std::array::from_fn(|ridge| {
         let depth = ridge as f32 / 4.0;
         let skyline = (0..SIDE).map(|x| {

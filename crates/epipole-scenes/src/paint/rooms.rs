@@ -18,7 +18,7 @@ fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3
     let tone = 0.40 * band + 0.18 * fiber + 0.20 * bend + 0.28;
     let color = blend(light, dark, tone.clamp(0.0, 1.0));
     let color = dim(color, 1.0 - 0.40 * pore);
-    // No two boards are of one tree.
+    // Boards differ in color.
     dim(color, 1.0 + 0.16 * noise.at(board as i32 * 5, 3))
 }
 
@@ -57,7 +57,7 @@ fn oak_tile(
     light: [f32; 3],
     dark: [f32; 3],
 ) -> [f32; 3] {
-    // Another place of the noise for each board; t stays whole, so the tile closes.
+    // A different part of the noise for each board; t stays whole, so the tile closes.
     let (s, t) = (s + 0.37 * board as f32, t + 0.21 * board as f32);
     let bend = noise.octaves_tile(s, t, [16, 2], 2);
     let (_, phase) = split(s * 37.0 + bend * 4.0);
@@ -92,8 +92,8 @@ pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
         let joint_m = within.min(1.0 - within) * width_m / 9.0;
         let mut color = oak_tile(noise, [s, t], board, light, dark);
         color = dim(color, mix(0.35, 1.0, step(0.0, 0.004, joint_m)));
-        // Inlaid squares in two rows, dark and light by turns, as on a measuring rod; a line
-        // across at every meter.
+        // Inlaid squares in two rows, dark and light in alternation, as on a measuring rod, and a
+        // line across at every meter.
         let (decimeter, part) = split(t * 10.0);
         let side = (2.0 * s - 1.0).abs();
         if (0.44..0.49).contains(&side) {
@@ -135,7 +135,7 @@ pub(crate) fn plaster(noise: &'static Noise) -> Texture {
     Texture::paint(512, 512, true, move |s, t| {
         let cloud = noise.octaves_tile(s, t, [4, 4], 4);
         let mut color = blend(pale, deep, step(-0.5, 0.5, cloud));
-        // Relief: the difference of a height between two near places, as raking light shows it.
+        // Relief in raking light: the height difference between two near positions.
         let (u, v) = (s + 0.02 * cloud, t + 0.3 * s);
         let height =
             |u: f32, v: f32| noise.tile(u, v, [32, 64]) + 0.5 * noise.tile(u + 0.4, v, [64, 128]);

@@ -1,20 +1,19 @@
-//! Painted surfaces: textures with smaller copies of themselves for distant views.
+//! Painted surfaces: mipmapped textures.
 //!
-//! A texture is painted when it is first looked at, so that a scene of which only the geometry is
-//! asked costs nothing.
+//! A texture is painted on first use, so that a scene costs nothing if only its geometry is needed.
 
 use super::noise::split;
 use crate::detail::Detail;
 use crate::gradual::Gradual;
 use std::fmt;
 
-/// A sketch of a texture is so many times smaller along each side.
+/// Downscaling factor of a texture's sketch along each side.
 const SKETCH_FACTOR: u32 = 8;
 
-/// Red, green, blue and gloss as they are kept.
+/// Stored red, green, blue and gloss.
 type Texel = [u8; 4];
 
-/// One size of a texture.
+/// One mipmap level.
 #[derive(Debug)]
 struct Level {
     width: i32,
@@ -22,26 +21,26 @@ struct Level {
     texels: Vec<Texel>,
 }
 
-/// A picture on a surface, with its halved copies (Williams 1983, "Pyramidal parametrics").
+/// A mipmapped texture (Williams 1983, "Pyramidal parametrics").
 ///
 /// A texel holds red, green, blue and gloss. Colors are stored as 255 √linear, which is close to
-/// how the eye divides brightness and decodes with one multiplication.
+/// perceived brightness and decodes with one multiplication.
 pub(crate) struct Texture {
     width: u32,
     height: u32,
     paint: Box<dyn Fn(f32, f32) -> [f32; 4] + Send + Sync>,
     levels: Gradual<Painting, Vec<Level>>,
-    /// Painted apart, for drafts: 64 times as fast as the levels, of which it needs none.
+    /// Sketch for drafts, painted separately: 64 times as fast, without needing the levels.
     sketch: Gradual<Painting, Vec<Level>>,
     /// Whether the left edge continues at the right one, as on a mug.
     wraps: bool,
 }
 
 impl Texture {
-    /// Will paint every texel: `paint(s, t)` with s to the right and t down, both in (0, 1), returns
-    /// linear red, green, blue and gloss, each in [0, 1].
+    /// Creates a texture that will be painted by `paint(s, t)`, with s to the right and t down,
+    /// both in (0, 1), and the result linear red, green, blue and gloss, each in [0, 1].
     ///
-    /// Width and height are powers of two, so that every level is an exact half of the last.
+    /// Width and height are powers of two, so that every level is exactly half of the one before.
     pub(crate) fn paint(
         width: u32,
         height: u32,
@@ -59,19 +58,19 @@ impl Texture {
         }
     }
 
-    /// One color everywhere.
+    /// Creates a texture of one color.
     pub(crate) fn plain(color: [f32; 3], gloss: f32) -> Self {
         Self::paint(1, 1, true, move |_, _| {
             [color[0], color[1], color[2], gloss]
         })
     }
 
-    /// Texels across and down at full size.
+    /// Returns the numbers of texels across and down at full size.
     pub(crate) fn size(&self) -> [f32; 2] {
         [self.width as f32, self.height as f32]
     }
 
-    /// Makes so many texels more; false once all are there.
+    /// Computes up to `num_texels` more texels; false once all are there.
     pub(crate) fn advance(&self, detail: Detail, num_texels: usize) -> bool {
         let (levels, size) = self.of(detail);
         levels.advance(num_texels, |part, amount| {
@@ -92,7 +91,7 @@ impl Texture {
         levels.get(|part, amount| painted(part, size, &self.paint, amount))
     }
 
-    /// The levels in this detail, and the size of the largest.
+    /// Returns the levels at this detail, and the size of the largest.
     fn of(&self, detail: Detail) -> (&Gradual<Painting, Vec<Level>>, (u32, u32)) {
         let smaller = |side: u32| (side / SKETCH_FACTOR).max(1);
         match detail {
@@ -101,7 +100,7 @@ impl Texture {
         }
     }
 
-    /// Bytes of all levels.
+    /// Returns the bytes of all levels.
     #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
         self.levels()
@@ -110,9 +109,9 @@ impl Texture {
             .sum()
     }
 
-    /// The color around (s, t), averaged over about `2^lod` texels of the full size.
+    /// Returns the color around (s, t), averaged over about `2^lod` texels of the full size.
     ///
-    /// With `smooth` two levels are mixed, otherwise the nearer one of the sketch is taken.
+    /// With `smooth` two levels are interpolated, otherwise the nearest one of the sketch is taken.
     #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32, lod: f32, smooth: bool) -> [f32; 4] {
         let (levels, lod) = match smooth {
@@ -192,12 +191,12 @@ impl fmt::Debug for Texture {
     }
 }
 
-/// Levels of a texture that are there, and the texels of the next one.
+/// Finished levels of a texture, and the texels of the next one.
 type Painting = (Vec<Level>, Vec<Texel>);
 
-/// Makes some more texels, row by row: the largest level is painted, each further one is half of the
-/// last. With the only texel of the smallest level comes all.
-/// Not generic, and so once in a module, not once for each texture.
+/// Computes more texels, row by row: the largest level is painted, each further one is half of the
+/// one before. Returns all levels once the smallest one is there. Not generic, so that a module has
+/// one copy instead of one per texture.
 fn painted(
     (levels, texels): &mut Painting,
     (width, height): (u32, u32),
@@ -228,12 +227,12 @@ fn painted(
 }
 
 fn encode(color: [f32; 4]) -> Texel {
-    // The cast saturates, so too bright a color becomes the brightest there is.
+    // The cast saturates overexposed colors.
     color.map(|channel| (channel.max(0.0).sqrt() * 255.0 + 0.5) as u8)
 }
 
-/// A texel of the next smaller level, of so many texels across and down: the mean light of those that
-/// it covers.
+/// Returns a texel of the next level, which has `across` × `down` texels: the mean light of the
+/// texels that it covers.
 fn halved(level: &Level, (x, y): (usize, usize), (across, down): (usize, usize)) -> Texel {
     let (width, height) = (level.width as usize, level.height as usize);
     let (step_x, step_y) = (width / across, height / down);
@@ -263,7 +262,7 @@ mod tests {
         })
     }
 
-    /// Light is neither made nor lost from one size to the next.
+    /// Asserts that the mean light is the same at all levels.
     #[test]
     fn every_level_has_the_same_mean_light() {
         let texture = noisy();

@@ -99,7 +99,7 @@ pub(crate) fn jug(
             ink = ink.max(step(0.009, 0.005, (h - line + 0.004 * run).abs()));
         }
         if (0.44..0.64).contains(&h) {
-            // Fishes of two sizes, or what a quick brush makes of them.
+            // Fishes of two sizes, in quick brush strokes.
             let flip = if index & 1 == 0 { 1.0 } else { -1.0 };
             let (px, py) = ((part - 0.5) * flip, (h - 0.54) / 0.20 + 0.10 * flip);
             let body = (px * px * 9.0 + py * py * 30.0).sqrt();

@@ -1,11 +1,11 @@
-//! From linear light to bytes.
+//! Conversion of linear light to bytes.
 
 use std::sync::LazyLock;
 
-/// Turns linear light into bytes: a soft shoulder for the brightest, then the sRGB curve.
+/// Converts linear light to bytes: a soft shoulder for highlights, then the sRGB curve.
 #[derive(Debug)]
 pub(super) struct Film {
-    /// 256 × the encoded value, for light in [0, [`Film::MOST`]).
+    /// 256 times the encoded value, for light in [0, [`Film::MOST`]).
     curve: Vec<u16>,
 }
 
@@ -13,7 +13,7 @@ impl Film {
     const SIZE: usize = 8192;
     const MOST: f32 = 2.5;
 
-    /// The film of every photograph.
+    /// Returns the film of all photographs.
     pub(super) fn shared() -> &'static Self {
         static FILM: LazyLock<Film> = LazyLock::new(Film::new);
         &FILM
@@ -41,7 +41,7 @@ impl Film {
         Self { curve }
     }
 
-    /// The bytes of one pixel. An ordered pattern of less than one step hides banding.
+    /// Returns the bytes of one pixel. Ordered dithering by less than one step hides banding.
     #[inline]
     pub(super) fn develop(&self, color: [f32; 3], x: u32, y: u32) -> [u8; 3] {
         const PATTERN: [u16; 16] = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];

@@ -1,4 +1,4 @@
-//! Photographs of a scene, and what they look like from elsewhere.
+//! Photographs of a scene, and their reprojection.
 
 mod film;
 mod outline;
@@ -9,11 +9,11 @@ mod view;
 
 use image::{ImageBuffer, Luma, RgbImage};
 
-/// How carefully to render.
+/// Quality of rendering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
-    /// One ray a pixel, coarse textures and light: for small pictures while something is dragged. The
-    /// first one takes milliseconds, where the first sharp photograph of a scene takes half a second.
+    /// One ray per pixel, coarse textures and light: for small pictures during a drag. The first
+    /// draft takes milliseconds, the first sharp photograph of a scene half a second.
     Draft,
     /// Smooth edges and textures.
     Full,
@@ -24,13 +24,13 @@ pub enum Sampling {
 pub struct Photograph {
     /// The picture, sRGB.
     pub image: RgbImage,
-    /// Depth along the optical axis at every pixel center, meters; finite everywhere, since a
-    /// room has walls.
+    /// Depth along the optical axis at every pixel center, meters; finite everywhere, since a room
+    /// has walls.
     pub depth_m: ImageBuffer<Luma<f32>, Vec<f32>>,
 }
 
 impl Photograph {
-    /// A black picture at depth 0, to be filled by [`Scene::render_rows`](crate::Scene::render_rows).
+    /// Creates a black picture with depth 0, for [`Scene::render_rows`](crate::Scene::render_rows).
     pub fn blank(width: u32, height: u32) -> Self {
         Self {
             image: RgbImage::new(width, height),

@@ -1,4 +1,4 @@
-//! Where a camera sees bodies, by the boxes around them.
+//! Image regions of bodies, from their bounding boxes.
 
 use crate::scene::{SHADE_M, Scene};
 use crate::things::body::{Body, Placement};
@@ -6,11 +6,11 @@ use epipole::camera::PosedCamera;
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
-/// Depth beyond which things are in front of the camera, meters.
+/// Near plane for bounding boxes, meters.
 const FRONT_M: f64 = 1e-6;
 
-/// Columns and rows between which a body appears, around the corners of its box, and a depth
-/// that is not beyond its nearest point.
+/// Returns the columns and rows of the projected bounding box of a body, and a lower bound of its
+/// depth.
 pub(super) fn outline(
     camera: &PosedCamera,
     body: &Body,
@@ -25,7 +25,7 @@ pub(super) fn outline(
     outline_of_box(camera, &corners)
 }
 
-/// Where the corners of a box with these half sides are from its middle.
+/// Returns the offsets of the corners of a box with these half sides from its center.
 fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
     std::array::from_fn(|corner| {
         let sign = |bit: usize| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -33,7 +33,7 @@ fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
     })
 }
 
-/// The same of a box with these corners in the world.
+/// Returns the same of a box with these corners in the world.
 #[inline(never)]
 fn outline_of_box(
     camera: &PosedCamera,
@@ -54,7 +54,7 @@ fn outline_of_box(
         if a.z >= FRONT_M {
             include(a);
         }
-        // The edges from this corner that cross the plane just in front of the camera.
+        // Edges from this corner that cross the near plane.
         for bit in 0..3 {
             let b = &corners[index ^ (1 << bit)];
             if a.z < FRONT_M && b.z >= FRONT_M {
@@ -63,10 +63,10 @@ fn outline_of_box(
         }
     }
     if low[0] > high[0] {
-        // Nothing of it lies in front of the camera.
+        // Entirely behind the camera.
         return ((1, 0), (1, 0), nearest);
     }
-    // One pixel more for the rays between pixel centers. The casts saturate.
+    // One more pixel for the rays between pixel centers. The casts saturate.
     let range = |i: usize| {
         (
             (low[i].floor() as i64).saturating_sub(1),
@@ -77,8 +77,8 @@ fn outline_of_box(
 }
 
 impl Scene {
-    /// Columns and rows that may show the thing that can be moved, or its shade; no other pixel tells where it is. None
-    /// in a scene without one.
+    /// Returns the columns and rows that may show the movable thing or its shade; all other pixels
+    /// are independent of its position. Empty in a scene without one.
     ///
     /// * `camera`: for a picture of this width and height
     ///
@@ -104,7 +104,7 @@ impl Scene {
         let half = Vector3::new(1.0, 0.0, 1.0) * (0.5 * SHADE_M * placed.scale);
         let shade = corners(&half).map(|offset| placed.foot + offset);
         let (mut columns, mut rows, _) = outline_of_box(camera, &shade);
-        // What is not before the camera has no columns and rows, and joined to others makes them a corner more.
+        // Empty ranges behind the camera must not be joined, since they would add a corner.
         let join = |a: (i64, i64), b: (i64, i64)| (a.0.min(b.0), a.1.max(b.1));
         for body in &movable.bodies {
             let own = outline(camera, body, placed);
@@ -125,7 +125,7 @@ mod tests {
     use epipole::math::random::Random;
     use nalgebra::Isometry3;
 
-    /// Drafts are made anew only there.
+    /// Drafts are only rendered again there.
     #[test]
     fn elsewhere_nothing_changes_when_the_thing_moves() {
         let mut random = Random::new(8);

@@ -1,8 +1,8 @@
-//! Photographs of a scene.
+//! Rendering of photographs.
 //!
-//! One ray a pixel finds the surface; where neighboring pixels see different surfaces, eight more
-//! rays smooth the edge. Textures are already averaged over a pixel's width, so nothing else needs
-//! more rays. A pixel depends on its neighbors' rays alone, never on how the work was divided.
+//! One ray per pixel finds the surface; where neighboring pixels see different surfaces, eight more
+//! rays antialias the edge. Textures are already averaged over a pixel's width, so nothing else
+//! needs more rays. A pixel depends only on its neighbors' rays, never on the division of the work.
 
 use super::film::Film;
 use super::view::{Sample, TILE, View};
@@ -25,16 +25,16 @@ const EDGE_OFFSETS: [(f64, f64); 8] = [
 ];
 
 impl Scene {
-    /// A photograph of the scene with its depth.
+    /// Renders a photograph of the scene with its depth.
     ///
-    /// * `camera`: must stand in the room and not inside an object; its intrinsics are for a
-    ///   picture of `width × height` pixels
+    /// * `camera`: inside the room and outside of objects; its intrinsics are for a picture of
+    ///   `width × height` pixels
     ///
     /// Equal inputs give equal bytes on every platform, with any number of threads.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for no pixels or more than 16 million; [`Error::NotFinite`] or
-    /// [`Error::Degenerate`] for a camera that is nowhere, inside an object or outside of the
+    /// [`Error::Degenerate`] for a camera that is not finite, inside an object or outside of the
     /// room.
     ///
     /// ```
@@ -105,14 +105,14 @@ impl Scene {
         Ok(())
     }
 
-    /// Renders some pixels of a photograph as [`Sampling::Draft`] does, and leaves the others of
-    /// `target` as they are.
+    /// Renders some pixels of a photograph as [`Sampling::Draft`] does; the other pixels of
+    /// `target` stay unchanged.
     ///
     /// * `camera`: for a picture of the target's size
-    /// * `wanted`: for each pixel of the target, row by row, whether it is asked for
+    /// * `wanted`: for each pixel of the target, row by row, whether to render it
     ///
     /// # Errors
-    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the three are not of one size.
+    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the three differ in size.
     pub fn render_draft(
         &self,
         camera: &PosedCamera,
@@ -155,13 +155,13 @@ fn check_size(what: &'static str, first: u32, second: u32) -> Result<()> {
     })
 }
 
-/// Some rows of the picture that is being made.
+/// Rows of a picture in progress.
 struct Band<'a> {
     first: u32,
     rgb: &'a mut [u8],
     depth_m: &'a mut [f32],
-    /// Of each of its pixels, whether it is asked for; all if `None`. Only for drafts, where no pixel
-    /// looks at its neighbors.
+    /// Mask of the pixels to render; all if `None`. Only for drafts, where pixels do not depend on
+    /// their neighbors.
     wanted: Option<&'a [bool]>,
 }
 
@@ -243,7 +243,8 @@ impl View<'_> {
                 band.depth_m[target + column] = sample.depth_m;
                 let mut color = sample.color;
                 if self.sampling == Sampling::Full && is_edge(&samples, width, offset, column) {
-                    // A bright reflection must not outweigh its pixel, so each ray is bounded.
+                    // Each ray is clamped, so that a bright reflection does not outweigh the rest
+                    // of its pixel.
                     let mut sum = [color[0].min(1.5), color[1].min(1.5), color[2].min(1.5)];
                     let list = &lists[column / TILE as usize];
                     for (du, dv) in EDGE_OFFSETS {
@@ -268,7 +269,7 @@ impl View<'_> {
     }
 }
 
-/// Whether a pixel's neighbors see another surface, or the same one folded.
+/// Returns whether a pixel's neighbors see another surface, or the same one folded.
 fn is_edge(samples: &[Sample], width: usize, offset: usize, column: usize) -> bool {
     let at = offset + column;
     let here = &samples[at];
@@ -310,7 +311,7 @@ mod tests {
         })
     }
 
-    /// The picture is part of the contract: natively and in the browser it has these bytes.
+    /// The bytes are part of the contract, natively and in the browser.
     #[test]
     fn bytes_are_pinned() {
         let camera = still_life_camera(96, 72);
@@ -354,7 +355,8 @@ mod tests {
         }
     }
 
-    /// Every pixel's depth is that of a ray cast through all bodies without any shortcuts.
+    /// Asserts that every pixel's depth equals that of a ray cast through all bodies without
+    /// shortcuts.
     #[test]
     fn depth_equals_exact_rays() {
         let scene = Scene::still_life();

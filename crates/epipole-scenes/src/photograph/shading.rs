@@ -4,20 +4,20 @@ use crate::light::{LightMap, Lighting, single};
 use crate::shape::Place;
 use crate::things::body::Body;
 
-/// log₂ of a positive number, within 0.09: linear between powers of two.
+/// Approximates log₂ of a positive number within 0.09: linear between powers of two.
 fn log2(x: f32) -> f32 {
     (x.to_bits() as i32 - (127 << 23)) as f32 * (1.0 / (1 << 23) as f32)
 }
 
-/// What the ray that found a place tells about it.
+/// Inputs of shading from the ray that found a point.
 pub(super) struct Look {
     pub(super) x_in_world: [f32; 3],
     pub(super) direction_in_world: [f32; 3],
-    /// Width of a pixel at this depth, meters of the body as it was built.
+    /// Width of a pixel at this depth, meters in the body's frame at scale 1.
     pub(super) pixel_m: f32,
-    /// Light on the table where a movable thing stands: window and soft.
+    /// Shade factors on the table under a movable thing: window and ambient light.
     pub(super) decal: Option<[f32; 2]>,
-    /// Mix neighboring sizes of a texture.
+    /// Interpolate between texture levels.
     pub(super) smooth: bool,
 }
 
@@ -26,7 +26,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Linear red, green and blue.
+/// Returns linear red, green and blue.
 #[inline]
 pub(super) fn color(
     body: &Body,
@@ -43,8 +43,8 @@ pub(super) fn color(
     let [width, height] = paint.texture.size();
     let texels_per_m = (paint.scale[0].abs() * width * place.per_m[0] as f32)
         .max(paint.scale[1].abs() * height * place.per_m[1] as f32);
-    // A slanted pixel covers more of the surface in one direction: between its two widths. The
-    // logarithm of the square saves the roots.
+    // On a slanted surface a pixel's footprint is longer in one direction: take a width between the
+    // two. The logarithm of the square avoids roots.
     let footprint = texels_per_m * look.pixel_m;
     let lod = 0.5 * log2(footprint * footprint / facing.clamp(0.12, 1.0)) - 0.35;
     let (s, t) = (place.s as f32, place.t as f32);
@@ -94,7 +94,7 @@ pub(super) fn color(
     color
 }
 
-/// What a mirror would show in this direction: a blurred window with its bars, and the room.
+/// Returns the reflection in this direction: a blurred window with its bars, and the room.
 #[inline]
 fn reflection(
     lighting: &Lighting,

@@ -1,4 +1,4 @@
-//! A scene as one camera sees it: which bodies may show where, and what a ray finds.
+//! A scene in one camera: image regions of bodies, and ray tracing.
 
 use super::Sampling;
 use super::outline::outline;
@@ -11,10 +11,10 @@ use crate::things::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
-/// Side of the squares of pixels that share a list of candidates.
+/// Side of the tiles that share a list of candidates, pixels.
 pub(super) const TILE: u32 = 8;
 const NEAR: f64 = 1e-9;
-/// A body as one camera sees it.
+/// A body in the view of a camera.
 struct Seen<'a> {
     body: &'a Body,
     lights: &'a [LightMap],
@@ -25,16 +25,16 @@ struct Seen<'a> {
     /// Pixels that may show it: columns and rows, both ends included.
     columns: (i64, i64),
     rows: (i64, i64),
-    /// The same: left, right, top and bottom.
+    /// The same as left, right, top and bottom.
     edges: [f64; 4],
-    /// No point of it is nearer than this depth; infinite for the room, which is behind all.
+    /// Lower bound of its depth; infinite for the room, which is behind everything.
     nearest: f64,
-    /// Its number in the scene.
+    /// Index in the scene.
     number: usize,
 }
 
 impl Seen<'_> {
-    /// Whether the ray through an image point may meet it.
+    /// Returns whether the ray through an image point may meet it.
     #[inline(always)]
     fn may_be_at(&self, u: f64, v: f64) -> bool {
         let [left, right, top, bottom] = self.edges;
@@ -42,7 +42,7 @@ impl Seen<'_> {
     }
 }
 
-/// What one ray found.
+/// Result of one ray.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sample {
     /// Body and chart.
@@ -52,11 +52,11 @@ pub(super) struct Sample {
     pub(super) color: [f32; 3],
 }
 
-/// The camera's side of a picture that is to be rendered.
+/// View of a picture to render.
 pub(super) struct View<'a> {
     seen: Vec<Seen<'a>>,
     lighting: &'a Lighting,
-    /// Shade of the movable thing, where it stands, and the number of the body it falls on.
+    /// Shade of the movable thing, its placement, and the index of the body under it.
     shade: Option<(&'a Decal, Placement, usize)>,
     center: Vector3<f64>,
     world_from_cam: Matrix3<f64>,
@@ -102,7 +102,7 @@ impl<'a> View<'a> {
                 }
             },
         );
-        // From front to back; the order of bodies decides between equals.
+        // Sort front to back; equal depths keep the order of bodies.
         let mut seen: Vec<Seen> = Vec::new();
         for body in all {
             let is_before = |other: &Seen| other.nearest.total_cmp(&body.nearest).is_le();
@@ -123,7 +123,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// For each tile of a row of tiles, the bodies that it may show.
+    /// Collects, for each tile of a row of tiles, the bodies that it may show.
     pub(super) fn candidates(&self, tile_row: u32, lists: &mut Vec<Vec<u16>>) {
         lists.resize(self.width.div_ceil(TILE) as usize, Vec::new());
         lists.iter_mut().for_each(Vec::clear);
@@ -151,7 +151,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What the ray through an image point finds among the candidates.
+    /// Traces the ray through an image point among the candidates.
     #[inline]
     pub(super) fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
         let x = (u - self.principal.x) * self.inverse_focal.x;
@@ -173,7 +173,7 @@ impl<'a> View<'a> {
             if seen.nearest > nearest.along {
                 break;
             }
-            // A tile shows much that one ray passes by.
+            // A tile has candidates that a single ray misses.
             if !seen.may_be_at(u, v) {
                 continue;
             }
@@ -199,7 +199,7 @@ impl<'a> View<'a> {
         let direction_in_world = turn(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
         let decal = match &self.shade {
-            // Shade lies on what the thing stands on, not on the edges of that.
+            // Shade falls on the top of the thing's support, not on its sides.
             Some((decal, placed, ground)) if *ground == seen.number && place.chart == TOP => {
                 let from_foot = (x_in_world - placed.foot) / placed.scale;
                 decal.sample(from_foot.x, from_foot.z)

@@ -1,4 +1,4 @@
-//! A scene: its bodies, its light, and the one thing in it that may move.
+//! A scene: its bodies, its light, and one movable thing.
 
 mod fixed;
 mod movable;
@@ -14,16 +14,16 @@ use epipole::camera::PosedCamera;
 use epipole::{Error, Result};
 use std::sync::Arc;
 
-/// What one step of [`Scene::prepare`] computes: cells of light maps, or texels.
+/// Number of light cells, or of texels, per step of [`Scene::prepare`].
 const CELLS_PER_STEP: usize = 256;
 const TEXELS_PER_STEP: usize = 4096;
 
 /// A furnished room that can be photographed from anywhere inside.
 ///
-/// Everything static is computed once, for the first sharp photograph or before it by
-/// [`Scene::prepare`]: painted textures with all their smaller sizes, and maps of light with soft
-/// shadows. Drafts have coarser ones of their own, which take a fraction of the time. A clone shares
-/// them all, and costs next to nothing; rays and transfers need only the shapes.
+/// Static parts are computed once, for the first sharp photograph or ahead of it by
+/// [`Scene::prepare`]: mipmapped textures, and light maps with soft shadows. Drafts have their own
+/// coarser ones, which take a fraction of the time. Clones share them at next to no cost; rays and
+/// transfers need only the shapes.
 #[derive(Debug, Clone)]
 pub struct Scene {
     pub(crate) fixed: Arc<Fixed>,
@@ -31,7 +31,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Every body and where it stands.
+    /// Returns every body with its placement.
     pub(crate) fn placed(&self) -> impl Iterator<Item = (&Body, Placement)> {
         let moved = self
             .movable
@@ -44,7 +44,7 @@ impl Scene {
             .chain(moved)
     }
 
-    /// Light on the charts of every body, in the order of [`Scene::placed`].
+    /// Returns the light maps of every body, in the order of [`Scene::placed`].
     pub(crate) fn lights(&self, detail: Detail) -> impl Iterator<Item = &[LightMap]> {
         let moved = self
             .movable
@@ -57,16 +57,16 @@ impl Scene {
             .map(Vec::as_slice)
     }
 
-    /// The shade of the movable thing, where it stands, and the body on which the shade falls.
+    /// Returns the shade of the movable thing, its placement, and the index of the body under it.
     pub(crate) fn shade(&self, detail: Detail) -> Option<(&Decal, Placement, usize)> {
         let (movable, placed) = self.movable.as_ref()?;
         let look = movable.look(&self.fixed.lighting, detail);
         Some((&look.decal, *placed, movable.ground))
     }
 
-    /// Does a few milliseconds of what the first sharp photograph waits for: textures are painted and
-    /// light is computed. False once all of it is there. The photographs are the same with and
-    /// without.
+    /// Does a few milliseconds of the work for the first sharp photograph ahead of time: painting
+    /// textures and computing light. False once all is done. The photographs are the same without
+    /// it.
     ///
     /// ```
     /// use epipole_scenes::Scene;
@@ -78,7 +78,7 @@ impl Scene {
         self.advance(Detail::Full)
     }
 
-    /// The same for the first draft, which has coarser textures and light of its own.
+    /// Does the same for the first draft, which has its own coarser textures and light.
     ///
     /// ```
     /// use epipole_scenes::Scene;
@@ -103,7 +103,7 @@ impl Scene {
         paints.any(|paint| paint.texture.advance(detail, TEXELS_PER_STEP))
     }
 
-    /// Refuses cameras from which no picture can be taken.
+    /// Rejects cameras from which no picture can be taken.
     pub(crate) fn check(&self, camera: &PosedCamera, width: u32, height: u32) -> Result<()> {
         let num_pixels = u64::from(width) * u64::from(height);
         if num_pixels == 0 || num_pixels > 16_000_000 {
@@ -132,7 +132,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Bytes held by textures and light maps, each texture counted once.
+    /// Returns the bytes of textures and light maps, each texture counted once.
     #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
         let mut seen = Vec::new();
@@ -155,7 +155,7 @@ impl Scene {
 mod tests {
     use super::*;
 
-    /// Both scenes stay small enough for a phone.
+    /// Asserts that scenes are small enough for a phone: below 12 MiB each.
     #[test]
     fn textures_and_light_fit_in_memory() {
         let ball = crate::MovableObject {

@@ -1,4 +1,4 @@
-//! The one thing of a scene that can be moved.
+//! The movable thing of a scene.
 
 use super::fixed::Lights;
 use crate::detail::Detail;
@@ -6,28 +6,28 @@ use crate::gradual::Gradual;
 use crate::light::{Baking, Decal, Lighting, Shading};
 use crate::things::body::Body;
 
-/// One thing that moves: its bodies around the origin and the shade it throws.
+/// A movable thing: its bodies around the origin and its shade.
 #[derive(Debug)]
 pub(crate) struct Movable {
     pub(crate) bodies: Vec<Body>,
-    /// What it stands on while its light is computed: the plane y = 0.
+    /// Support while its light is computed: the plane y = 0.
     pub(crate) slab: Body,
-    /// The body of the scene on which the shade falls.
+    /// Index of the scene's body on which the shade falls.
     pub(crate) ground: usize,
     looks: [Gradual<Looking, Look>; 2],
 }
 
-/// A look as far as it is computed.
+/// Partial state of a look.
 type Looking = (Baking, Shading, Option<Decal>);
 
-/// Light on every body and chart of a movable thing, and its shade.
+/// Light maps of a movable thing, and its shade.
 #[derive(Debug)]
 pub(super) struct Look {
     pub(super) lights: Lights,
     pub(super) decal: Decal,
 }
 
-/// Side of the square that the shade of a movable thing covers, meters.
+/// Side of the square that holds the shade of a movable thing, meters.
 pub(crate) const SHADE_M: f64 = 1.1;
 
 impl Movable {

@@ -6,59 +6,57 @@ use crate::things::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use nalgebra::{Point2, Point3, Vector3};
 
-/// A contact closer than this part of a ray is the place it started from.
+/// Smallest ray parameter of a contact; nearer ones are the ray's own starting point.
 const NEAR: f64 = 1e-9;
 
 /// The first surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Where, in the world, meters.
+    /// Position in the world, meters.
     pub point: Point3<f64>,
-    /// Unit normal toward the outside of the surface; on round bodies the smooth one that
-    /// shading uses.
+    /// Unit outward normal; on round bodies the smooth one used for shading.
     pub normal: Vector3<f64>,
-    /// `point = origin + distance_along * direction`. With the direction of
+    /// Ray parameter: `point = origin + distance_along * direction`. With the direction of
     /// [`PosedCamera::ray_in_world`] it is the depth.
     pub distance_along: f64,
-    /// What was hit, such as "the mug".
+    /// Name of the object, such as "the mug".
     pub object: &'static str,
 }
 
-/// Where the surface point seen at a pixel of one camera appears in another.
+/// Visibility in a second camera of the surface point at a pixel of a first one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transfer {
-    /// The second camera sees it. Whether `pixel2` lies inside its picture is for the caller to
-    /// compare: a camera knows no picture size.
+    /// Visible to the second camera. The caller compares `pixel2` with the picture size, which a
+    /// camera does not know.
     Visible {
-        /// Where the second camera sees it.
+        /// Its pixel in the second camera.
         pixel2: Point2<f64>,
-        /// The point.
+        /// The point, world frame, meters.
         x_in_world: Point3<f64>,
     },
-    /// Something stands between it and the second camera, possibly the thing's own other side.
+    /// Hidden from the second camera, possibly by the other side of the same thing.
     Occluded {
-        /// Where the second camera would see it.
+        /// Its pixel in the second camera.
         pixel2: Point2<f64>,
-        /// The point.
+        /// The point, world frame, meters.
         x_in_world: Point3<f64>,
-        /// What stands in the way.
+        /// Name of the occluder.
         by: &'static str,
     },
-    /// It is behind the second camera.
+    /// Behind the second camera.
     BehindCamera {
-        /// The point.
+        /// The point, world frame, meters.
         x_in_world: Point3<f64>,
     },
-    /// The first camera's ray meets nothing, because that camera is not in the room, or the
-    /// pixel is not a finite number.
+    /// No surface: the first camera is outside of the room, or the pixel is not finite.
     Nothing,
 }
 
 impl Scene {
-    /// The first surface that the ray `origin + a direction`, `a > 0`, meets; `None` if the
-    /// origin is outside of the room and the ray misses it, or a number is not finite.
+    /// Casts the ray `origin + a direction`, `a > 0`, to the first surface; `None` if the origin is
+    /// outside of the room and the ray misses it, or a number is not finite.
     ///
-    /// Contacts closer than `10⁻⁹` directions do not count, so a ray may start on a surface.
+    /// Contacts with `a` below `10⁻⁹` are ignored, so a ray may start on a surface.
     ///
     /// ```
     /// use epipole_scenes::Scene;
@@ -98,10 +96,10 @@ impl Scene {
         })
     }
 
-    /// Where the surface point that `cam1` sees at `pixel1` appears in `cam2`, exactly.
+    /// Transfers `pixel1` of `cam1` exactly to `cam2`, by the surface point that it shows.
     ///
-    /// The ray of `pixel1` is followed to the first surface, the point is projected into `cam2`,
-    /// and the ray from there decides whether something hides it.
+    /// The ray of `pixel1` is cast to the first surface, the point is projected into `cam2`, and
+    /// the ray from there determines whether it is hidden.
     ///
     /// ```
     /// use epipole_scenes::{Scene, Transfer, still_life_camera};
@@ -176,7 +174,7 @@ mod tests {
                 let mut point = |reach: f64| Vector3::from_fn(|_, _| random.uniform(-reach, reach));
                 let (origin, direction) = (point(0.8), point(1.0));
                 let ray = Ray { origin, direction };
-                // All shapes, without a look at whether they are aside.
+                // All shapes, without the bounding-sphere test.
                 let contacts = scene.placed().filter_map(|(body, placed)| {
                     let local = body.local_ray(&ray, &placed);
                     let contact = body.shape.meet(&local, NEAR, f64::INFINITY)?;
@@ -195,8 +193,8 @@ mod tests {
         assert!(num_things > 1000, "{num_things}");
     }
 
-    /// Points found by rays obey x2ᵀ F x1 = 0 with F from the cameras, and go back to where they
-    /// came from.
+    /// Asserts that transferred points obey x2ᵀ F x1 = 0 with F from the cameras, and transfer back
+    /// to their origin.
     #[test]
     fn transfers_obey_the_epipolar_constraint() {
         let scene = Scene::still_life();
@@ -243,7 +241,8 @@ mod tests {
         );
     }
 
-    /// The wall behind the jug, seen from the left of it, is hidden from the right.
+    /// Asserts that the wall behind the jug is visible from the left of it and hidden from the
+    /// right.
     #[test]
     fn the_jug_hides_the_wall() {
         let scene = Scene::still_life();

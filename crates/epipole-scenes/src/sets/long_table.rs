@@ -1,4 +1,4 @@
-//! The long table: a hall with one thing that can be moved, for measuring depth.
+//! The long table: a hall with one movable thing, for measuring depth.
 
 use crate::light::Lighting;
 use crate::paint;
@@ -20,7 +20,7 @@ const HALL_SIZE: [f64; 3] = [5.6, 3.3, 14.0];
 /// The table's top is the first body of the scene.
 const TABLE_TOP: usize = 0;
 
-/// Which thing stands on the long table.
+/// Kind of thing on the long table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MovableKind {
     /// A large mug, 20 cm high and 16 cm wide without its handle.
@@ -29,31 +29,32 @@ pub enum MovableKind {
     Ball,
 }
 
-/// The thing on the long table and where it stands.
+/// The movable thing and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovableObject {
-    /// What it is.
+    /// Kind of thing.
     pub kind: MovableKind,
-    /// Sideways place of its axis, meters, positive to the right, in [−0.8, 0.8]. The lane
-    /// |x| ≤ 0.35 is free of other things.
+    /// Sideways position of its axis, meters, positive to the right, in [−0.8, 0.8]. The lane |x| ≤
+    /// 0.35 is free of other things.
     pub x_m: f64,
     /// Depth of its axis from the first camera, meters, in [0.6, 11].
     pub z_m: f64,
 }
 
 impl Scene {
-    /// A hall with a table of eleven meters, marked every decimeter, and one thing that stands on
-    /// it at a given place.
+    /// Returns a hall with a table of eleven meters, marked every decimeter, and one movable thing
+    /// on it.
     ///
-    /// The world's origin is the center of [`long_table_camera`](crate::long_table_camera)`(0.0, …)`: x right, y down, z
-    /// along the table, meters. The table's top is y = 0.25, from z = 0.35 to 11.35, its meters
-    /// numbered; the wall behind is z = 12.
+    /// The world's origin is the center of
+    /// [`long_table_camera`](crate::long_table_camera)`(0.0, …)`: x right, y down, z along the
+    /// table, meters. The table's top is y = 0.25, from z = 0.35 to 11.35, its meters numbered; the
+    /// wall behind is z = 12.
     ///
     /// Only the first photograph of each kind of thing computes textures and light; moving the
-    /// thing is free, its shade moves along.
+    /// thing is free, and its shade moves with it.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] or [`Error::OutOfRange`] for a place that is not on the table.
+    /// [`Error::NotFinite`] or [`Error::OutOfRange`] for a position that is not on the table.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -111,7 +112,7 @@ fn build_hall() -> Fixed {
     Fixed::new(bodies, lighting())
 }
 
-/// The thing at the origin of the plane y = 0, lit as on the table.
+/// Builds the thing at the origin of the plane y = 0, lit as on the table.
 fn build_movable(kind: MovableKind) -> Movable {
     let wares = Wares::shared();
     let bodies = match kind {
@@ -121,7 +122,7 @@ fn build_movable(kind: MovableKind) -> Movable {
     Movable::new(bodies, wares.slab(TABLE_WIDTH, 4.0), TABLE_TOP)
 }
 
-/// The table with its numbered meters; its top comes first.
+/// Builds the table with its numbered meters; its top comes first.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let name = "the table";
@@ -172,7 +173,7 @@ fn table() -> Vec<Body> {
     bodies
 }
 
-/// The hall around the table, with windows on the left and pictures on the other walls.
+/// Builds the hall around the table, with windows on the left and pictures on the other walls.
 fn hall() -> Vec<Body> {
     let wares = Wares::shared();
     let size = Vector3::from(HALL_SIZE);
@@ -229,7 +230,7 @@ fn hall() -> Vec<Body> {
     bodies
 }
 
-/// What stands still on the table, left and right of the free lane.
+/// Builds the static things on the table, left and right of the free lane.
 fn props() -> Vec<Body> {
     let wares = Wares::shared();
     let mut bodies = Vec::new();
@@ -274,7 +275,7 @@ mod tests {
         MovableObject { kind, x_m, z_m }
     }
 
-    /// Depth and disparity obey Z = f B / d for the front of the ball.
+    /// Asserts Z = f B / d for the front of the ball.
     #[test]
     fn disparity_follows_depth() {
         let left = long_table_camera(0.0, 640, 480).unwrap();
@@ -290,7 +291,7 @@ mod tests {
             assert!((pixel1.y - pixel2.y).abs() < 1e-9);
             let depth_m = 700.0 * 0.12 / (pixel1.x - pixel2.x);
             assert!((depth_m - x_in_world.z).abs() < 1e-9);
-            // The turned profile has facets of 7.5°, so it is within 0.3 mm of a sphere.
+            // The lathed profile has facets of 7.5°, so it is within 0.3 mm of a sphere.
             assert!((depth_m - front.z).abs() < 1.5e-3, "{depth_m}");
         }
     }
@@ -307,14 +308,14 @@ mod tests {
         let (here, there) = (render(-0.2), render(0.2));
         assert!(here != there);
         for (u, v, pixel) in here.image.enumerate_pixels() {
-            // Its shade reaches 0.55 m from its foot, onto the table only.
+            // Its shade reaches 0.55 m from its foot, only on the table.
             if !(60..92).contains(&v) {
                 assert_eq!(pixel, there.image.get_pixel(u, v), "{u} {v}");
             }
         }
     }
 
-    /// The thing darkens the table beside it, on the side away from the light.
+    /// Asserts that the thing darkens the table on the side away from the light.
     #[test]
     fn the_thing_has_a_shadow() {
         let camera = long_table_camera(0.0, 320, 240).unwrap();

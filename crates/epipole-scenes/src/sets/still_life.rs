@@ -11,7 +11,7 @@ use crate::things::wares::{
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
-/// The room: middle and sides, meters. The table's top is y = 0.
+/// The room: center and sides, meters. The table's top is y = 0.
 const ROOM_CENTER: [f64; 3] = [0.1, -0.6, -1.1];
 const ROOM_SIZE: [f64; 3] = [3.6, 2.7, 4.3];
 const BACK_WALL_Z: f64 = ROOM_CENTER[2] + ROOM_SIZE[2] / 2.0;
@@ -19,13 +19,13 @@ const LEFT_WALL_X: f64 = ROOM_CENTER[0] - ROOM_SIZE[0] / 2.0;
 const RIGHT_WALL_X: f64 = ROOM_CENTER[0] + ROOM_SIZE[0] / 2.0;
 
 impl Scene {
-    /// A mug of coffee, books, fruit, a jug and a tea tin on a printed cloth, on a wooden table
-    /// by a window; pictures on a plastered wall.
+    /// Returns a table by a window with a mug of coffee, books, fruit, a jug and a tea tin on a
+    /// printed cloth; pictures on a plastered wall.
     ///
-    /// The world's origin is on the table's top in the middle of the things; x points right,
-    /// y **down** and z away from the viewer of [`still_life_camera`](crate::still_life_camera), meters. The room reaches
-    /// from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05; every camera inside of it
-    /// (and outside of the things) gets a photograph without holes.
+    /// The world's origin is on the table's top in the middle of the things; x points right, y
+    /// **down** and z away from the viewer of [`still_life_camera`](crate::still_life_camera),
+    /// meters. The room reaches from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05;
+    /// every camera inside (and outside of the things) gets a photograph without holes.
     ///
     /// The first photograph paints the textures and computes the light; later ones share them.
     ///
@@ -72,7 +72,7 @@ fn build() -> Scene {
     }
 }
 
-/// Walls, floor, window and pictures.
+/// Builds walls, floor, window and pictures.
 fn room() -> Vec<Body> {
     let wares = Wares::shared();
     let wall = |width_m: f64, shift: f32| {
@@ -116,7 +116,7 @@ fn room() -> Vec<Body> {
     ]
 }
 
-/// The table, its apron and legs.
+/// Builds the table, its apron and legs.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let (width, depth, thick) = (1.9, 1.16, 0.036);
@@ -140,7 +140,7 @@ fn table() -> Vec<Body> {
         )
         .painted(TOP, &Paint::new(&top).glossy(0.55).lit(148, 90)),
     ];
-    // The apron is four boards rather than one block: the rays to the top then need not ask it.
+    // The apron is four boards instead of one block, so that rays to the top miss it early.
     for side in [-1.0, 1.0] {
         let (x, y) = (side * (width / 2.0 - 0.09), thick + 0.045);
         bodies.push(cuboid(
@@ -168,7 +168,7 @@ fn table() -> Vec<Body> {
     bodies
 }
 
-/// What stands and lies on the table.
+/// Builds the things on the table.
 fn things() -> Vec<Body> {
     let wares = Wares::shared();
     let (cloth_width, cloth_depth, cloth_m) = (0.70, 0.50, 0.0016);

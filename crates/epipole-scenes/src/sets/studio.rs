@@ -1,4 +1,4 @@
-//! The studio: one mug that grows with its distance, so that a camera at table height cannot tell.
+//! The studio: a mug that grows with its distance, ambiguous for a camera at table height.
 
 use crate::light::Lighting;
 use crate::paint;
@@ -12,7 +12,7 @@ use epipole::{Error, Result};
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
-/// The table's top is y = 0: a camera at the origin sees it edge on, and only its front.
+/// The table's top is y = 0: a camera at the origin sees it edge-on, and only its front.
 const TABLE_WIDTH: f64 = 1.5;
 const TABLE_NEAR_Z: f64 = 0.4;
 const TABLE_FAR_Z: f64 = 3.4;
@@ -26,19 +26,19 @@ const FLOOR_Y: f64 = ROOM_CENTER[1] + ROOM_SIZE[1] / 2.0;
 const TABLE_TOP: usize = 0;
 
 impl Scene {
-    /// A mug on a long table in even light, at any distance and of any size.
+    /// Returns a room with a mug on a long table in even light, at any distance and of any size.
     ///
-    /// * `foot_m`: where the middle of its foot stands on the table's top, x to the right and z away,
+    /// * `foot_m`: position of its foot's center on the table's top, x to the right and z away,
     ///   meters; z in [0.4, 3.4] and |x| ≤ 0.7
-    /// * `height_m`: its height, in [0.05, 1]
+    /// * `height_m`: its height, meters, in [0.05, 1]
     ///
     /// The world's origin lies in the plane of the table's top, y = 0, in front of its near edge at
     /// z = 0.4; x points right, y **down** and z along the table, meters. The room reaches from
     /// x = −1.7 to 3.1, y = −1.9 to 0.8 and z = −1.2 to 4.4.
     ///
-    /// A mug whose foot and height grow by one factor is the same mug scaled about the origin. So a
-    /// camera there takes the same photograph, whatever the factor: the table's top, its shadow on it
-    /// and everything that would tell are seen edge on.
+    /// Scaling foot and height by one factor scales the mug about the origin. So a camera there
+    /// takes the same photograph for every factor: the table's top and the shadow on it are seen
+    /// edge-on.
     ///
     /// Only the first photograph computes textures and light.
     ///
@@ -94,26 +94,26 @@ impl Scene {
     }
 }
 
-/// Light from so far away that it is the same everywhere, also in the glaze of the mug.
+/// Light from so far away that it is uniform, even in the glaze of the mug.
 fn lighting() -> Lighting {
     Lighting::even([-0.55, -0.70, -0.46], 1e6, 0.12, [1.20, 1.13, 1.00])
 }
 
-/// The mug at the origin of the plane y = 0, with the shade that it throws on the table.
+/// Builds the mug at the origin of the plane y = 0, with its shade on the table.
 fn build_mug() -> Movable {
     let wares = Wares::shared();
     let slab = wares.slab(TABLE_WIDTH, 3.0);
     Movable::new(wares.mug([0.0; 3], -0.5, 1.0), slab, TABLE_TOP)
 }
 
-/// Everything that stands still; the table's top comes first.
+/// Builds the static bodies; the table's top comes first.
 fn build_room() -> Fixed {
     let mut bodies = table();
     bodies.extend(walls());
     Fixed::new(bodies, lighting())
 }
 
-/// The table, a cloth that hangs down in front, and a number at every meter.
+/// Builds the table, a cloth that hangs down in front, and a number at every meter.
 fn table() -> Vec<Body> {
     let wares = Wares::shared();
     let name = "the table";
@@ -166,7 +166,7 @@ fn table() -> Vec<Body> {
     bodies
 }
 
-/// The room, with pictures on the walls that cameras look at.
+/// Builds the room, with pictures on the visible walls.
 fn walls() -> Vec<Body> {
     let wares = Wares::shared();
     let size = Vector3::from(ROOM_SIZE);
@@ -219,12 +219,12 @@ mod tests {
         }
     }
 
-    /// The mug at this distance that is a fifth of it tall.
+    /// Returns a scene with the mug at this distance, a fifth of it tall.
     fn grown(z_m: f64) -> Scene {
         Scene::studio([0.1 * z_m, z_m], 0.2 * z_m).unwrap()
     }
 
-    /// Not nearly one: one, byte for byte.
+    /// Asserts identical bytes for all distances.
     #[test]
     fn a_mug_that_grows_with_its_distance_makes_one_photograph() {
         let camera = camera1(320, 240);
@@ -239,7 +239,7 @@ mod tests {
         }
     }
 
-    /// Place or size alone changes it, so the test above can fail.
+    /// Asserts that moving or growing alone changes the photograph, so the test above can fail.
     #[test]
     fn a_mug_that_only_moves_or_only_grows_changes_the_photograph() {
         let camera = camera1(160, 120);
@@ -255,7 +255,7 @@ mod tests {
         }
     }
 
-    /// The axis of a mug is seen as tall as f H / Z.
+    /// Asserts that the axis of a mug appears f H / Z tall.
     #[test]
     fn heights_are_seen_as_by_similar_triangles() {
         let camera = camera1(640, 480);
@@ -266,7 +266,7 @@ mod tests {
         });
         assert!((rows[0] - rows[1] - 800.0 * height_m / z_m).abs() < 1e-9);
         let scene = Scene::studio([0.2, z_m], height_m).unwrap();
-        // Just within the rim and just above it, in the middle of the mug.
+        // Just within the rim and just above it, at the mug's center.
         let meets = |y: f64| {
             let ray = Vector3::new(0.2, y, z_m);
             scene

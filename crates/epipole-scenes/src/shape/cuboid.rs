@@ -1,9 +1,9 @@
-//! Boxes, and rooms seen from within.
+//! Boxes, and rooms seen from inside.
 
 use super::ray::{Contact, Place, Ray};
 use nalgebra::Vector3;
 
-/// The six faces: part and chart number of a [`Cuboid`], as seen along +z with y down.
+/// The six faces, as part and chart numbers of a [`Cuboid`], seen along +z with y down.
 pub(crate) const LEFT: usize = 0;
 /// The face at +x.
 pub(crate) const RIGHT: usize = 1;
@@ -16,17 +16,17 @@ pub(crate) const FRONT: usize = 4;
 /// The face at +z.
 pub(crate) const BACK: usize = 5;
 
-/// A box around the origin, or a room of that form.
+/// A box around the origin, or a box-shaped room.
 #[derive(Debug)]
 pub(crate) struct Cuboid {
     half: Vector3<f64>,
-    /// One over the whole sides.
+    /// Inverse side lengths, 1/m.
     inverse: Vector3<f64>,
     room: bool,
 }
 
 impl Cuboid {
-    /// A solid box with these sides.
+    /// Creates a solid box with these sides.
     pub(crate) fn solid(width_m: f64, height_m: f64, depth_m: f64) -> Self {
         Self {
             half: Vector3::new(width_m, height_m, depth_m) / 2.0,
@@ -35,7 +35,7 @@ impl Cuboid {
         }
     }
 
-    /// An empty box: rays inside meet its walls.
+    /// Creates an empty box: rays inside meet its walls.
     pub(crate) fn room(width_m: f64, height_m: f64, depth_m: f64) -> Self {
         Self {
             room: true,
@@ -43,12 +43,13 @@ impl Cuboid {
         }
     }
 
-    /// Whether it is an empty room rather than a solid.
+    /// Returns whether it is an empty room instead of a solid.
     pub(crate) fn is_room(&self) -> bool {
         self.room
     }
 
-    /// Slabs (Kay & Kajiya 1986): the ray is inside where it is inside all three pairs of planes.
+    /// Intersects by slabs (Kay & Kajiya 1986): the ray is inside where it is between all three
+    /// pairs of planes.
     #[inline(always)]
     pub(super) fn meet(&self, ray: &Ray, near: f64, far: f64) -> Option<Contact> {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -59,7 +60,7 @@ impl Cuboid {
             let negative = inverse < 0.0;
             let (first, last) = if negative { (high, low) } else { (low, high) };
             let part = part + u32::from(negative);
-            // A ray inside a slab's plane gives NaN, and every comparison with it is false.
+            // A ray within a slab's plane gives NaN, which fails every comparison.
             if first > enter {
                 enter = first;
                 enter_part = part;
@@ -85,10 +86,10 @@ impl Cuboid {
         (along > near && along < far).then_some(Contact { along, part })
     }
 
-    /// The directions of growing s and t on a face, and the two half sides.
+    /// Returns the directions of increasing s and t on a face, and the two half sides.
     #[inline]
     fn axes(&self, face: usize) -> (usize, f64, usize, f64) {
-        // Each face is upright for who looks at it: a wall of a room from the other side.
+        // Each face is upright for its viewer: a room's wall from the other side.
         match face ^ usize::from(self.room) {
             LEFT => (2, -1.0, 1, 1.0),
             RIGHT => (2, 1.0, 1, 1.0),

@@ -16,13 +16,13 @@ struct Segment {
     high: f64,
     normal_start: Vector2<f64>,
     normal_end: Vector2<f64>,
-    /// Length of the profile up to the start, and of the segment, as parts of the whole.
+    /// Length of the profile up to the start, and of the segment, as fractions of the whole.
     before: f64,
     share: f64,
 }
 
-/// A turned body. Its axis is vertical, height is −y, and (s, t) are the turn about the axis and
-/// the length along the profile.
+/// A turned body. Its axis is vertical, height is −y, and (s, t) are the angle about the axis in
+/// turns and the fraction of the profile's length.
 #[derive(Debug)]
 pub(crate) struct Lathe {
     segments: Vec<Segment>,
@@ -50,7 +50,7 @@ impl Lathe {
         let last = normals.len() - 1;
         let at_vertex = |vertex: usize, own: usize| {
             if vertex == 0 || vertex > last {
-                // On the axis a smooth body is level.
+                // On the axis the normal of a smooth body is vertical.
                 let level = Vector2::new(0.0, normals[own].y.signum());
                 return if sharp[vertex] { normals[own] } else { level };
             }
@@ -92,7 +92,7 @@ impl Lathe {
         }
     }
 
-    /// Radius and height at a share `t` of the profile's length.
+    /// Returns radius and height at a fraction `t` of the profile's length.
     pub(crate) fn profile_at(&self, t: f64) -> Vector2<f64> {
         let segment = self.segment_at(t);
         let part = ((t - segment.before) / segment.share).clamp(0.0, 1.0);
@@ -123,7 +123,7 @@ impl Lathe {
         if a > 0.0 {
             let root = discriminant.sqrt();
             let inverse = 1.0 / a;
-            // A hair more, so that rounding cannot cut the widest segment off.
+            // A small slack, so that rounding cannot cut off the widest segment.
             let slack = 1e-9 * root * inverse;
             first = first.max((-b - root) * inverse - slack);
             last = last.min((-b + root) * inverse + slack);
@@ -172,7 +172,7 @@ impl Lathe {
             if discriminant < 0.0 {
                 continue;
             }
-            // Without cancellation: one root from −b ∓ √, the other from their product.
+            // Avoid cancellation: one root from −b ∓ √, the other from their product.
             let q = -(qb + if qb < 0.0 { -1.0 } else { 1.0 } * discriminant.sqrt());
             for along in [q / qa, qc / q] {
                 if along > near && along < best.along {
@@ -209,7 +209,7 @@ impl Lathe {
             s: turns(point.x, point.z),
             t: segment.before + segment.share * share,
             normal: Vector3::new(flat.x * cos, -flat.y, flat.x * sin),
-            // Near the axis s turns ever faster; blurring for it would blur t as well.
+            // Near the axis s changes ever faster; filtering for it would blur t as well.
             per_m: [
                 1.0 / (std::f64::consts::TAU * radius.max(0.25 * self.radius)),
                 1.0 / self.length,

@@ -1,7 +1,7 @@
-//! Bodies whose surface a ray meets in closed form or by a convergent iteration.
+//! Shapes with a closed-form or convergent iterative ray intersection.
 //!
-//! Each shape lives in its own frame, x right, y **down**, z forward like the world, and carries
-//! charts: maps of its surface by (s, t) in [0, 1]², on which pictures and light are painted.
+//! Each shape has its own frame, x right, y **down**, z forward like the world, and charts: maps of
+//! its surface by (s, t) in [0, 1]² for textures and light maps.
 
 mod cuboid;
 mod lathe;
@@ -25,7 +25,7 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
-    /// The first contact with `near < along < far`.
+    /// Returns the first contact with `near < along < far`.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray, near: f64, far: f64) -> Option<Contact> {
         match self {
@@ -35,7 +35,7 @@ impl Shape {
         }
     }
 
-    /// Chart, coordinates and normal of a point that [`Shape::meet`] found.
+    /// Returns chart, coordinates and normal of a point found by [`Shape::meet`].
     #[inline]
     pub(crate) fn place(&self, point: &Vector3<f64>, part: u32) -> Place {
         match self {
@@ -45,7 +45,7 @@ impl Shape {
         }
     }
 
-    /// The point of a chart and its outward normal: the inverse of [`Shape::place`].
+    /// Returns the point of a chart and its outward normal: the inverse of [`Shape::place`].
     pub(crate) fn point(&self, chart: usize, s: f64, t: f64) -> (Vector3<f64>, Vector3<f64>) {
         match self {
             Self::Cuboid(shape) => shape.point(chart, s, t),
@@ -61,7 +61,7 @@ impl Shape {
         }
     }
 
-    /// Whether a point lies in the solid; for a room, whether it lies in the walls or beyond.
+    /// Returns whether a point is in the solid; for a room, whether it is in the walls or beyond.
     pub(crate) fn contains(&self, point: &Vector3<f64>) -> bool {
         match self {
             Self::Cuboid(shape) => shape.contains(point),
@@ -70,7 +70,7 @@ impl Shape {
         }
     }
 
-    /// Half the sides of a box around the shape, and the box's center.
+    /// Returns half the sides of a bounding box, and its center.
     pub(crate) fn bounds(&self) -> (Vector3<f64>, Vector3<f64>) {
         match self {
             Self::Cuboid(shape) => shape.bounds(),
@@ -103,8 +103,8 @@ mod tests {
         ]
     }
 
-    /// Rays aimed at random points: the contact lies on the surface, its place maps back to it,
-    /// and the normal faces the ray's origin.
+    /// Asserts for rays to random points that the contact is on the surface, its place maps back to
+    /// it, and the normal faces the ray's origin.
     #[test]
     fn contacts_lie_on_the_charts() {
         let mut random = Random::new(9);

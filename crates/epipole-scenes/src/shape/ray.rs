@@ -1,4 +1,4 @@
-//! Rays, and the places where they meet shapes.
+//! Rays, and their contacts with shapes.
 
 use nalgebra::Vector3;
 
@@ -15,12 +15,12 @@ impl Ray {
     }
 }
 
-/// Where a ray meets a shape.
+/// Contact of a ray with a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
-    /// In multiples of the ray's direction.
+    /// Ray parameter, in multiples of the ray's direction.
     pub(crate) along: f64,
-    /// Which face or segment of the shape; only the shape itself reads it.
+    /// Index of the face or segment, private to the shape.
     pub(crate) part: u32,
 }
 
@@ -30,14 +30,14 @@ pub(crate) struct Place {
     pub(crate) chart: usize,
     pub(crate) s: f64,
     pub(crate) t: f64,
-    /// Unit, outward.
+    /// Unit outward normal.
     pub(crate) normal: Vector3<f64>,
-    /// How much s and t grow per meter here.
+    /// Derivatives of s and t, per meter.
     pub(crate) per_m: [f64; 2],
 }
 
-/// The angle of (x, y) in turns, in [0, 1), to about 2·10⁻⁶ of a turn: enough to find a texel, and
-/// several times faster than an exact arc tangent.
+/// Returns the angle of (x, y) in turns, in [0, 1), to about 2·10⁻⁶ of a turn: enough for a texel,
+/// and several times faster than an exact arc tangent.
 pub(crate) fn turns(x: f64, y: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());
     let (large, small) = if ax > ay { (ax, ay) } else { (ay, ax) };

@@ -1,4 +1,4 @@
-//! The handle of a mug: a torus, stretched, of which the mug hides one side.
+//! The handle of a mug: a stretched torus with one side hidden in the mug.
 
 use super::ray::{Contact, Place, Ray, turns};
 use epipole::math::length;
@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 /// A torus around the z axis, stretched along y and z and cut at a plane x = const.
 #[derive(Debug)]
 pub(crate) struct Ring {
-    /// From the center to the middle of the tube, and the tube's radius.
+    /// Distance from the center to the middle of the tube, and the tube's radius.
     major: f64,
     minor: f64,
     /// Stretch along x, y and z.
     stretch: Vector3<f64>,
-    /// Only the part with x above this exists.
+    /// Lower bound of x; the rest is cut off.
     cut_x: f64,
 }
 
@@ -39,8 +39,8 @@ impl Ring {
         )
     }
 
-    /// Steps no longer than the distance to the surface never cross it (Hart 1996, "Sphere
-    /// tracing"); Newton's iteration then ends exactly on it.
+    /// Sphere tracing: steps no longer than the distance never cross the surface (Hart 1996);
+    /// Newton's iteration then converges to it.
     pub(super) fn meet(&self, ray: &Ray, near: f64, far: f64) -> Option<Contact> {
         let (half, center) = self.bounds();
         let (mut first, mut last) = (near, far);
@@ -86,7 +86,7 @@ impl Ring {
                         part: 0,
                     });
                 }
-                // A near miss: go on behind the point of closest approach.
+                // A near miss: continue behind the point of closest approach.
                 along += 2e-5 * inverse_speed;
             } else {
                 along += distance * inverse_speed;

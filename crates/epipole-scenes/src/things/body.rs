@@ -1,4 +1,4 @@
-//! Things in a room: a shape, where it stands, and what is painted on it.
+//! Things in a room: shape, placement and paint.
 
 use super::proxy::Proxy;
 use crate::paint::texture::Texture;
@@ -6,7 +6,7 @@ use crate::shape::{Contact, Cuboid, Ray, Shape};
 use nalgebra::{Matrix3, Point3, Vector3};
 use std::sync::Arc;
 
-/// What one chart of a shape looks like.
+/// Appearance of one chart of a shape.
 #[derive(Debug, Clone)]
 pub(crate) struct Paint {
     pub(crate) texture: Arc<Texture>,
@@ -14,15 +14,15 @@ pub(crate) struct Paint {
     pub(crate) scale: [f32; 2],
     pub(crate) offset: [f32; 2],
     pub(crate) tint: [f32; 3],
-    /// Strength of reflections, 0 for matte things; the texture's fourth channel modulates it.
+    /// Strength of reflections, 0 for matte things, modulated by the texture's fourth channel.
     pub(crate) gloss: f32,
-    /// Light of its own, as from a window pane.
+    /// Emitted light, as from a window pane.
     pub(crate) glow: f32,
     /// Cells of the light map across and down.
     pub(crate) light_cells: [usize; 2],
 }
 
-// Scenes are put together once, by a hundred of these calls, so what a call takes does not count: inlined, they are 8 KB.
+// Not inlined: scenes are built once, by a hundred of these calls, and inlining would cost 8 KB.
 impl Paint {
     #[inline(never)]
     pub(crate) fn new(texture: &Arc<Texture>) -> Self {
@@ -74,27 +74,27 @@ impl Paint {
     }
 }
 
-/// Where a body stands now: moved, and larger or smaller than it was built.
+/// Placement of a body: moved and scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Placement {
-    /// The origin around which it was built, in the world.
+    /// World position of the body's modeling origin.
     pub(crate) foot: Vector3<f64>,
     pub(crate) scale: f64,
 }
 
 impl Placement {
-    /// As it was built.
+    /// Returns the placement as modeled.
     pub(crate) fn as_built() -> Self {
         Self::at(Vector3::zeros())
     }
 
-    /// Moved only.
+    /// Returns a placement that is only moved.
     pub(crate) fn at(foot: Vector3<f64>) -> Self {
         Self { foot, scale: 1.0 }
     }
 }
 
-/// A thing: its surface is found by rays and colored from its paints and light maps.
+/// A thing: a shape for rays, with paints and light maps.
 #[derive(Debug)]
 pub(crate) struct Body {
     pub(crate) name: &'static str,
@@ -102,19 +102,19 @@ pub(crate) struct Body {
     pub(crate) local_from_world: Matrix3<f64>,
     /// The origin of its own frame, in the world.
     pub(crate) center: Vector3<f64>,
-    /// No point of it is farther from there than this, meters.
+    /// Radius around `center` that contains the body, meters.
     reach_m: f64,
-    /// One per chart of the shape.
+    /// Paints by chart of the shape.
     pub(crate) paints: Vec<Paint>,
-    /// Simple stand-ins that darken their surroundings.
+    /// Simplified shapes for the shade around it.
     pub(crate) proxies: Vec<Proxy>,
-    /// Whether it can shade itself: hollow things do, convex ones need no test.
+    /// Whether it can shade itself: hollow things can, convex ones cannot.
     pub(crate) hollow: bool,
 }
 
-// Not inlined, as those of `Paint` are not.
+// Not inlined, for the same reason as those of `Paint`.
 impl Body {
-    /// A thing standing upright at a place, painted the same all over.
+    /// Creates an upright thing at a position, with one paint.
     #[inline(never)]
     pub(crate) fn new(name: &'static str, shape: Shape, center: [f64; 3], paint: &Paint) -> Self {
         let paints = vec![paint.clone(); shape.num_charts()];
@@ -131,7 +131,7 @@ impl Body {
         }
     }
 
-    /// A box with these sides, in meters.
+    /// Creates a box with these sides, meters.
     #[inline(never)]
     pub(crate) fn cuboid(
         name: &'static str,
@@ -143,7 +143,7 @@ impl Body {
         Self::new(name, shape, center, paint)
     }
 
-    /// The room around everything, its own stand-in.
+    /// Creates the room around everything, which is its own proxy.
     #[inline(never)]
     pub(crate) fn room([width, height, depth]: [f64; 3], center: [f64; 3], paint: &Paint) -> Self {
         let shape = Shape::Cuboid(Cuboid::room(width, height, depth));
@@ -155,12 +155,12 @@ impl Body {
         room
     }
 
-    /// Turned about the vertical axis; positive turns x toward z.
+    /// Rotates about the vertical axis; positive turns x toward z.
     pub(crate) fn turned(self, yaw_rad: f64) -> Self {
         self.rotated(yaw_rad, 0.0)
     }
 
-    /// Tipped over about its own z axis, then turned about the vertical one.
+    /// Tips over about its own z axis, then rotates about the vertical one.
     #[inline(never)]
     #[rustfmt::skip]
     pub(crate) fn rotated(mut self, yaw_rad: f64, tip_rad: f64) -> Self {
@@ -192,7 +192,7 @@ impl Body {
         self
     }
 
-    /// Its own box is its stand-in.
+    /// Makes its own box its proxy.
     #[inline(never)]
     pub(crate) fn boxed(mut self) -> Self {
         let (half, center) = self.shape.bounds();
@@ -204,7 +204,7 @@ impl Body {
         self
     }
 
-    /// These are its stand-ins, given relative to its center.
+    /// Sets its proxies, given relative to its center.
     #[inline(never)]
     pub(crate) fn standing_for(mut self, proxies: &[Proxy]) -> Self {
         self.proxies = proxies
@@ -214,22 +214,22 @@ impl Body {
         self
     }
 
-    /// A point of the world in the frame of this body. Whatever its size, the frame is that of the
-    /// body as it was built, so equal views are computed from equal numbers.
+    /// Transforms a point from the world to the frame of this body. The frame does not scale with
+    /// the placement, so equal views are computed from equal numbers.
     #[inline]
     pub(crate) fn local_point(&self, point: &Vector3<f64>, placed: &Placement) -> Vector3<f64> {
         let from_center = point - self.center * placed.scale - placed.foot;
         self.local_from_world * (from_center / placed.scale)
     }
 
-    /// A point of this body in the world.
+    /// Transforms a point of this body to the world.
     pub(crate) fn world_point(&self, local: &Vector3<f64>, placed: &Placement) -> Vector3<f64> {
         self.local_from_world.tr_mul(local) * placed.scale
             + self.center * placed.scale
             + placed.foot
     }
 
-    /// A ray of the world in the frame of this body.
+    /// Transforms a ray from the world to the frame of this body.
     #[inline]
     pub(crate) fn local_ray(&self, ray: &Ray, placed: &Placement) -> Ray {
         Ray {
@@ -238,7 +238,7 @@ impl Body {
         }
     }
 
-    /// The first contact of a ray of the world.
+    /// Returns the first contact of a ray of the world.
     pub(crate) fn meet(
         &self,
         ray: &Ray,
@@ -252,16 +252,16 @@ impl Body {
         self.shape.meet(&self.local_ray(ray, placed), near, far)
     }
 
-    /// Whether a ray passes by all of it, or meets it beyond `far` or not at all: by a sphere around it, which most rays
-    /// miss, in a fraction of the time that its shape takes. The room is never aside.
+    /// Returns whether a ray certainly misses it or meets it beyond `far`, by a bounding sphere:
+    /// most rays miss, and the test costs a fraction of the shape's. Never true for the room.
     #[inline]
     fn is_aside(&self, ray: &Ray, placed: &Placement, far: f64) -> bool {
-        // With a hair of margin, for what is rounded.
+        // Relative margin for rounding.
         const HAIR: f64 = 1e-9;
         let to_center = self.center * placed.scale + placed.foot - ray.origin;
         let reach_m = self.reach_m * placed.scale * (1.0 + HAIR);
         let length_sq = ray.direction.norm_squared();
-        // All of it times the square of the direction's length.
+        // Everything is scaled by the squared length of the direction.
         let along = to_center.dot(&ray.direction);
         let away_sq = to_center.norm_squared() * length_sq;
         let reach_sq = reach_m * reach_m * length_sq + HAIR * away_sq;
@@ -276,12 +276,12 @@ impl Body {
         self.local_from_world.tr_mul(normal)
     }
 
-    /// Whether it is the room, which encloses everything else.
+    /// Returns whether it is the room, which encloses everything else.
     pub(crate) fn is_room(&self) -> bool {
         matches!(&self.shape, Shape::Cuboid(cuboid) if cuboid.is_room())
     }
 
-    /// Center and radius of a sphere around it.
+    /// Returns center and radius of a bounding sphere.
     pub(crate) fn bounding_sphere(&self) -> (Vector3<f64>, f64) {
         let (half, center) = self.shape.bounds();
         (

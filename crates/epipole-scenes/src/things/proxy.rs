@@ -1,9 +1,9 @@
-//! Simple bodies in the place of those that throw shade near contacts.
+//! Simplified bodies for the shade near contacts.
 
 use epipole::math::length;
 use nalgebra::{Matrix3, Vector3};
 
-/// A simple body for the shade near contacts, with a cheap distance.
+/// A simplified body with a cheap distance, for the shade near contacts.
 #[derive(Debug, Clone)]
 pub(crate) enum Proxy {
     Box {
@@ -15,7 +15,7 @@ pub(crate) enum Proxy {
         center: Vector3<f64>,
         radius: f64,
     },
-    /// An upright cylinder, `center` in its middle.
+    /// An upright cylinder around `center`.
     Post {
         center: Vector3<f64>,
         radius: f64,

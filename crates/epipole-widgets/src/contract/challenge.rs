@@ -2,9 +2,9 @@
 
 use super::event::Event;
 
-/// A goal, how to know that it is reached, and one way to reach it.
+/// A goal with its check and one solution.
 ///
-/// A test proves for every challenge that the default state fails it and the solution solves it.
+/// A test asserts for every challenge that the default state fails it and the solution solves it.
 pub struct Challenge<M> {
     /// Permanent name.
     pub id: &'static str,
@@ -12,7 +12,7 @@ pub struct Challenge<M> {
     pub goal: &'static str,
     /// A nudge for a reader who is stuck.
     pub hint: &'static str,
-    /// Why that reaches it, in one sentence: what the reader has learned.
+    /// One sentence on why the solution works: the lesson of the challenge.
     pub why: &'static str,
     /// Whether the present state reaches the goal.
     pub check: fn(&M) -> bool,

@@ -5,13 +5,13 @@ use super::readout::{format_number, with_unit};
 use super::settings::Knob;
 use serde::Serialize;
 
-/// Where a page shows a control.
+/// Placement of a control on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
     /// Beside or below the picture, always.
     First,
-    /// With the others that a reader seldom wants, such as a seed: folded away.
+    /// Folded away with the rarely used controls, such as a seed.
     More,
     /// Nowhere: it is part of the permalink only.
     Hidden,
@@ -29,7 +29,7 @@ pub enum Place {
 pub struct Slider {
     /// Permanent name: attribute, URL parameter and property.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
     /// Unit after the value, such as "m"; empty for a pure number.
     pub unit: &'static str,
@@ -43,7 +43,7 @@ pub struct Slider {
     pub default: f64,
     /// Digits after the decimal point, enough to tell neighboring values apart.
     pub digits: usize,
-    /// Where a page shows it.
+    /// Placement on the page.
     pub place: Place,
 }
 
@@ -52,11 +52,11 @@ pub struct Slider {
 pub struct Toggle {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
     /// State at the start.
     pub default: bool,
-    /// Where a page shows it.
+    /// Placement on the page.
     pub place: Place,
 }
 
@@ -65,13 +65,13 @@ pub struct Toggle {
 pub struct Choice {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
     /// Permanent name and label of each option.
     pub options: &'static [(&'static str, &'static str)],
     /// Index of the option at the start.
     pub default: usize,
-    /// Where a page shows it.
+    /// Placement on the page.
     pub place: Place,
 }
 
@@ -80,23 +80,23 @@ pub struct Choice {
 pub struct Button {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
-    /// What kind of action it is.
+    /// Kind of action.
     pub role: ButtonRole,
-    /// Where a page shows it.
+    /// Placement on the page.
     pub place: Place,
 }
 
-/// What pressing a button does, so that a page can place and mark it.
+/// Kind of action of a button, from which a page chooses its position and icon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ButtonRole {
     /// Starts and stops an animation.
     Run,
-    /// One step of it.
+    /// Advances the animation by one step.
     Step,
-    /// Back to the start of it.
+    /// Returns the animation to its start.
     Restart,
     /// Anything else.
     Action,
@@ -107,7 +107,7 @@ pub enum ButtonRole {
 pub struct Control {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
     /// Kind, range and value.
     #[serde(flatten)]
@@ -116,7 +116,7 @@ pub struct Control {
     pub value_text: String,
     /// False when it can do nothing now; it stays discoverable.
     pub enabled: bool,
-    /// Where a page shows it.
+    /// Placement on the page.
     pub place: Place,
 }
 
@@ -159,7 +159,7 @@ pub enum ControlKind {
     },
     /// An action.
     Button {
-        /// What pressing it does.
+        /// Kind of action.
         role: ButtonRole,
         /// True while the animation that it starts is running.
         pressed: bool,
@@ -187,7 +187,7 @@ impl Slider {
         }
     }
 
-    /// The seed of whatever a figure draws at random.
+    /// Creates the slider of a figure's random seed.
     pub const fn seed(default: f64) -> Self {
         Self::new("seed", "Seed")
             .range(1.0, 99.0, 1.0)
@@ -394,7 +394,7 @@ impl Button {
     }
 }
 
-/// `value` with `digits` digits after the decimal point: what printing and reading it gives.
+/// Rounds `value` to `digits` digits after the decimal point, as printing and parsing do.
 pub(crate) fn round_to_digits(value: f64, digits: usize) -> f64 {
     // Parsing cannot fail on a number that `format!` has just written.
     parse_decimal(&format!("{value:.digits$}")).unwrap_or(value)

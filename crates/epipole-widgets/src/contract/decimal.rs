@@ -1,18 +1,18 @@
-//! Numbers as people write them, read without tables.
+//! Parsing of decimal numbers without tables.
 
-/// Powers of ten that are exact.
+/// Powers of ten that `f64` represents exactly.
 const EXACT: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
-/// More digits than this say nothing that a number could keep.
+/// Maximum number of significant digits read; `f64` keeps no more.
 const MOST_DIGITS: u32 = 18;
 
-/// A finite number from its text: digits with a sign, a point and an exponent, each of them optional.
+/// Parses a finite number: digits with an optional sign, point and exponent.
 ///
-/// `f64::from_str` reads the last bit of seventeen digits as well, by a table of ten kilobytes that every page would
-/// download. This is as right up to fifteen digits and twenty-two zeros, which is more than a slider has; beyond
-/// that it may be off in the last places.
+/// `f64::from_str` is exact for seventeen digits, but brings a table of ten kilobytes that every
+/// page would download. This is equally exact up to fifteen digits and twenty-two zeros, more than
+/// a slider has; beyond that the last places may be off.
 ///
 /// Source: Clinger 1990, "How to read floating point numbers accurately", the fast path.
 pub(crate) fn parse_decimal(text: &str) -> Option<f64> {
@@ -145,7 +145,7 @@ mod tests {
             let length = random.uniform(0.0, 12.0) as usize;
             let letter = |_| letters[random.uniform(0.0, letters.len() as f64) as usize];
             let text: String = (0..length).map(letter).collect();
-            // Whatever std takes for a finite number is taken, and nothing else.
+            // Accepts exactly the texts that std parses as a finite number.
             let expected = text
                 .trim()
                 .parse::<f64>()

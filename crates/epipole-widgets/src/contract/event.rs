@@ -5,7 +5,7 @@ use super::settings::Knob;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Something that the reader, a permalink or the passing of time does to a figure.
+/// An input from the reader, from a permalink or from the clock.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum Event {
@@ -87,7 +87,7 @@ impl Event {
     }
 }
 
-/// The value of a control, as written in an attribute or a URL, or as a page's input gives it.
+/// The value of a control, from an attribute, a URL or an input of the page.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {

@@ -1,16 +1,16 @@
-//! What a reader can keep of a figure besides its picture.
+//! Files that a figure offers for download, besides its picture.
 
 use serde::Serialize;
 
-/// A file that a figure offers, such as a cloud of points for other programs.
+/// A file that a figure offers, such as a point cloud for other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct FileOffer {
-    /// The words on the button.
+    /// Label of the button.
     pub label: &'static str,
-    /// What will be in the file, and for whom.
+    /// Contents of the file and its use, as a tooltip.
     pub hint: &'static str,
-    /// How its name ends, without the dot.
+    /// Extension of the file name, without the dot.
     pub extension: &'static str,
-    /// Whether there is something to save already.
+    /// Whether the file can be saved now.
     pub is_ready: bool,
 }

@@ -1,4 +1,4 @@
-//! Handles: points in the picture that the reader moves.
+//! Handles: draggable points in the picture.
 
 use super::control::round_to_digits;
 use super::event::Event;
@@ -11,30 +11,30 @@ use serde::Serialize;
 pub struct Handle {
     /// Permanent name; also its URL parameter, with the value `x,y`.
     pub id: String,
-    /// The panel that it lives in.
+    /// Name of its panel.
     pub panel: &'static str,
-    /// What a screen reader calls it.
+    /// Label for screen readers.
     pub label: String,
-    /// Its place in words, such as "2.80 m away, 0.40 m to the right".
+    /// Position in words, such as "2.80 m away, 0.40 m to the right".
     pub value_text: String,
-    /// Place, world units.
+    /// x in world units.
     pub x: f64,
-    /// Place, world units.
+    /// y in world units.
     pub y: f64,
     /// Smallest and largest x.
     pub x_range: [f64; 2],
     /// Smallest and largest y.
     pub y_range: [f64; 2],
-    /// How far one press of an arrow key moves it along x and y.
+    /// Step of an arrow key along x and y, world units.
     pub step: [f64; 2],
-    /// Digits after the decimal point that its place is kept with.
+    /// Digits after the decimal point of its position.
     pub digits: usize,
     /// Whether the reader may remove it.
     pub removable: bool,
 }
 
 impl Handle {
-    /// A handle at a place, to be moved within ranges of x and of y: by whole units, until a step is said.
+    /// Creates a handle that moves within ranges of x and y, in steps of one unit by default.
     pub fn new(
         id: impl Into<String>,
         panel: &'static str,
@@ -57,13 +57,13 @@ impl Handle {
         }
     }
 
-    /// The same handle with its place in words.
+    /// Sets the position in words.
     #[must_use]
     pub fn told(self, value_text: String) -> Self {
         Self { value_text, ..self }
     }
 
-    /// The same handle, moved so far by a press of an arrow key, its place kept with so many digits.
+    /// Sets the step of an arrow key and the number of digits of the position.
     #[must_use]
     pub fn step(self, step: [f64; 2], digits: usize) -> Self {
         Self {
@@ -73,13 +73,14 @@ impl Handle {
         }
     }
 
-    /// The same handle, which the reader may remove if `removable`.
+    /// Makes the handle removable if `removable`.
     #[must_use]
     pub fn removable_if(self, removable: bool) -> Self {
         Self { removable, ..self }
     }
 
-    /// Where an event takes it: a drag, an arrow key, or a click in its panel; `None` if it stays.
+    /// Returns the new position after a drag, an arrow key or a click in its panel; `None` if the
+    /// event does not move the handle.
     pub fn moved_by(&self, event: &Event) -> Option<(f64, f64)> {
         match event {
             Event::HandleMoved { id, x, y } if *id == self.id => self.admit(*x, *y),
@@ -88,7 +89,7 @@ impl Handle {
         }
     }
 
-    /// The nearest place within its ranges, with its digits; `None` for NaN and infinities.
+    /// Clamps a position to the ranges and rounds it to the digits; `None` for NaN and infinities.
     pub fn admit(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let admit = |value: f64, [low, high]: [f64; 2]| {
             value

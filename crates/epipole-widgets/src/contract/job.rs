@@ -5,47 +5,47 @@ use std::ops::ControlFlow;
 
 /// A computation that a model waits for.
 ///
-/// The model states what it needs; who runs it is not its business. A page runs it in a Web Worker,
-/// posters, tests and the command line at once: both give the same bytes.
+/// The caller decides where it runs: a page runs it in a Web Worker; posters, tests and the command
+/// line run it at once. The results are identical to the byte.
 pub trait Job {
-    /// What the page says while it runs, such as "Looking for corners".
+    /// Status shown while the job runs, such as "Looking for corners".
     fn label(&self) -> &'static str;
 
-    /// A number that tells requests apart, so that an answer that comes too late is recognized.
+    /// Key that identifies the request, so that a late answer is recognized.
     fn key(&self) -> u64;
 
-    /// Everything that the computation depends on. Photographs among it make it large, so it is
-    /// asked for once there is somebody to carry it out.
+    /// Serializes everything that the computation depends on. It can be large (photographs), so it
+    /// is called only once a worker is free.
     fn request(&self) -> Vec<u8>;
 }
 
-/// What a model asks of whoever computes.
+/// The computations that a model requests.
 pub trait Asking {
-    /// The computation that is outstanding; `None` if nothing is asked, or once its result is there.
+    /// Returns the pending job; `None` if nothing is requested, or once its result is there.
     fn job(&self) -> Option<&dyn Job>;
 
-    /// Takes the result of that computation, and says whether it is an answer. Why it is none is then kept as a
-    /// sentence.
+    /// Takes the result of that job and returns whether it is a valid answer. If not, keeps the
+    /// reason as a sentence.
     fn take(&mut self, result: JobResult) -> bool;
 }
 
-/// Told the share that is done, 0 to 1; answers whether to go on.
+/// Callback with the fraction done, 0 to 1; its return value ends or continues the job.
 pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 
-/// What a job gives: bytes that only its model understands.
+/// Result of a job: bytes that only its model understands.
 pub type JobResult = Result<Vec<u8>, Problem>;
 
-/// Carries out a job: a function of the request alone, so that it can run anywhere. Gives a sentence for the
-/// reader where there is no result, also when `Progress` ended it.
+/// Carries out a job: a function of the request alone, so that it can run anywhere. Returns a
+/// sentence for the reader on failure, also when `Progress` ended the job.
 pub type Compute = fn(&[u8], Progress<'_>) -> JobResult;
 
-/// A place for a photograph of the reader's own.
+/// A slot for a photograph of the reader's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct PhotoSlot {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads, such as "Left photograph".
+    /// Label shown to the reader, such as "Left photograph".
     pub label: &'static str,
-    /// The largest width or height that is useful here; a page scales larger ones down and says so.
+    /// Largest useful width or height, pixels; a page downscales larger photographs and reports it.
     pub max_side_px: u32,
 }

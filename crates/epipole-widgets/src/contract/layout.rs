@@ -1,35 +1,36 @@
-//! Where things are in the picture: the one transform between world units and the page.
+//! Layout of the picture: the one transform between world units and the page.
 
 use epipole_canvas::Rect;
 use nalgebra::Point2;
 use serde::Serialize;
 
-/// How one world coordinate runs along one side of a panel.
+/// Mapping of one world coordinate along one side of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Axis {
     /// World value at the panel's left or top edge.
     pub start: f64,
-    /// World value at its right or bottom edge; smaller than `start` where the axis runs up.
+    /// World value at the panel's right or bottom edge; smaller than `start` for an axis that runs
+    /// up.
     pub end: f64,
 }
 
-/// A part of the picture with a world of its own: a photograph, a plot, a view from above.
+/// A part of the picture with its own world: a photograph, a plot, a view from above.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Panel {
     /// Permanent name.
     pub id: &'static str,
-    /// Its place on the page.
+    /// Rectangle on the page, CSS pixels.
     pub rect: Rect,
     /// World units from left to right.
     pub x_axis: Axis,
     /// World units from top to bottom.
     pub y_axis: Axis,
-    /// Whether a click on no handle means something here.
+    /// Whether a click away from handles has an effect here.
     pub clickable: bool,
 }
 
 impl Panel {
-    /// A panel with the world values at its left and right edge, and at its top and bottom.
+    /// Creates a panel from the world values at its left and right edge, and at its top and bottom.
     pub fn new(id: &'static str, rect: Rect, x: [f64; 2], y: [f64; 2]) -> Self {
         let axis = |[start, end]: [f64; 2]| Axis { start, end };
         Self {
@@ -41,20 +42,20 @@ impl Panel {
         }
     }
 
-    /// A panel that shows a photograph: world units are its pixels, centers at integers.
+    /// Creates a panel of a photograph: world units are its pixels, centers at integers.
     pub fn photograph(id: &'static str, rect: Rect, size_px: (u32, u32)) -> Self {
         let axis = |size_px: u32| [-0.5, f64::from(size_px) - 0.5];
         Self::new(id, rect, axis(size_px.0), axis(size_px.1))
     }
 
-    /// The same panel, where a click means something.
+    /// Makes the panel clickable.
     #[must_use]
     pub fn clickable(self) -> Self {
         let clickable = true;
         Self { clickable, ..self }
     }
 
-    /// The place on the page of a place in the world.
+    /// Converts a position from world units to CSS pixels of the page.
     pub fn canvas_from_world(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let along = |value: f64, axis: Axis| (value - axis.start) / (axis.end - axis.start);
         (
@@ -63,19 +64,19 @@ impl Panel {
         )
     }
 
-    /// The place on the page of a point of the panel's world, such as a pixel.
+    /// Converts a point of the panel's world, such as a pixel, to CSS pixels of the page.
     pub fn place_of(&self, point: &Point2<f64>) -> (f64, f64) {
         self.canvas_from_world((point.x, point.y))
     }
 
-    /// The rectangle on the page between two corners in the world: upper left and lower right.
+    /// Returns the rectangle on the page between two world positions: upper left and lower right.
     pub fn rect_between(&self, from: (f64, f64), to: (f64, f64)) -> Rect {
         let (x, y) = self.canvas_from_world(from);
         let (right, bottom) = self.canvas_from_world(to);
         Rect::new(x, y, right - x, bottom - y)
     }
 
-    /// The place in the world of a place on the page.
+    /// Converts a position from CSS pixels of the page to world units.
     pub fn world_from_canvas(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let at = |axis: Axis, share: f64| axis.start + share * (axis.end - axis.start);
         (
@@ -84,15 +85,15 @@ impl Panel {
         )
     }
 
-    /// CSS pixels per world unit along x.
+    /// Returns the CSS pixels per world unit along x.
     pub fn scale_x(&self) -> f64 {
         self.rect.width / (self.x_axis.end - self.x_axis.start).abs()
     }
 }
 
-/// The widths that pages lay pictures out for, CSS pixels: a phone, a column, a broad page. In
-/// between a page scales the picture of the next smaller one, so a poster has the very shape of the
-/// living picture.
+/// The widths that pictures are laid out for, CSS pixels: a phone, a column, a broad page. Other
+/// widths scale the picture of the next smaller one, so a poster has exactly the shape of the
+/// interactive picture.
 pub const WIDTHS: [f64; 3] = [360.0, 720.0, 1088.0];
 
 /// The picture's size and its panels, for one width of the page.
@@ -107,10 +108,11 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The panel of this name.
+    /// Returns the panel of this name.
     ///
     /// # Panics
-    /// If the view has none; views name their own panels, and tests draw every view.
+    /// If the view has no panel of this name; views name their own panels, and tests draw every
+    /// view.
     pub fn panel(&self, id: &str) -> &Panel {
         self.panels
             .iter()
@@ -118,12 +120,12 @@ impl Layout {
             .expect("the view lays out this panel")
     }
 
-    /// The panels of these names, as [`Layout::panel`].
+    /// Returns the panels of these names, as [`Layout::panel`].
     pub fn panels_named<const N: usize>(&self, ids: [&str; N]) -> [&Panel; N] {
         ids.map(|id| self.panel(id))
     }
 
-    /// The panel under a place on the page.
+    /// Returns the panel under a position on the page.
     pub fn panel_at(&self, place: (f64, f64)) -> Option<&Panel> {
         self.panels.iter().find(|panel| panel.rect.contains(place))
     }

@@ -1,5 +1,5 @@
-//! What a figure promises: plain data that controls, pages, posters, permalinks, tests and the
-//! command line are all made from.
+//! The contract of a figure: plain data from which controls, pages, posters, permalinks, tests and
+//! the command line are made.
 
 mod challenge;
 mod control;

@@ -1,8 +1,8 @@
-//! What can go wrong between a reader and a figure, in sentences.
+//! Errors of figures, as sentences for the reader.
 
 use epipole_canvas::canvas::BadSize;
 
-/// Why a figure could not do what it was asked.
+/// Error of a figure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
@@ -24,26 +24,26 @@ pub enum Problem {
         /// The names that exist, comma-separated.
         known: String,
     },
-    /// A value that the parameter does not take.
+    /// The value is not valid for the parameter.
     #[error("\"{value}\" is not a value of {name}: it takes {expected}")]
     BadValue {
         /// The parameter's name.
         name: String,
         /// The value given.
         value: String,
-        /// What it takes, in words.
+        /// Valid values, in words.
         expected: String,
     },
     /// The picture cannot be drawn at this size.
     #[error(transparent)]
     BadSize(#[from] BadSize),
-    /// A computation in another place, such as a worker of the page, ended with this sentence.
+    /// A computation elsewhere, such as in a worker of the page, failed with this sentence.
     #[error("{sentence}")]
     Elsewhere {
-        /// What it said.
+        /// Message of that failure.
         sentence: String,
     },
-    /// The mathematics behind the figure refused.
+    /// The computation behind the figure failed.
     #[error(transparent)]
     Core(#[from] epipole::Error),
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Readout {
     /// Permanent name.
     pub id: &'static str,
-    /// What the reader reads.
+    /// Label shown to the reader.
     pub label: &'static str,
     /// The value.
     pub value: ReadoutValue,
@@ -15,22 +15,22 @@ pub struct Readout {
     pub unit: &'static str,
     /// The value as shown, with its unit.
     pub text: String,
-    /// Whether it carries the figure's point: then it is large and always there. The others fold.
+    /// Whether it carries the figure's point: it is then large and always shown. The others fold.
     pub main: bool,
 }
 
-/// What a readout can say.
+/// Value of a readout.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ReadoutValue {
     /// A finite number.
     Number(f64),
-    /// Words, where a number would not do or there is none.
+    /// Words instead of a number.
     Text(String),
 }
 
 impl Readout {
-    /// A number; one that is not there, or not finite, becomes the words "no value".
+    /// Creates a readout of a number; one that is missing or not finite reads "no value".
     pub fn number(
         id: &'static str,
         label: &'static str,
@@ -53,7 +53,7 @@ impl Readout {
         }
     }
 
-    /// A share in percent, as [`Readout::number`].
+    /// Creates a readout of a fraction in percent, as [`Readout::number`].
     pub fn percent(
         id: &'static str,
         label: &'static str,
@@ -64,12 +64,12 @@ impl Readout {
         Self::number(id, label, percent, digits, "%")
     }
 
-    /// A count.
+    /// Creates a readout of a count.
     pub fn count(id: &'static str, label: &'static str, value: usize) -> Self {
         Self::number(id, label, value as f64, 0, "")
     }
 
-    /// Words.
+    /// Creates a readout of words.
     pub fn words(id: &'static str, label: &'static str, text: impl Into<String>) -> Self {
         let text = text.into();
         Self {
@@ -84,7 +84,7 @@ impl Readout {
 }
 
 impl Readout {
-    /// The same number, or these words where there is none.
+    /// Replaces a missing number by these words.
     ///
     /// ```
     /// use epipole_widgets::contract::Readout;
@@ -100,20 +100,20 @@ impl Readout {
         }
     }
 
-    /// One of the two to four that carry the figure's point.
+    /// Marks it as one of the two to four that carry the figure's point.
     #[must_use]
     pub fn main(self) -> Self {
         self.main_if(true)
     }
 
-    /// As [`Readout::main`], if `main`.
+    /// Marks it as [`Readout::main`] if `main`.
     #[must_use]
     pub fn main_if(self, main: bool) -> Self {
         Self { main, ..self }
     }
 }
 
-/// A number with its unit: a degree sign stands close to the number, other units after a space.
+/// Appends the unit: a degree sign directly, other units after a space.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
     match unit {
         "" | "°" => format!("{number}{unit}"),
@@ -121,7 +121,7 @@ pub(super) fn with_unit(number: &str, unit: &str) -> String {
     }
 }
 
-/// A number as a reader reads it: fixed digits, a true minus sign, and no minus before zero.
+/// Formats a number for the reader: fixed digits, a true minus sign, and no minus before zero.
 ///
 /// ```
 /// use epipole_widgets::contract::format_number;

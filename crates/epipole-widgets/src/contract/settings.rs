@@ -99,7 +99,7 @@ impl Settings {
         self.raw(choice.id) as usize
     }
 
-    /// What the chosen option is called.
+    /// Returns the label of the chosen option.
     pub fn label(&self, choice: &'static Choice) -> &'static str {
         choice.options[self.chosen(choice)].1
     }
@@ -114,14 +114,14 @@ impl Settings {
         self.knobs.iter().zip(&self.values).map(control).collect()
     }
 
-    /// The same, and further controls behind them: buttons, and those of a space.
+    /// Returns the same controls followed by `more`: buttons, and those of a space.
     pub fn controls_and(&self, more: impl IntoIterator<Item = Control>) -> Vec<Control> {
         let mut controls = self.controls();
         controls.extend(more);
         controls
     }
 
-    /// The same, of which only those that `is_enabled` can be set.
+    /// Returns the same controls, enabled where `is_enabled` accepts their id.
     pub fn controls_enabled(&self, is_enabled: impl Fn(&str) -> bool) -> Vec<Control> {
         let mut controls = self.controls();
         for control in &mut controls {
@@ -130,7 +130,7 @@ impl Settings {
         controls
     }
 
-    /// Sets one knob; a slider's value is snapped to its grid. Says whether anything changed.
+    /// Sets one knob, a slider snapped to its grid. Returns whether anything changed.
     ///
     /// # Errors
     /// [`Problem::BadValue`] for a value of the wrong kind, outside the range or not finite.
@@ -181,7 +181,7 @@ impl Settings {
         Ok(Some(changed))
     }
 
-    /// Takes an event: the name of the knob that it changed, if it changed one.
+    /// Applies an event and returns the name of the knob that it changed, if any.
     ///
     /// # Errors
     /// As [`Settings::set`].
@@ -194,7 +194,7 @@ impl Settings {
         Ok(knob.map(|knob| knob.id()))
     }
 
-    /// Moves a slider to a number, or as near to it as it goes. What is no number moves nothing.
+    /// Moves a slider to a number, clamped to its range. Ignores NaN.
     pub fn slide(&mut self, slider: &'static Slider, number: f64) {
         let index = self.knobs.iter().position(|knob| knob.id() == slider.id);
         if let Some(index) = index.filter(|_| !number.is_nan()) {

@@ -1,20 +1,20 @@
-//! Spaces: panels that show things in three dimensions.
+//! Spaces: three-dimensional panels.
 
 use serde::Serialize;
 
-/// A panel whose contents the reader turns, moves and enlarges.
+/// A panel whose contents the reader turns, moves and zooms.
 ///
-/// All of its state is in two handles and a slider, so that the keys, the permalink and the tests
-/// have it already. A pointer only finds them faster: a drag from anywhere in the panel moves the
-/// handle `orbit`, one with Shift moves `pan`; two fingers move `pan` and, spread, the slider.
+/// Its state is two handles and a slider, so that keys, permalinks and tests cover it. Pointers
+/// have shortcuts: a drag anywhere in the panel moves the handle `orbit`, a drag with Shift moves
+/// `pan`; two fingers move `pan` and, spread, the slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Space {
-    /// The panel.
+    /// Name of the panel.
     pub panel: &'static str,
-    /// The handle that turns things.
+    /// Handle that turns the scene.
     pub orbit: &'static str,
-    /// The handle that moves them across the panel.
+    /// Handle that moves the scene across the panel.
     pub pan: &'static str,
-    /// The slider that enlarges them.
+    /// Slider that zooms.
     pub zoom: &'static str,
 }

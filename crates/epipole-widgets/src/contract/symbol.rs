@@ -1,29 +1,29 @@
-//! The letters of a chapter in the picture: `p` in a sentence and the pixel in the figure are the same thing.
+//! Symbols: the letters of a chapter's formulas, tied to their marks in the picture.
 
 use super::{Layout, Rect};
 use serde::Serialize;
 
-/// Something in the picture that the book has a letter for.
+/// A mark in the picture that a letter of the chapter stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symbol {
-    /// The letter as the book's formulas have it: `P`, `p`, `p'`, `ℓ'`, `e'`.
+    /// The letter as written in formulas: `P`, `p`, `p'`, `ℓ'`, `e'`.
     pub name: &'static str,
-    /// The panel that it is drawn in.
+    /// Name of its panel.
     pub panel: &'static str,
-    /// Where, in the world units of the panel.
+    /// Position, in the world units of the panel.
     pub mark: Mark,
 }
 
-/// What a letter stands for.
+/// Geometry of a symbol.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mark {
     /// A point.
     Point(f64, f64),
-    /// A line through a point, in a direction.
+    /// A line: a point on it and its direction.
     Line((f64, f64), (f64, f64)),
 }
 
-/// A symbol and where it is on the page, CSS pixels.
+/// A symbol with its position on the page, CSS pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PlacedSymbol {
     name: &'static str,
@@ -34,7 +34,7 @@ pub struct PlacedSymbol {
 }
 
 impl Symbol {
-    /// A point.
+    /// Creates the symbol of a point.
     pub fn point(name: &'static str, panel: &'static str, x: f64, y: f64) -> Self {
         Self {
             name,
@@ -43,7 +43,7 @@ impl Symbol {
         }
     }
 
-    /// Where a page shows it; `None` if it is outside of its panel.
+    /// Returns its position on the page; `None` if it is outside of its panel.
     pub fn placed(&self, layout: &Layout) -> Option<PlacedSymbol> {
         let panel = layout.panel(self.panel);
         let (name, rect) = (self.name, panel.rect);
@@ -70,7 +70,7 @@ impl Symbol {
     }
 }
 
-/// The part of an endless line that is inside a rectangle.
+/// Clips an infinite line to a rectangle.
 fn across(
     rect: Rect,
     (x, y): (f64, f64),

@@ -1,13 +1,13 @@
-//! What a figure says: its numbers and its sentences.
+//! Text of a figure: its numbers and its description.
 
 use super::Readout;
 
-/// What a model shows in numbers and in words. Implemented beside the model, which never needs it.
+/// A model's numbers and description. Implemented beside the model, which never calls it.
 pub trait Words {
-    /// The numbers beside the picture; two to four of them are [`main`](Readout::main). Every number
-    /// is finite.
+    /// Returns the numbers beside the picture, all finite; two to four of them are
+    /// [`main`](Readout::main).
     fn readouts(&self) -> Vec<Readout>;
 
-    /// What the figure shows now, in one or two plain sentences.
+    /// Describes the current state in one or two plain sentences.
     fn describe(&self) -> String;
 }

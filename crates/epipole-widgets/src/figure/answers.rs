@@ -1,5 +1,5 @@
-//! What figures have computed, for those that show many: a book shows the same computation in many states, widths
-//! and sentences, and tests ask for it again and again.
+//! A cache of job results: a book shows one computation in many states, widths and sentences, and
+//! tests repeat it.
 
 use super::Figure;
 use crate::contract::JobResult;
@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// A place for an answer: whoever comes first computes it, and others wait.
+/// A cache entry: the first caller computes, the others wait.
 type Place = Arc<OnceLock<JobResult>>;
 
-/// The answers of computations that were carried out, for any number of threads.
+/// A thread-safe cache of job results.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_widgets::contract::Problem> {
@@ -26,18 +26,18 @@ type Place = Arc<OnceLock<JobResult>>;
 /// ```
 #[derive(Debug, Default)]
 pub struct Answers {
-    /// By the figure's name and the key of what it asks: figures of two names may ask under one key.
+    /// Results by figure name and job key; figures of different names may use the same key.
     known: Mutex<BTreeMap<(&'static str, u64), Place>>,
 }
 
 impl Answers {
-    /// Nothing is known.
+    /// Creates an empty cache.
     pub const fn new() -> Self {
         let known = Mutex::new(BTreeMap::new());
         Self { known }
     }
 
-    /// Carries out what a figure waits for, or takes what another one of its name has computed.
+    /// Carries out a figure's pending jobs, or takes their results from the cache.
     pub fn finish(&self, figure: &mut Figure) {
         figure.finish_job_by(|name, job| {
             let place = self.place(name, job.key());
@@ -89,7 +89,7 @@ mod tests {
             assert_eq!(figure.describe(), alone.describe());
             assert_eq!(figure.readouts(), alone.readouts());
         }
-        // Both ask one question that depends on nothing.
+        // Both figures request the same constant computation.
         assert_eq!(keys[0], keys[1]);
     }
 }

@@ -1,13 +1,13 @@
-//! Events are checked before a model hears of them: unknown names, odd numbers, places outside.
+//! Validation of events before they reach a model: unknown names, bad numbers, positions outside.
 
 use super::{Figure, POSTER_WIDTH};
 use crate::contract::{Control, ControlKind, Event, Problem};
 
 impl Figure {
-    /// Changes the state. Whatever is wrong with the event, the figure stays as it was.
+    /// Applies an event. On an error the figure is unchanged.
     ///
     /// # Errors
-    /// A sentence for the reader: an unknown name, a bad value, or mathematics that refuses.
+    /// A sentence for the reader: an unknown name, a bad value, or a failed computation.
     pub fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Reset => {
@@ -75,7 +75,7 @@ impl Figure {
                 })
             }
             Event::Tick { dt_s } => {
-                // A page that was in the background reports minutes; the figure then goes on calmly.
+                // A page in the background reports minutes on its return; animations must not jump.
                 let dt_s = if dt_s.is_finite() {
                     dt_s.clamp(0.0, 0.1)
                 } else {

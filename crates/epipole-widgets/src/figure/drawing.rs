@@ -6,20 +6,20 @@ use crate::contract::{Aspect, Layout, Problem};
 use crate::theme::Theme;
 
 impl Figure {
-    /// The shape of the picture where there is room.
+    /// Returns the aspect of the picture on wide pages.
     pub fn aspect(&self) -> Aspect {
         self.stage.aspect()
     }
 
-    /// Panels and height for a width of the page, CSS pixels.
+    /// Returns panels and height for a page width in CSS pixels.
     pub fn layout(&self, width: f64) -> Layout {
         self.stage.layout(width)
     }
 
-    /// Draws the present state, `width` CSS pixels wide with `scale` device pixels each.
+    /// Draws the current state, `width` CSS pixels wide, at `scale` device pixels per CSS pixel.
     ///
     /// # Errors
-    /// [`Problem::BadSize`] for a picture without pixels, or too large.
+    /// [`Problem::BadSize`] for an empty or too large picture.
     pub fn draw(&mut self, width: f64, scale: f64, theme: Theme) -> Result<&Picture, Problem> {
         if !(1.0..=Canvas::MAX_SIDE).contains(&width) {
             return Err(BadSize { width, height: 0.0 }.into());
@@ -32,19 +32,19 @@ impl Figure {
         Ok(&self.picture)
     }
 
-    /// Does a few milliseconds of what the first drawing would do all at once; false when there is
-    /// nothing left to do. A page calls it before the first drawing, so that no other work waits long.
+    /// Does a few milliseconds of the work of the first drawing ahead of time; false when nothing
+    /// is left to do. A page calls it before the first drawing to keep its main thread responsive.
     pub fn prepare(&mut self) -> bool {
         self.stage.prepare()
     }
 
-    /// Does a few milliseconds of work that makes the next drawing better; false when there is
-    /// nothing left to do. A page calls it while the reader rests.
+    /// Does a few milliseconds of work that improves the next drawing; false when nothing is left
+    /// to do. A page calls it while the reader is idle.
     pub fn refine(&mut self) -> bool {
         self.stage.refine()
     }
 
-    /// Finishes the job and draws at full quality: what a poster and the tests show.
+    /// Finishes the pending job and draws at full quality, as for a poster and in tests.
     ///
     /// # Errors
     /// As [`Figure::draw`].
@@ -58,7 +58,7 @@ impl Figure {
         self.draw_sharp(width, scale, theme)
     }
 
-    /// Draws at full quality what is known now: the job that the figure may wait for is not done.
+    /// Draws the current state at full quality without finishing the pending job.
     ///
     /// # Errors
     /// As [`Figure::draw`].

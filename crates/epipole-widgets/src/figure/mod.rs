@@ -1,4 +1,4 @@
-//! A figure as its users see it: a model and its view behind one door.
+//! The public interface of a figure: a model and its view behind one type.
 //!
 //! Pages, posters, the command line and the tests all drive figures through [`Figure`]; nothing
 //! outside this crate sees a model or a view.
@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 /// Width of a poster and of a page's figure column, CSS pixels.
 pub const POSTER_WIDTH: f64 = 760.0;
 
-/// A challenge with whether it is solved now.
+/// A challenge with its status.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ChallengeStatus {
     /// Permanent name.
@@ -32,9 +32,9 @@ pub struct ChallengeStatus {
     pub goal: &'static str,
     /// A nudge for a reader who is stuck.
     pub hint: &'static str,
-    /// Why that reaches it, in one sentence.
+    /// One sentence on why the solution works.
     pub why: &'static str,
-    /// Whether the present state reaches the goal.
+    /// Whether the current state reaches the goal.
     pub solved: bool,
 }
 
@@ -43,13 +43,13 @@ pub struct Figure {
     entry: &'static Entry,
     stage: Box<dyn Stage>,
     picture: Picture,
-    /// Where the handles are before the reader moves any, for the controls as they last were:
-    /// a figure is asked for its state after each frame, and few of them change a control.
+    /// Cached handles of the untouched figure for the controls of the last call; pages ask for the
+    /// state after every frame, and controls rarely change.
     untouched: RefCell<Option<Untouched>>,
 }
 
 impl Figure {
-    /// A figure in its default state.
+    /// Creates a figure in its default state.
     ///
     /// # Errors
     /// [`Problem::UnknownFigure`], with the names that exist.
@@ -71,32 +71,32 @@ impl Figure {
         })
     }
 
-    /// Permanent name.
+    /// Returns the permanent name.
     pub fn name(&self) -> &'static str {
         self.entry.name
     }
 
-    /// Title.
+    /// Returns the title.
     pub fn title(&self) -> &'static str {
         self.entry.title
     }
 
-    /// What a reader can do with it.
+    /// Returns the instructions for the reader.
     pub fn help(&self) -> &'static str {
         self.entry.help
     }
 
-    /// Sliders, toggles, choices and buttons with their present values.
+    /// Returns sliders, toggles, choices and buttons with their current values.
     pub fn controls(&self) -> Vec<Control> {
         self.stage.model().controls()
     }
 
-    /// The draggable points.
+    /// Returns the draggable points.
     pub fn handles(&self) -> Vec<Handle> {
         self.stage.model().handles()
     }
 
-    /// The panels that show things in three dimensions now.
+    /// Returns the three-dimensional panels that are shown now.
     pub fn spaces(&self) -> Vec<Space> {
         let handles = self.handles();
         let is_shown = |space: &&Space| handles.iter().any(|handle| handle.id == space.orbit);
@@ -104,53 +104,53 @@ impl Figure {
         spaces.filter(is_shown).copied().collect()
     }
 
-    /// What of the book's letters the picture shows.
+    /// Returns the chapter's symbols that the picture shows.
     pub fn symbols(&self) -> Vec<Symbol> {
         self.stage.model().symbols()
     }
 
-    /// What the reader can save besides the picture.
+    /// Returns the file that can be saved besides the picture, if any.
     pub fn file(&self) -> Option<FileOffer> {
         self.stage.model().file()
     }
 
-    /// The bytes of that; none if nothing is offered.
+    /// Returns the bytes of the offered file; empty without one.
     pub fn file_bytes(&self) -> Vec<u8> {
         self.stage.model().file_bytes()
     }
 
-    /// The numbers beside the picture.
+    /// Returns the numbers beside the picture.
     pub fn readouts(&self) -> Vec<Readout> {
         self.stage.words().readouts()
     }
 
-    /// What the figure shows now, in one or two sentences.
+    /// Describes the current state in one or two sentences.
     pub fn describe(&self) -> String {
         self.stage.words().describe()
     }
 
-    /// The goals, and which of them are reached.
+    /// Returns the goals and whether each is reached.
     pub fn challenges(&self) -> Vec<ChallengeStatus> {
         self.stage.challenges()
     }
 
-    /// The events that solve a challenge from the default state.
+    /// Returns the events that solve a challenge from the default state.
     pub fn solution(&self, challenge: &str) -> Option<Vec<Event>> {
         self.stage.solution(challenge)
     }
 
-    /// True while the figure wants [`Event::Tick`].
+    /// Returns whether the figure wants [`Event::Tick`].
     pub fn is_running(&self) -> bool {
         self.stage.model().is_running()
     }
 
-    /// The computation that the figure waits for, if any.
+    /// Returns the pending job, if any.
     pub fn job(&mut self) -> Option<&dyn Job> {
         self.stage.model_mut().job()
     }
 
-    /// Hands the result of the job with this [`key`](Job::key) to the figure. An answer that the
-    /// figure no longer waits for is dropped; says whether it was used.
+    /// Hands over the result of the job with this [`key`](Job::key). Returns false, and drops the
+    /// result, if the figure no longer waits for it.
     pub fn job_done(&mut self, key: u64, result: JobResult) -> bool {
         let wanted = self.job().is_some_and(|job| job.key() == key);
         if wanted {
@@ -159,16 +159,16 @@ impl Figure {
         wanted
     }
 
-    /// Carries out what the figure waits for, here and now.
+    /// Carries out the pending jobs on the calling thread.
     pub fn finish_job(&mut self) {
         self.finish_job_by(|name, job| {
             gallery::compute(name, &job.request(), &mut |_| ControlFlow::Continue(()))
         });
     }
 
-    /// The same by whoever computes: of the name of the figure and what it waits for.
+    /// Finishes the pending jobs with `compute`, a function of the figure's name and the job.
     fn finish_job_by(&mut self, mut compute: impl FnMut(&'static str, &dyn Job) -> JobResult) {
-        // A figure may go through several stages, but not through endlessly many.
+        // Bounds the number of stages, so that a faulty model cannot loop forever.
         for _ in 0..16 {
             let name = self.entry.name;
             let Some(job) = self.job() else { return };
@@ -177,12 +177,12 @@ impl Figure {
         }
     }
 
-    /// Places for photographs of the reader's own.
+    /// Returns the slots for the reader's own photographs.
     pub fn photo_slots(&self) -> &'static [PhotoSlot] {
         self.stage.photo_slots()
     }
 
-    /// Puts a photograph of the reader's own into a slot.
+    /// Puts the reader's own photograph into a slot.
     ///
     /// # Errors
     /// [`Problem::UnknownParameter`] for a slot that the figure lacks, or a sentence about the
@@ -194,8 +194,8 @@ impl Figure {
         self.stage.model_mut().take_photo(slot, photo)
     }
 
-    /// Tells the focal length of the photograph in a slot, in units of its longer side, as its
-    /// file has it. One that no lens has is ignored.
+    /// Sets the focal length of the photograph in a slot, in units of its longer side, as its
+    /// metadata has it. Implausible values are ignored.
     pub fn take_focal(&mut self, slot: &str, focal: f64) {
         let is_slot = self.photo_slots().iter().any(|known| known.id == slot);
         if is_slot && (0.1..100.0).contains(&focal) {

@@ -1,12 +1,12 @@
-//! State to parameters and back: what a permalink, an attribute and a chapter say of a figure.
+//! Conversion between state and parameters, for permalinks, attributes and chapters.
 
 use super::Figure;
 use crate::contract::{ControlKind, Event, Handle, Place, Problem, Value, parse_decimal};
 
-/// The value of a handle's parameter after the reader has removed it.
+/// Parameter value of a handle that the reader has removed.
 const REMOVED: &str = "removed";
 
-/// What a figure is like before the reader moves a handle.
+/// The handles of a figure before the reader moves any, by the controls.
 pub(super) struct Untouched {
     /// The visible controls that differ from the default state.
     controls: Vec<(String, String)>,
@@ -14,7 +14,7 @@ pub(super) struct Untouched {
 }
 
 impl Figure {
-    /// The state as parameters: everything that differs from the default state.
+    /// Returns the parameters that differ from the default state.
     pub fn state(&self) -> Vec<(String, String)> {
         let mut visible = Vec::new();
         let mut hidden = Vec::new();
@@ -66,13 +66,13 @@ impl Figure {
         visible.into_iter().chain(places).chain(hidden).collect()
     }
 
-    /// The default state with some controls set to values of this figure's own.
+    /// Returns the default state with some controls set to values of this figure.
     fn untouched_with(&self, controls: &[(String, String)]) -> Untouched {
         let mut stage = (self.entry.make)();
         for (id, value) in controls {
             let id = id.clone();
             let value = Value::from(&**value);
-            // This figure has the same value, so it is accepted.
+            // The values come from this figure, so they are accepted.
             let _ = stage.model_mut().update(&Event::Set { id, value });
         }
         Untouched {
@@ -81,7 +81,7 @@ impl Figure {
         }
     }
 
-    /// The state as the query of a URL; empty in the default state.
+    /// Returns the state as the query of a URL; empty in the default state.
     pub fn query(&self) -> String {
         let pairs: Vec<String> = self
             .state()
@@ -91,8 +91,8 @@ impl Figure {
         pairs.join("&")
     }
 
-    /// Puts parameters on top of the present state: controls first, then handles, then what is
-    /// only in permalinks. A parameter that cannot be used is left out and its problem returned.
+    /// Applies parameters to the current state: controls first, then handles, then hidden controls.
+    /// Invalid parameters are skipped and their problems returned.
     pub fn apply(&mut self, parameters: &[(String, String)]) -> Vec<Problem> {
         let mut problems = Vec::new();
         let rank = |figure: &Self, key: &str| {

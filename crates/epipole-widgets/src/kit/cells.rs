@@ -1,21 +1,21 @@
-//! Numbers in cells: small images and tables, every number of which is to be read.
+//! Numbers in cells: small images and tables with readable values.
 
 use crate::canvas::{Canvas, TextStyle, text_width};
 use crate::contract::{Panel, Rect};
 use crate::kit::grid::TEXT;
 use crate::theme::Rgb;
 
-/// Cells narrower than this have no numbers.
+/// Narrowest cell with a number, CSS pixels.
 const SMALLEST: f64 = 17.0;
 
-/// The cells of a pixel and of so many around it to each side, in a panel whose world is an image.
+/// Returns the rectangle of a pixel and its `reach` neighbors on each side, in a panel of an image.
 pub(crate) fn around(panel: &Panel, (u, v): (f64, f64), reach: u32) -> Rect {
     let half = f64::from(reach) + 0.5;
     panel.rect_between((u - half, v - half), (u + half, v + half))
 }
 
-/// The cells of a table of 3 × 3, row by row, in the middle of a room from its top down; none is more
-/// than `broadest` times as wide as it is tall.
+/// Returns the cells of a 3 × 3 table, row by row, horizontally centered at the top of a rectangle;
+/// `broadest` limits their width over height.
 pub(crate) fn three_by_three(room: Rect, broadest: f64) -> [Rect; 9] {
     let height = (room.width / 3.0).min(room.height / 3.0);
     let width = (broadest * height).min(room.width / 3.0);
@@ -26,12 +26,12 @@ pub(crate) fn three_by_three(room: Rect, broadest: f64) -> [Rect; 9] {
     })
 }
 
-/// A gray level from 0 to 255 as a color.
+/// Returns a gray level from 0 to 255 as a color.
 pub(crate) fn gray(level: f64) -> Rgb {
     [level.round().clamp(0.0, 255.0) as u8; 3]
 }
 
-/// A filled cell with its number, if there is room for one.
+/// Draws a filled cell with its number, if there is room.
 pub(crate) fn draw(canvas: &mut Canvas, rect: Rect, color: Rgb, text: &str) {
     canvas.fill_color(rect, color);
     if rect.width < SMALLEST {
@@ -42,7 +42,7 @@ pub(crate) fn draw(canvas: &mut Canvas, rect: Rect, color: Rgb, text: &str) {
     canvas.label(rect.center(), text, TextStyle::new(role, size).middle());
 }
 
-/// The size of letters in which a text is no wider than this.
+/// Returns the largest font size at which a text fits the width.
 pub(crate) fn fitting_size(text: &str, width: f64) -> f64 {
     TEXT.min(width / text_width(text, 1.0).max(1e-9))
 }

@@ -1,4 +1,4 @@
-//! Two photographs of the still life with their SIFT features, and which matches of them are right.
+//! Two photographs of the still life with their SIFT features and ground-truth matches.
 //!
 //! Figures that match features show this pair, so that a reader meets the same matches again.
 
@@ -16,24 +16,23 @@ use std::sync::OnceLock;
 
 /// Size of the rendered photographs, pixels.
 pub(crate) const SIZE: (u32, u32) = (480, 360);
-/// Where the second camera stands: meters to the right, meters forward, degrees to the left.
+/// Pose of the second camera: meters to the right, meters forward, degrees to the left.
 const MOTION: (f64, f64, f64) = (0.35, -0.25, 14.0);
-/// The strongest features of a photograph; more make the picture fuller, not clearer.
+/// Number of strongest features kept per photograph; more only crowd the picture.
 const MAX_FEATURES: usize = 600;
-/// A match is right if it is so near to where the scene's geometry puts it, pixels.
+/// Largest distance of a correct match from its true position, pixels.
 pub(crate) const RIGHT_WITHIN_PX: f64 = 3.0;
 
-/// The still life from two places. It never changes, and posters of several sizes and figures need
-/// it several times.
+/// The still life from two places, computed once: posters of several sizes and figures share it.
 pub(crate) struct Pair {
     pub(crate) photographs: [&'static RgbImage; 2],
     pub(crate) features: [&'static Features; 2],
-    /// Where photograph 2 shows what is at each feature of photograph 1; `None` if it does not.
+    /// True position in photograph 2 of each feature of photograph 1; `None` if it is not visible.
     pub(crate) truths: Vec<Option<Point2<f64>>>,
 }
 
 impl Pair {
-    /// Renders the photographs and finds their features, unless that has been done.
+    /// Renders the photographs and detects their features on the first call.
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.
@@ -63,7 +62,7 @@ impl Pair {
         Ok(FOUND.get_or_init(|| pair))
     }
 
-    /// One of the photographs, 0 or 1.
+    /// Returns one of the photographs, 0 or 1.
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.
@@ -79,7 +78,7 @@ impl Pair {
         Ok(TAKEN[index].get_or_init(|| taken))
     }
 
-    /// The features of one of the photographs, 0 or 1.
+    /// Returns the features of one of the photographs, 0 or 1.
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.
@@ -96,14 +95,14 @@ impl Pair {
         Ok(FOUND[index].get_or_init(|| found))
     }
 
-    /// Whether two features show the same thing, by their indices in photograph 1 and 2.
+    /// Returns whether two features, by their indices in photographs 1 and 2, are a correct match.
     pub(crate) fn is_right(&self, index1: usize, index2: usize) -> bool {
         let place2 = self.features[1].keypoints[index2].point();
         self.truths[index1].is_some_and(|truth| (truth - place2).norm() < RIGHT_WITHIN_PX)
     }
 }
 
-/// The strongest SIFT features of two photographs.
+/// Detects the strongest SIFT features of two photographs.
 ///
 /// # Errors
 /// As [`detect_sift`].

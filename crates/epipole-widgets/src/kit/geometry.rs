@@ -20,7 +20,7 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    /// None while both cameras stand at the same place.
+    /// Computes the geometry; `None` if both cameras have the same center.
     pub(crate) fn of([first, second]: &[PosedCamera; 2]) -> Option<Self> {
         let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
         let fundamental = fundamental_from_cameras(first, second).ok()?;
@@ -33,16 +33,16 @@ impl Geometry {
         })
     }
 
-    /// The epipolar line of a pixel of photograph 1; `None` for the epipole itself, too.
+    /// Returns the epipolar line of a pixel of photograph 1; `None` also at the epipole.
     pub(crate) fn line2(&self, pixel1: &Point2<f64>) -> Option<Line2> {
         epipolar_line2(&self.fundamental, pixel1).ok()
     }
 
-    /// The line of photograph 1 through a pixel and the epipole: all its points share one line in
-    /// photograph 2.
+    /// Returns the epipolar line through a pixel of photograph 1: all its points have the same line
+    /// in photograph 2.
     pub(crate) fn line1(&self, pixel1: &Point2<f64>) -> Option<Line2> {
         let line2 = self.line2(pixel1)?;
-        // Any point of the line in photograph 2 gives it, unless it is the epipole there.
+        // Any point of the line in photograph 2 gives it, except the epipole.
         let center = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) * 0.5;
         let foot = line2.nearest(&center);
         let other = Point2::new(foot.x - 500.0 * line2.b, foot.y + 500.0 * line2.a);
@@ -54,10 +54,11 @@ impl Geometry {
     }
 }
 
-/// The letters of a pixel, its match, the match's line and the epipoles, in the panels `first` and `second`.
+/// Returns the symbols of a pixel, its match, its epipolar line and the epipoles, in the panels
+/// `first` and `second`.
 ///
-/// * `pixels`: p and p′, as far as the cameras see them
-/// * `geometry`: `None` while both cameras stand at one place
+/// * `pixels`: p and p′, where the cameras see them
+/// * `geometry`: `None` if both cameras have the same center
 pub(crate) fn symbols(
     pixels: [Option<Point2<f64>>; 2],
     geometry: Option<&Geometry>,
@@ -77,7 +78,7 @@ pub(crate) fn symbols(
         .collect()
 }
 
-/// The letters of a pixel, its match, and the line that it gives in the panel `second`, as far as they are there.
+/// Returns the symbols of a pixel, its match and its line in the panel `second`, where they exist.
 pub(crate) fn match_symbols(
     [pixel1, pixel2]: [Option<Point2<f64>>; 2],
     line2: Option<Line2>,
@@ -97,7 +98,7 @@ pub(crate) fn match_symbols(
         .collect()
 }
 
-/// The letters of one of many matches: the one whose pixel is nearest to the middle of photograph 1.
+/// Returns the symbols of one of many matches, the one nearest to the middle of photograph 1.
 pub(crate) fn symbols_of_one(
     matches: impl Iterator<Item = [Point2<f64>; 2]>,
     (width, height): (u32, u32),
@@ -136,7 +137,7 @@ mod tests {
                 assert!(sampson_px(&geometry.fundamental, &point, &pixel2) < 1e-6);
                 let line1 = geometry.line1(&point).unwrap();
                 assert!(line1.signed_distance(&point).abs() < 1e-6);
-                // E constrains rays as F constrains pixels.
+                // Check with E, which constrains rays as F constrains pixels.
                 let [ray1, ray2] = [
                     cameras[0].intrinsics.ray(&point),
                     cameras[1].intrinsics.ray(&pixel2),

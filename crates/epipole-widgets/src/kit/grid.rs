@@ -1,38 +1,38 @@
-//! Titled panels in rows, with one breakpoint for all figures, and words in the place of a picture.
+//! Titled panels in rows, with one breakpoint for all figures, and notices instead of pictures.
 //!
-//! A view asks a [`Grid`] for rows from the top down, and makes panels of the rectangles that it gets.
+//! A view asks a [`Grid`] for rows from the top down and makes panels of the rectangles it returns.
 
 use crate::canvas::{Canvas, TextStyle, paragraph_height, text_width};
 use crate::contract::{Layout, Panel, Rect};
 use crate::theme::Role;
 
-/// Between panels, CSS pixels.
+/// Gap between panels, CSS pixels.
 pub(crate) const GAP: f64 = 12.0;
-/// Height of the line of text above a panel.
+/// Height of a panel's title line, CSS pixels.
 pub(crate) const TITLE: f64 = 24.0;
-/// Size of letters in titles and beside marks.
+/// Font size of titles and labels, CSS pixels.
 pub(crate) const TEXT: f64 = 13.0;
-/// Size of letters on axes and in legends.
+/// Font size of axes and legends, CSS pixels.
 pub(crate) const SMALL: f64 = 12.0;
-/// Pictures narrower than this are for phones: panels stand below each other.
+/// Width below which panels are stacked, as on phones, CSS pixels.
 const NARROW: f64 = 560.0;
-/// Pictures at least as wide as this are for broad pages: panels stand side by side.
+/// Width from which panels are arranged side by side, CSS pixels.
 const BROAD: f64 = 900.0;
 
-/// A picture for a phone is not taller than this, so that sliders are on the screen with it.
+/// Maximum height of a picture on a phone, so that sliders fit on the screen, CSS pixels.
 const PHONE: f64 = 376.0;
 
-/// Whether a picture of this width is for a phone.
+/// Returns whether a picture of this width is for a phone.
 pub(crate) fn is_narrow(width: f64) -> bool {
     width < NARROW
 }
 
-/// Whether a picture of this width is for a broad page.
+/// Returns whether a picture of this width is for a broad page.
 pub(crate) fn is_broad(width: f64) -> bool {
     width >= BROAD
 }
 
-/// Height over width of a picture.
+/// Returns height over width of a picture.
 pub(crate) const fn aspect((width, height): (u32, u32)) -> f64 {
     height as f64 / width as f64
 }
@@ -44,19 +44,19 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// An empty picture, `width` CSS pixels wide.
+    /// Creates an empty grid, `width` CSS pixels wide.
     pub(crate) fn new(width: f64) -> Self {
         Self { width, bottom: 0.0 }
     }
 
-    /// The top of the next row's cells, below their titles.
+    /// Returns the top of the next row's cells, below their titles.
     fn next_top(&self) -> f64 {
         let gap = if self.bottom > 0.0 { GAP } else { 0.0 };
         self.bottom + gap + TITLE
     }
 
-    /// Cells of one height that fill the width, or stand in its middle where they would become taller
-    /// than `tallest`.
+    /// Adds cells of one height that fill the width; they are shrunk and centered where they would
+    /// be taller than `tallest`.
     ///
     /// * `aspects`: height over width of each
     pub(crate) fn row<const N: usize>(&mut self, aspects: [f64; N], tallest: f64) -> [Rect; N] {
@@ -74,17 +74,17 @@ impl Grid {
         cells
     }
 
-    /// Cells that take these shares of the width and are `height` tall.
+    /// Adds cells with these fractions of the width, `height` tall.
     pub(crate) fn shares<const N: usize>(&mut self, shares: [f64; N], height: f64) -> [Rect; N] {
         let row = Rect::new(0.0, self.next_top(), self.width, height);
         self.bottom = row.bottom();
         columns(row, shares)
     }
 
-    /// Room for a panel with two photographs beside it, on a phone above it.
+    /// Adds a panel with two photographs beside it, or on a phone above it.
     ///
     /// * `aspect`: height over width of a photograph
-    /// * `tallest`: of the panel, where the photographs stand beside it
+    /// * `tallest`: maximum height of the panel where the photographs are beside it
     pub(crate) fn beside_photographs(&mut self, aspect: f64, tallest: f64) -> (Rect, [Rect; 2]) {
         if is_narrow(self.width) {
             let photographs = self.row([aspect; 2], PHONE / 2.0);
@@ -100,11 +100,12 @@ impl Grid {
         (panel, stack(column, [1.0; 2]))
     }
 
-    /// Two photographs and two smaller panels: beside them, below each other, on a broad page; else in a
-    /// low row below them.
+    /// Adds two photographs and two smaller panels: on a broad page stacked beside the photographs,
+    /// otherwise in a low row below them.
     ///
     /// * `aspect`: height over width of a photograph
-    /// * `shares`: of the smaller panels, of their height beside and of their width below
+    /// * `shares`: fractions of the smaller panels, of the height where beside and of the width
+    ///   where below
     pub(crate) fn photographs_and_two(&mut self, aspect: f64, shares: [[f64; 2]; 2]) -> [Rect; 4] {
         const BESIDE: f64 = 404.0;
         const ABOVE: f64 = 254.0;
@@ -119,16 +120,16 @@ impl Grid {
         [first, second, left, right]
     }
 
-    /// Room below everything for a legend or a line of words, over the whole width.
+    /// Adds a full-width strip for a legend or a line of words.
     pub(crate) fn strip(&mut self, height: f64) -> Rect {
         let strip = Rect::new(0.0, self.bottom, self.width, height);
         self.bottom = strip.bottom();
         strip
     }
 
-    /// The picture with its panels.
+    /// Returns the layout of the picture with these panels.
     pub(crate) fn layout(self, panels: Vec<Panel>) -> Layout {
-        // The line around the lowest panel is half outside of it.
+        // Half of the lowest panel's border is outside of it.
         let height = self.bottom + 1.0;
         Layout {
             width: self.width,
@@ -138,7 +139,7 @@ impl Grid {
     }
 }
 
-/// A rectangle in columns that take these shares of its width, a gap between them.
+/// Splits a rectangle into columns with these fractions of its width and gaps between them.
 pub(crate) fn columns<const N: usize>(rect: Rect, shares: [f64; N]) -> [Rect; N] {
     let room = (rect.width - GAP * (N - 1) as f64).max(1.0);
     let all: f64 = shares.iter().sum();
@@ -150,8 +151,8 @@ pub(crate) fn columns<const N: usize>(rect: Rect, shares: [f64; N]) -> [Rect; N]
     })
 }
 
-/// A rectangle in cells below each other that take these shares of its height. There is room for a
-/// title above each but the first, whose title stands above the rectangle.
+/// Splits a rectangle into stacked cells with these fractions of its height, leaving room for a
+/// title above each; the first title is above the rectangle.
 pub(crate) fn stack<const N: usize>(rect: Rect, shares: [f64; N]) -> [Rect; N] {
     let between = GAP + TITLE;
     let room = (rect.height - between * (N - 1) as f64).max(1.0);
@@ -164,24 +165,24 @@ pub(crate) fn stack<const N: usize>(rect: Rect, shares: [f64; N]) -> [Rect; N] {
     })
 }
 
-/// The line of text above a panel.
+/// Draws the title line above a panel.
 pub(crate) fn title(canvas: &mut Canvas, rect: Rect, text: &str) {
     let place = (rect.x, rect.y - TITLE / 2.0);
     canvas.label(place, text, TextStyle::new(Role::Ink, TEXT).cased());
 }
 
-/// The line of text above a panel, in the first of these wordings, longest first, that fits.
+/// Draws the title line above a panel, in the first of these wordings, longest first, that fits.
 pub(crate) fn fitting_title(canvas: &mut Canvas, rect: Rect, wordings: &[&str]) {
     title(canvas, rect, fitting(rect.width, wordings));
 }
 
-/// A panel's title, in the first of these wordings that fits, and the line around it.
+/// Draws a panel's title, in the first of these wordings that fits, and its border.
 pub(crate) fn open(canvas: &mut Canvas, panel: &Panel, wordings: &[&str]) {
     fitting_title(canvas, panel.rect, wordings);
     canvas.panel(panel.rect);
 }
 
-/// Opens all of these panels, as [`open`] does, each with its name and its titles.
+/// Opens panels as [`open`] does, each with its name and titles.
 pub(crate) fn open_all<'a, const N: usize>(
     canvas: &mut Canvas,
     layout: &'a Layout,
@@ -194,7 +195,7 @@ pub(crate) fn open_all<'a, const N: usize>(
     })
 }
 
-/// The first of these wordings that is no wider, or else the last.
+/// Returns the first of these wordings that fits the width, or else the last.
 pub(crate) fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
     let fits = |text: &&&str| text_width(text, TEXT) <= width;
     wordings
@@ -204,7 +205,7 @@ pub(crate) fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
         .unwrap_or(&"")
 }
 
-/// Words over the lower part of a panel.
+/// Draws a notice over the lower part of a panel.
 pub(crate) fn notice(canvas: &mut Canvas, rect: Rect, text: &str) {
     let width = rect.inset(12.0).width;
     let height = paragraph_height(text, TEXT, width) + 16.0;

@@ -1,5 +1,4 @@
-//! Numbers as colors: a map that is colored anew only when its numbers or the theme change, stripes
-//! where there is no number, and the bar that says what the colors mean.
+//! Numbers as colors: cached maps, stripes for missing values, and the color bar.
 
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
 use crate::contract::Rect;
@@ -8,13 +7,13 @@ use image::RgbImage;
 
 /// Period of the stripes, pixels.
 const STRIPE_PX: u32 = 6;
-/// Pieces of a bar.
+/// Number of steps of a color bar.
 const NUM_STEPS: u32 = 40;
 /// Size of a legend's letters and swatches, CSS pixels.
 const TEXT: f64 = 12.0;
 const SWATCH: f64 = 14.0;
 
-/// Maps of one answer, kept between drawings.
+/// Cached color maps of one answer.
 pub(crate) struct Heat<const N: usize = 1> {
     kept: Option<(u64, Theme, [RgbImage; N])>,
 }
@@ -26,7 +25,7 @@ impl<const N: usize> Default for Heat<N> {
 }
 
 impl<const N: usize> Heat<N> {
-    /// The maps of this version in this theme, colored by `color` unless that has been done.
+    /// Returns the maps of this version and theme, calling `color` only if they are not cached.
     pub(crate) fn maps(
         &mut self,
         version: u64,
@@ -40,12 +39,12 @@ impl<const N: usize> Heat<N> {
     }
 }
 
-/// Whether a pixel is in a stripe.
+/// Returns whether a pixel is in a stripe.
 pub(crate) fn is_stripe(u: u32, v: u32) -> bool {
     (u + v) % STRIPE_PX < STRIPE_PX / 2
 }
 
-/// What stands for "no number" at a pixel.
+/// Returns the color of a missing value at a pixel.
 pub(crate) fn nothing(theme: Theme, u: u32, v: u32) -> Rgb {
     let role = if is_stripe(u, v) {
         Role::Surface
@@ -55,7 +54,7 @@ pub(crate) fn nothing(theme: Theme, u: u32, v: u32) -> Rgb {
     theme.color(role)
 }
 
-/// Colors of numbers with a sign: warm where they are positive, cool where they are negative.
+/// Colors of signed numbers: warm where positive, cool where negative.
 pub(crate) struct Signed {
     zero: Rgb,
     warm: Rgb,
@@ -69,15 +68,15 @@ impl Signed {
         Self { zero, warm, cool }
     }
 
-    /// * `share`: how much of the color, 0 to 1
+    /// * `share`: saturation, 0 to 1
     pub(crate) fn color(&self, is_negative: bool, share: f32) -> Rgb {
         let full = if is_negative { self.cool } else { self.warm };
         mix(self.zero, full, share)
     }
 
-    /// The color at a pixel of a map, whose negative parts are striped, too.
+    /// Returns the color at a pixel of a map whose negative parts are also striped.
     ///
-    /// * `faint`: how much of it is left between the stripes, 0 to 1
+    /// * `faint`: fraction of the saturation between the stripes, 0 to 1
     pub(crate) fn at(&self, (u, v): (u32, u32), is_negative: bool, share: f32, faint: f32) -> Rgb {
         let left = if is_negative && is_stripe(u, v) {
             faint
@@ -88,7 +87,7 @@ impl Signed {
     }
 }
 
-/// A bar with the colors from 0 to 1, and what its ends mean; the height that both take.
+/// Draws a color bar from 0 to 1 with labels at its ends.
 pub(crate) fn bar(
     canvas: &mut Canvas,
     rect: Rect,
@@ -109,16 +108,17 @@ pub(crate) fn bar(
     canvas.label((rect.right(), y), ends[1], style.end());
 }
 
-/// What a legend's swatch is filled with.
+/// Fill of a legend's swatch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Fill {
-    /// A role, this much of it.
+    /// A role's color with an opacity.
     Role(Role, f64),
     /// The stripes of "no number".
     Stripes,
 }
 
-/// Swatches with their words in a row, so far apart; `place` is the middle of its left edge.
+/// Draws labeled swatches in a row, `apart` CSS pixels apart; the position is the middle of the
+/// left edge.
 pub(crate) fn swatches(
     canvas: &mut Canvas,
     (mut x, y): (f64, f64),
@@ -131,7 +131,7 @@ pub(crate) fn swatches(
     }
 }
 
-/// A swatch with its words; `place` is the middle of its left edge.
+/// Draws a labeled swatch; the position is the middle of its left edge.
 pub(crate) fn swatch(canvas: &mut Canvas, (x, y): (f64, f64), fill: Fill, words: &str) {
     let rect = Rect::new(x, y - SWATCH / 2.0, SWATCH, SWATCH);
     match fill {

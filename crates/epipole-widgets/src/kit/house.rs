@@ -1,4 +1,4 @@
-//! A house of wire, and the cameras around it, as they really are.
+//! A wireframe house and the cameras around it: the ground truth.
 
 use epipole::Error;
 use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
@@ -8,18 +8,18 @@ use nalgebra::{Point2, Point3, Vector3};
 pub(crate) const SIZE: (u32, u32) = (640, 480);
 const FOCAL_PX: f64 = 560.0;
 
-/// How many cameras there are.
+/// Number of cameras.
 pub(crate) const NUM_CAMERAS: usize = 4;
-/// The camera whose photograph is shown, by index.
+/// Index of the camera whose photograph is shown.
 pub(crate) const SHOWN: usize = 2;
-/// Where they stand around the house, degrees, and how high.
+/// Azimuth around the house, degrees, and y (down) of each camera.
 const STANDS: [(f64, f64); NUM_CAMERAS] =
     [(-48.0, -0.45), (-12.0, -0.85), (30.0, -0.75), (62.0, -0.5)];
 const DISTANCE: f64 = 2.6;
-/// What they look at.
+/// Point that all cameras look at.
 const TARGET: [f64; 3] = [0.0, -0.15, 0.0];
 
-/// The width of the house; errors are told as shares of it.
+/// Width of the house, scene units; errors are given as fractions of it.
 pub(crate) const WIDTH: f64 = 1.6;
 
 /// Four corners on the ground, four under the eaves, two ends of the ridge, and a door; y is down.
@@ -42,7 +42,7 @@ const CORNERS: [[f64; 3]; 14] = [
 /// The end of the ridge whose feature the reader drags.
 pub(crate) const MARK: usize = 9;
 
-/// Corners that a wire joins, and how many more points are on it.
+/// Both end corners of each wire, and the number of points between them.
 const WIRES: [(usize, usize, usize); 20] = [
     (0, 1, 3),
     (1, 2, 2),
@@ -70,13 +70,13 @@ const WIRES: [(usize, usize, usize); 20] = [
 pub(crate) struct House {
     pub(crate) cameras: Vec<PosedCamera>,
     pub(crate) points: Vec<Point3<f64>>,
-    /// Points along each wire, by index.
+    /// Indices of the points along each wire.
     pub(crate) wires: Vec<Vec<usize>>,
 }
 
 impl House {
     /// # Errors
-    /// None for the numbers above, which a test confirms.
+    /// Never for the constants above, which a test confirms.
     pub(crate) fn new() -> Result<Self, Error> {
         let mut points: Vec<Point3<f64>> = CORNERS.map(Point3::from).to_vec();
         let mut wires = Vec::new();
@@ -110,13 +110,13 @@ impl House {
         })
     }
 
-    /// The pieces of the wires, from one point to the next.
+    /// Returns the segments of the wires between neighboring points.
     pub(crate) fn pieces(&self) -> impl Iterator<Item = [usize; 2]> {
         let wires = self.wires.iter();
         wires.flat_map(|wire| wire.windows(2).map(|pair| [pair[0], pair[1]]))
     }
 
-    /// A camera that has come to stand elsewhere.
+    /// Returns a camera with another pose.
     pub(crate) fn camera(&self, index: usize, cam_from_world: RigidTransform) -> PosedCamera {
         PosedCamera {
             cam_from_world,
@@ -124,7 +124,7 @@ impl House {
         }
     }
 
-    /// Where the dragged feature belongs in the photograph that is shown, pixels.
+    /// Returns the true position of the dragged feature in the shown photograph, pixels.
     pub(crate) fn mark(&self) -> Point2<f64> {
         let seen = self.cameras[SHOWN].project(&self.points[MARK]);
         // The house is in front of every camera.

@@ -1,10 +1,10 @@
-//! Labels beside marks: each goes where it covers nothing else, if there is such a place.
+//! Placement of labels beside marks so that they overlap nothing, where possible.
 
 use crate::canvas::{Align, Canvas, Place, TextStyle, text_width};
 use crate::contract::Rect;
 use crate::theme::Role;
 
-/// Space around a label, CSS pixels.
+/// Margin around a label, CSS pixels.
 const MARGIN: f64 = 3.0;
 
 /// The labels of one panel.
@@ -14,7 +14,7 @@ pub(crate) struct Labels {
 }
 
 impl Labels {
-    /// No labels yet; all will lie within `bounds`.
+    /// Creates an empty set of labels within `bounds`.
     pub(crate) fn new(bounds: Rect) -> Self {
         Self {
             bounds,
@@ -28,12 +28,12 @@ impl Labels {
         self.taken.push(Rect::new(x, y, 2.0 * radius, 2.0 * radius));
     }
 
-    /// Keeps labels away from what is drawn in a rectangle.
+    /// Keeps labels away from a rectangle.
     pub(crate) fn keep_rect_free(&mut self, rect: Rect) {
         self.taken.push(rect);
     }
 
-    /// Keeps labels away from a line, as far as it is inside.
+    /// Keeps labels away from the part of a line within the bounds.
     pub(crate) fn keep_line_free(&mut self, from: Place, to: Place) {
         const STEP: f64 = 8.0;
         let length = libm::hypot(to.0 - from.0, to.1 - from.1);
@@ -50,8 +50,9 @@ impl Labels {
         }
     }
 
-    /// Draws a label at the first of some places where it covers nothing, or else where it covers
-    /// least. A place is where the label begins, ends or has its middle, at half its height.
+    /// Draws a label at the first of some positions where it overlaps nothing, or else where it
+    /// overlaps least. The alignment of a position gives the label's start, middle or end, at half
+    /// its height.
     pub(crate) fn draw(
         &mut self,
         canvas: &mut Canvas,
@@ -87,7 +88,7 @@ impl Labels {
         }
     }
 
-    /// Names a mark beside it, letters of this size in the color of a role.
+    /// Draws the name of a mark beside it, at a font size and in the color of a role.
     pub(crate) fn name(
         &mut self,
         canvas: &mut Canvas,
@@ -99,7 +100,7 @@ impl Labels {
         self.draw(canvas, &Self::around(place, distance), text, style);
     }
 
-    /// Six places around a mark, right above first.
+    /// Returns six positions around a mark, upper right first.
     pub(crate) fn around((x, y): Place, distance: f64) -> [(Place, Align); 6] {
         let up = distance + 8.0;
         [
@@ -112,7 +113,7 @@ impl Labels {
         ]
     }
 
-    /// The rectangle, moved into the bounds; a larger one begins where they begin.
+    /// Moves a rectangle into the bounds; a larger one is aligned with their start.
     fn moved_inside(&self, rect: Rect) -> Rect {
         let fit = |start: f64, size: f64, low: f64, high: f64| start.min(high - size).max(low);
         Rect::new(

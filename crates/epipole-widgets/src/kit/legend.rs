@@ -1,4 +1,4 @@
-//! Legends: what the lines and markers of a figure mean, in as many rows as it takes.
+//! Legends of lines and markers, in several rows where needed.
 
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle, text_width};
 use crate::contract::Layout;
@@ -14,10 +14,10 @@ pub(crate) enum Swatch {
     Marker(Shape, Role),
 }
 
-/// What is drawn, and what it means.
+/// A swatch and its meaning.
 pub(crate) type Entry = (Swatch, &'static str);
 
-/// Where each entry begins, and how many CSS pixels all rows take.
+/// Returns the position of each entry and the height of all rows, CSS pixels.
 fn places(entries: &[Entry], width: f64, margin: f64) -> (Vec<(f64, f64)>, f64) {
     let (mut x, mut y) = (margin, 0.0);
     let mut places = Vec::new();
@@ -32,12 +32,12 @@ fn places(entries: &[Entry], width: f64, margin: f64) -> (Vec<(f64, f64)>, f64) 
     (places, y + ROW)
 }
 
-/// The height of a legend, CSS pixels.
+/// Returns the height of a legend, CSS pixels.
 pub(crate) fn height(entries: &[Entry], width: f64, margin: f64) -> f64 {
     places(entries, width, margin).1
 }
 
-/// Draws a legend at the bottom of a picture, with this much room below it.
+/// Draws a legend at the bottom of a picture, `below` CSS pixels above its edge.
 pub(crate) fn draw_last(
     canvas: &mut Canvas,
     entries: &[Entry],

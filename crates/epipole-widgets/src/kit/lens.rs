@@ -1,42 +1,42 @@
-//! How a reader sees a scene in three dimensions: the camera behind a space, in CSS pixels for a view,
-//! in the panel's own degrees for a model whose things are moved in the space itself.
+//! The virtual camera of a space: in CSS pixels for views, and in the panel's degrees for models
+//! whose objects are dragged in the space.
 
 use crate::kit::orbit::{HALF_RISE_DEG, HALF_TURN_DEG, Orbit};
 use epipole::camera::{Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// How far the reader stands off at zoom 1, in radii of the scene.
+/// Distance of the eye at zoom 1, in radii of the scene.
 const DISTANCE: f64 = 2.6;
-/// Share of the panel's shorter side that the scene fills at zoom 1.
+/// Fraction of the panel's shorter side that the scene fills at zoom 1.
 const FILL: f64 = 0.94;
-/// Nothing nearer to the reader than this is seen, in radii of the scene.
+/// Near plane, in radii of the scene.
 const NEAREST: f64 = 0.02;
 
-/// The ball that the reader looks at.
+/// Bounding sphere of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Subject {
-    /// Its middle.
+    /// Center, scene units.
     pub(crate) middle: Point3<f64>,
-    /// Its radius, > 0.
+    /// Radius, > 0.
     pub(crate) radius: f64,
 }
 
-/// A scene as it is seen from somewhere.
+/// A virtual camera on a scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lens {
     pub(crate) eye: PosedCamera,
-    /// From the eye to the middle of the scene.
+    /// Distance from the eye to the center of the scene.
     pub(crate) distance: f64,
-    /// Nothing nearer is seen.
+    /// Distance of the near plane.
     pub(crate) nearest: f64,
 }
 
 impl Lens {
     /// For a panel of this size; `None` if there is no room, or the subject is nowhere.
-    ///
+    /// Creates the camera for a panel; `None` if it has no size, or the subject is not finite.
     /// * `size`: width and height of the panel, in any unit
-    /// * `units`: units of the result for a unit of the size, across and down
-    /// * `middle`: where the middle of the scene is, in units of the result
+    /// * `units`: result units per unit of `size`, across and down
+    /// * `middle`: position of the scene center, in result units
     pub(crate) fn new(
         (width, height): (f64, f64),
         units: (f64, f64),
@@ -66,13 +66,15 @@ impl Lens {
         })
     }
 
-    /// In degrees of the panel of [`Orbit::panel`], which is so many times as tall as broad.
+    /// Creates the camera in degrees of the panel of [`Orbit::panel`]; `aspect` is its height over
+    /// width.
     pub(crate) fn of_panel(aspect: f64, orbit: &Orbit, subject: &Subject) -> Option<Self> {
         let units = (2.0 * HALF_TURN_DEG, 2.0 * HALF_RISE_DEG / aspect);
         Self::new((1.0, aspect), units, orbit.middle(), orbit, subject)
     }
 
-    /// Where a point of the eye's own frame is seen, and how far away it is; `None` behind the eye.
+    /// Projects a point of the eye's frame; returns its position and depth, `None` if it is nearer
+    /// than the near plane.
     pub(crate) fn shown(&self, in_eye: &Point3<f64>) -> Option<((f64, f64), f64)> {
         if in_eye.z.is_nan() || in_eye.z < self.nearest {
             return None;
@@ -82,22 +84,22 @@ impl Lens {
         finite.then_some(((place.x, place.y), in_eye.z))
     }
 
-    /// Where a point is seen.
+    /// Projects a point.
     pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(f64, f64)> {
         let shown = self.shown(&(self.eye.cam_from_world * point));
         shown.map(|(place, _)| place)
     }
 
-    /// Where on the level plane at the height `y` a place is that is seen here; `None` above its
-    /// horizon.
+    /// Intersects the ray through a position with the horizontal plane at height `y`; `None` above
+    /// its horizon.
     pub(crate) fn on_level(&self, (u, v): (f64, f64), y: f64) -> Option<Point3<f64>> {
         let (eye, ray) = self.ray((u, v));
         let along = (y - eye.y) / ray.y;
         (along.is_finite() && along > 0.0).then(|| eye + ray * along)
     }
 
-    /// How far along a ray the point is that is seen nearest to a place: `from + along · towards`.
-    /// `None` if the eye looks along the ray.
+    /// Returns the parameter of the point on a line that is nearest to the viewing ray of a
+    /// position: `from + along · towards`. `None` if the eye looks along the line.
     pub(crate) fn along(
         &self,
         (u, v): (f64, f64),
@@ -105,7 +107,8 @@ impl Lens {
         towards: &Vector3<f64>,
     ) -> Option<f64> {
         let (eye, ray) = self.ray((u, v));
-        // Both directions are square to the shortest connection of the two lines.
+        // In the span of both directions and normal to the viewing ray, so normal to the shortest
+        // segment.
         let square = ray.cross(towards).cross(&ray);
         let along = square.dot(&(eye - from)) / square.dot(towards);
         along.is_finite().then_some(along)
@@ -117,9 +120,9 @@ impl Lens {
     }
 }
 
-/// Where a handle of a panel of [`Lens::of_panel`] may be: a little off its edge.
+/// Range of a handle's x in a panel of [`Lens::of_panel`], degrees, with a margin at the edge.
 pub(crate) const ACROSS: [f64; 2] = [8.0 - HALF_TURN_DEG, HALF_TURN_DEG - 8.0];
-/// The same from top to bottom.
+/// Range of its y, degrees.
 pub(crate) const DOWN: [f64; 2] = [5.0 - HALF_RISE_DEG, HALF_RISE_DEG - 5.0];
 
 #[cfg(test)]
@@ -156,7 +159,7 @@ mod tests {
         let (from, towards) = (Point3::new(-1.0, 0.5, 0.0), Vector3::new(0.7, -0.4, 0.9));
         let place = lens.place(&(from + towards * 1.25)).unwrap();
         assert!((lens.along(place, &from, &towards).unwrap() - 1.25).abs() < 1e-9);
-        // Level with the plane it is seen edge-on.
+        // At eye level the plane is seen edge-on.
         let level = Lens::of_panel(0.6, &Orbit::new(0.0, 0.0), &SUBJECT).unwrap();
         assert!(level.on_level((10.0, 0.0), SUBJECT.middle.y).is_none());
     }

@@ -7,16 +7,16 @@ use crate::kit::line_points::{HEIGHT_PX, WIDTH_PX};
 use crate::theme::Role;
 use epipole::math::Line2;
 
-/// In legends, a point that votes for a line, and one that does not.
+/// Legend entries of a point that votes for a line, and of one that does not.
 pub(crate) const INLIER: Swatch = Swatch::Marker(Shape::Disk, Role::Inlier);
 pub(crate) const OUTLIER: Swatch = Swatch::Marker(Shape::Cross, Role::Outlier);
 
-/// The panel of the plane.
+/// Creates the panel of the plane.
 pub(crate) fn panel(id: &'static str, rect: Rect) -> Panel {
     Panel::new(id, rect, [0.0, WIDTH_PX], [0.0, HEIGHT_PX])
 }
 
-/// Both ends of a line, beyond the panel.
+/// Returns two points of a line beyond the panel.
 fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
     let foot = (
         -(line.c - offset_px) * line.a,
@@ -32,7 +32,7 @@ pub(crate) fn draw_line(canvas: &mut Canvas, plane: &Panel, line: &Line2, stroke
     canvas.line(from, to, stroke);
 }
 
-/// A point that votes for a line, or does not; with no line yet, neither.
+/// Draws a point, colored by its vote; `None` while there is no line.
 pub(crate) fn draw_point(canvas: &mut Canvas, place: (f64, f64), radius: f64, votes: Option<bool>) {
     let (shape, role) = match votes {
         Some(true) => (Shape::Disk, Role::Inlier),
@@ -42,7 +42,7 @@ pub(crate) fn draw_point(canvas: &mut Canvas, place: (f64, f64), radius: f64, vo
     canvas.marker(place, radius, shape, role, false);
 }
 
-/// The strip of places within the threshold of the sample's line.
+/// Draws the band within the threshold of the sample's line.
 pub(crate) fn band(canvas: &mut Canvas, plane: &Panel, line: &Line2, epsilon_px: f64) {
     let [a, b] = ends(plane, line, -epsilon_px);
     let [d, c] = ends(plane, line, epsilon_px);

@@ -6,49 +6,49 @@ use epipole::math::{Line2, random::Random};
 use epipole::robust::fit_line_total_least_squares;
 use nalgebra::Point2;
 
-/// The plane that the points lie in, pixels.
+/// Width of the plane of the points, pixels.
 pub(crate) const WIDTH_PX: f64 = 640.0;
-/// The plane that the points lie in, pixels.
+/// Height of the plane of the points, pixels.
 pub(crate) const HEIGHT_PX: f64 = 400.0;
-/// Places of points are kept to a tenth of a pixel.
+/// Digits of point coordinates: tenths of a pixel.
 pub(crate) const DIGITS: usize = 1;
-/// Standard deviation of a good point's distance from the hidden line.
+/// Standard deviation of an inlier's distance from the hidden line, pixels.
 const NOISE_PX: f64 = 4.0;
 
-/// How near a point must be to a line to vote for it.
+/// Inlier threshold on the distance from the line, pixels.
 pub(crate) const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
     .range(2.0, 40.0, 1.0)
     .at(10.0)
     .unit("px");
-/// Points of all kinds.
+/// Number of points, inliers and outliers.
 pub(crate) const COUNT: Slider = Slider::new("points", "Number of points")
     .range(8.0, 120.0, 2.0)
     .at(60.0)
     .more();
 
-/// Points drawn at random.
+/// Random points around a hidden line.
 pub(crate) struct Scatter {
     pub(crate) truth: Line2,
-    /// Those near the line first.
+    /// Inliers first.
     pub(crate) points: Vec<Point2<f64>>,
     pub(crate) num_outliers: usize,
-    /// Where about half of the outliers lie.
+    /// Region of about half of the outliers.
     pub(crate) region: Rect,
 }
 
 impl Scatter {
-    /// As the settings of a figure say: its seed and outlier ratio, and [`COUNT`] points.
+    /// Draws [`COUNT`] points with a figure's seed and outlier ratio.
     pub(crate) fn by(settings: &Settings, seed: &'static Slider, ratio: &'static Slider) -> Self {
         let (seed, count) = (settings.count(seed) as u64, settings.count(&COUNT));
         scatter(seed, count, settings.number(ratio))
     }
 }
 
-/// The share of the plane that the region takes: its left and upper edge, its width and height.
+/// The region as fractions of the plane: left and upper edge, width and height.
 const REGION: [f64; 4] = [0.55, 0.04, 0.42, 0.3];
 
-/// A hidden line and points. About half of the outliers lie anywhere, the others in one region on one
-/// side, as a repeated pattern gives them.
+/// Draws a hidden line and points. About half of the outliers are anywhere, the others in one
+/// region on one side, as from a repeated pattern.
 ///
 /// * `outlier_ratio`: outliers among `count` points, 0 to 1
 pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
@@ -92,7 +92,7 @@ pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
         };
         places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
     }
-    // The region is on the side that the line leaves free.
+    // Put the region on the side away from the line.
     let top = if sin < 0.0 { 1.0 - upper - high } else { upper };
     Scatter {
         truth,
@@ -123,8 +123,8 @@ impl Consensus {
         }
     }
 
-    /// The same votes, the line fitted to all of them. Voters without a direction of their own
-    /// keep the line of their sample.
+    /// Refits the line to its inliers and keeps the votes. The sample's line stays if the inliers
+    /// determine none.
     pub(crate) fn refitted(self, places: &[Point2<f64>]) -> Self {
         let voters = inliers_of(places, &self.is_inlier);
         Self {
@@ -138,7 +138,7 @@ impl Consensus {
     }
 }
 
-/// The acute angle between two lines, degrees.
+/// Returns the acute angle between two lines, degrees.
 pub(crate) fn angle_between_deg(one: &Line2, other: &Line2) -> f64 {
     let cross = one.a * other.b - one.b * other.a;
     let dot = one.a * other.a + one.b * other.b;

@@ -1,4 +1,4 @@
-//! Matches of the still life's two photographs: exact by the scene's own geometry, then disturbed.
+//! Matches of the still life's two photographs: exact from the scene geometry, then noisy.
 
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, Seen, still_life_pair};
 use epipole::camera::PosedCamera;
@@ -8,30 +8,30 @@ use nalgebra::{Matrix3, Point2};
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// The most matches that F can be estimated from.
+/// Maximum number of matches for estimating F.
 pub(crate) const MAX_USED: usize = 60;
-/// Exact matches that F is judged by; it never sees them.
+/// Number of exact held-out matches that evaluate F.
 const NUM_HELD_OUT: usize = 100;
-/// Places in photograph 1 that are tried in all.
+/// Maximum number of pixels tried in photograph 1.
 const MAX_TRIED: usize = 4000;
-/// Matches that F is estimated from are no nearer to each other, pixels.
+/// Smallest distance between matches for estimating F, pixels.
 const APART_PX: f64 = 24.0;
-/// Matches are no nearer to the edge of a photograph, pixels.
+/// Smallest distance of a match from the photograph's edge, pixels.
 const MARGIN_PX: f64 = 8.0;
 
-/// Where the second camera stands: meters to the right, meters forward, degrees to the left.
+/// Pose of the second camera: meters to the right, meters forward, degrees to the left.
 const MOTION: (f64, f64, f64) = (0.5, -0.6, 24.0);
 
 /// A pixel of photograph 1 and its match in photograph 2.
 pub(crate) type Match = (Point2<f64>, Point2<f64>);
 
-/// Both cameras.
+/// Returns both cameras.
 pub(crate) fn cameras() -> [PosedCamera; 2] {
     let (right_m, forward_m, left_deg) = MOTION;
     still_life_pair(PHOTO_SIZE, right_m, forward_m, left_deg)
 }
 
-/// The exact match of a pixel of photograph 1, if photograph 2 shows it.
+/// Returns the exact match of a pixel of photograph 1, if it is visible in photograph 2.
 pub(crate) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
     match Seen::of(&cameras(), pixel1) {
         Seen::Visible(pixel2) => Some(pixel2),
@@ -39,36 +39,36 @@ pub(crate) fn exact_match(pixel1: &Point2<f64>) -> Option<Point2<f64>> {
     }
 }
 
-/// The epipolar line of a pixel of photograph 1; `None` for the epipole itself.
+/// Returns the epipolar line of a pixel of photograph 1; `None` at the epipole.
 pub(crate) fn line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Line2> {
     epipolar_line2(fundamental, pixel1).ok()
 }
 
-/// How far the second pixel of a match is from the line of the first, pixels; `None` for a pixel that has no
-/// line: it is the epipole.
+/// Returns the distance of a match's second pixel from the epipolar line of the first, pixels;
+/// `None` if the first is the epipole, which has no line.
 pub(crate) fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) -> Option<f64> {
     let line = line2(fundamental, pixel1)?;
     Some(line.signed_distance(pixel2).abs())
 }
 
-/// Matches of so many seeds are kept: of the first ones, as a fresh figure has them, and of the last one.
+/// Cache size in seeds: the first ones, which fresh figures use, and the last one.
 const MOST_KEPT: usize = 8;
 
 thread_local! {
     static KEPT: RefCell<Vec<(u64, Rc<Matches>)>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Matches to estimate F from, and matches to judge it by.
+/// Matches for estimating F and for evaluating it.
 pub(crate) struct Matches {
     exact: Vec<Match>,
-    /// A draw from the standard normal distribution for each coordinate of each match.
+    /// Standard normal noise for each coordinate of each match.
     disturbances: Vec<[f64; 4]>,
     pub(crate) held_out: Vec<Match>,
 }
 
 impl Matches {
-    /// Draws places of photograph 1 and follows them to photograph 2. What was drawn is kept: with each change, a
-    /// fresh figure that it is compared with asks for the same again.
+    /// Draws pixels of photograph 1 and their matches. The result is cached, since after every
+    /// change the state is compared with a fresh figure's.
     pub(crate) fn draw(seed: u64) -> Rc<Self> {
         KEPT.with_borrow_mut(|kept| {
             if let Some((_, known)) = kept.iter().find(|(of, _)| *of == seed) {
@@ -111,7 +111,7 @@ impl Matches {
         }
     }
 
-    /// The first `count` matches, their coordinates off by normal noise.
+    /// Returns the first `count` matches with normal noise on their coordinates.
     pub(crate) fn noisy(&self, count: usize, noise_px: f64) -> Vec<Match> {
         let disturbed = self.exact.iter().zip(&self.disturbances).take(count);
         let moved = |p: &Point2<f64>, by: &[f64]| {

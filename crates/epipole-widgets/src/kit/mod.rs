@@ -1,6 +1,6 @@
-//! What figures share: a figure declares, asks, says and draws; the rest is here.
+//! Shared parts of the figures.
 //!
-//! | room | what it does for a figure |
+//! | module | purpose |
 //! |---|---|
 //! | [`question`] | a computation that takes long: asked, carried out elsewhere, answered |
 //! | [`patch`] | what the windows of features show, for comparison |

@@ -1,9 +1,9 @@
-//! Where the reader looks at a thing in three dimensions from: state, handles and words.
+//! Viewpoint of a three-dimensional panel: state, handles and words.
 //!
-//! A model holds an [`Orbit`], whose controls and handles stand behind its own. A panel of
-//! [`SPACE`] has degrees as its world: across, how far the scene is turned about its vertical
-//! axis; down, how far above it the reader is. So a drag to the right turns what is in front to
-//! the right, and one downwards turns it down.
+//! A model holds an [`Orbit`] and appends its controls and handles to its own. The world of a panel
+//! of [`SPACE`] is in degrees: across, the rotation of the scene about its vertical axis; down, the
+//! elevation of the reader above it. So a drag to the right turns the front of the scene to the
+//! right, and a drag downwards turns it down.
 
 use crate::contract::{
     Button, ButtonRole, Control, Event, Handle, Knob, Panel, Problem, Rect, Settings, Slider,
@@ -18,7 +18,7 @@ pub(crate) const SPACE: Space = Space {
     zoom: "zoom",
 };
 
-/// How near the reader is.
+/// Zoom of the viewpoint.
 const ZOOM: Slider = Slider::new(SPACE.zoom, "Zoom")
     .range(0.5, 6.0, 0.1)
     .at(1.0)
@@ -26,17 +26,17 @@ const ZOOM: Slider = Slider::new(SPACE.zoom, "Zoom")
     .unit("×")
     .more();
 
-/// Back to where the reader was at first.
+/// Button that returns to the initial viewpoint.
 const RECENTER: Button = Button::new("recenter", "Reset viewpoint", ButtonRole::Action).more();
 
 /// Half of the panel's width, degrees.
 pub(crate) const HALF_TURN_DEG: f64 = 180.0;
-/// Half of its height, degrees.
+/// Half of the panel's height, degrees.
 pub(crate) const HALF_RISE_DEG: f64 = 90.0;
-/// Beyond this the scene's vertical axis points at the reader.
+/// Maximum elevation, degrees; beyond it the scene's vertical axis points at the reader.
 const HIGHEST_DEG: f64 = 85.0;
 
-/// A direction to look from, how near, and where in the panel the middle of the scene is.
+/// A viewing direction, a zoom, and the position of the scene's center in the panel.
 #[derive(Debug, Clone)]
 pub(crate) struct Orbit {
     home: (f64, f64),
@@ -46,7 +46,7 @@ pub(crate) struct Orbit {
 }
 
 impl Orbit {
-    /// The scene turned by `turn_deg`, seen from `rise_deg` above.
+    /// Creates a viewpoint with the scene turned by `turn_deg`, seen from `rise_deg` above.
     pub(crate) fn new(turn_deg: f64, rise_deg: f64) -> Self {
         let home = (turn_deg, rise_deg);
         Self {
@@ -57,47 +57,47 @@ impl Orbit {
         }
     }
 
-    /// The same, with things shown so many times as large.
+    /// Sets the zoom.
     #[cfg(test)]
     pub(crate) fn zoomed(mut self, zoom: f64) -> Self {
         self.update(&Event::set(&ZOOM, zoom)).unwrap();
         self
     }
 
-    /// How far the scene is turned, degrees; positive moves what is in front to the right.
+    /// Returns the rotation of the scene, degrees; positive moves its front to the right.
     pub(crate) fn turn_deg(&self) -> f64 {
         self.turned.0
     }
 
-    /// How far above the scene the reader is, degrees.
+    /// Returns the elevation of the reader above the scene, degrees.
     pub(crate) fn rise_deg(&self) -> f64 {
         self.turned.1
     }
 
-    /// How many times as large as at first things are.
+    /// Returns the scale relative to the initial one.
     pub(crate) fn zoom(&self) -> f64 {
         self.settings.number(&ZOOM)
     }
 
-    /// Where the middle of the scene is shown, in the panel's world.
+    /// Returns the position of the scene's center, in the panel's world.
     pub(crate) fn middle(&self) -> (f64, f64) {
         self.panned
     }
 
-    /// The panel of the space, in its place on the page.
+    /// Creates the panel of the space.
     pub(crate) fn panel(rect: Rect) -> Panel {
         let axis = |half: f64| [-half, half];
         Panel::new(SPACE.panel, rect, axis(HALF_TURN_DEG), axis(HALF_RISE_DEG))
     }
 
-    /// The slider that enlarges, and the button that goes back to the start.
+    /// Returns the zoom slider and the button that resets the viewpoint.
     pub(crate) fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         controls.push(RECENTER.control(true, false));
         controls
     }
 
-    /// The two handles: one turns the scene, one moves it across the panel.
+    /// Returns the two handles: one turns the scene, one moves it across the panel.
     pub(crate) fn handles(&self) -> [Handle; 2] {
         let handle = |id, label, told, place, half_y: f64| {
             let ranges = [HALF_TURN_DEG, half_y].map(|half| [-half, half]);
@@ -115,7 +115,7 @@ impl Orbit {
         ]
     }
 
-    /// Where the reader looks from, such as "35° to the left, 20° above".
+    /// Returns the viewing direction, such as "35° to the left, 20° above".
     pub(crate) fn words(&self) -> String {
         let (turn, rise) = self.turned;
         let words = |value: f64, positive: &str, negative: &str, zero: &str| match value {
@@ -132,15 +132,15 @@ impl Orbit {
         )
     }
 
-    /// Where from and how near, such as "35° to the left, 20° above, 1.0 ×".
+    /// Returns the viewing direction and zoom, such as "35° to the left, 20° above, 1.0 ×".
     pub(crate) fn seen_from(&self) -> String {
         format!("{}, {} ×", self.words(), format_number(self.zoom(), 1))
     }
 
-    /// Takes an event of the space; whether it was one.
+    /// Applies an event of the space; returns false for other events.
     ///
     /// # Errors
-    /// A value that the zoom does not take.
+    /// A value that the zoom does not accept.
     pub(crate) fn update(&mut self, event: &Event) -> Result<bool, Problem> {
         match event {
             Event::HandleMoved { id, x, y } if id == SPACE.orbit => self.turned = (*x, *y),

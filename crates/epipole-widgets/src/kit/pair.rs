@@ -14,20 +14,20 @@ use epipole::math::Line2;
 use image::RgbImage;
 use nalgebra::{Point2, Vector2};
 
-/// Each of two cameras has a hue and a shape, in its photograph, from above and in space.
+/// Hue and shape of each of two cameras, in photographs, in plans and in spaces.
 pub(crate) const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(1), Shape::Square),
 ];
-/// Farther than any pixel from the middle of the picture, so that a line's ends are outside.
+/// Half length of a drawn line, pixels, so that its ends are outside of the picture.
 const FAR_PX: f64 = 2000.0;
 
-/// Two photographs of the still life in which nothing moves but the cameras.
+/// Two photographs of the static still life.
 #[derive(Default)]
 pub(crate) struct Photos([Photo; 2]);
 
 impl Photos {
-    /// One of the photographs, 0 or 1, as good as it is now.
+    /// Returns one of the photographs, 0 or 1, in its current quality.
     ///
     /// # Errors
     /// As [`Photo::picture`].
@@ -39,7 +39,7 @@ impl Photos {
         self.0[index].picture(&still_life(), camera, [0.0; 3], PHOTO_SIZE)
     }
 
-    /// Both.
+    /// Returns both photographs.
     ///
     /// # Errors
     /// As [`Photo::picture`].
@@ -51,7 +51,7 @@ impl Photos {
         ])
     }
 
-    /// The photographs in their panels.
+    /// Draws the photographs in their panels.
     pub(crate) fn draw(
         &mut self,
         canvas: &mut Canvas,
@@ -84,18 +84,18 @@ impl Photos {
     }
 }
 
-/// Some of many, evenly, no more than `most`: all would hide the photographs.
+/// Picks at most `most` of many, evenly, so that they do not hide the photographs.
 pub(crate) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let stride = all.len().div_ceil(most.max(1)).max(1);
     all.iter().step_by(stride)
 }
 
-/// The color and the shape of one of several points, in both photographs.
+/// Returns the color and shape of one of several points, in both photographs.
 pub(crate) fn series(index: usize) -> (Role, Shape) {
     (Role::Series(index as u8), Shape::of_series(index))
 }
 
-/// Draws a line of the image plane, and says from where to where.
+/// Draws a line of the image plane and returns its visible ends.
 pub(crate) fn draw_line(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -115,7 +115,7 @@ pub(crate) fn draw_line(
     (end(-1.0), end(1.0))
 }
 
-/// From inside the border to the border, towards a place outside.
+/// Returns the ends of an arrow inside the border that points to a position outside.
 pub(crate) fn border_arrow(rect: Rect, place: Place) -> Option<(Place, Place)> {
     const LENGTH: f64 = 26.0;
     let inner = rect.inset(3.0);
@@ -128,7 +128,7 @@ pub(crate) fn border_arrow(rect: Rect, place: Place) -> Option<(Place, Place)> {
     Some((from, to))
 }
 
-/// The epipole, or at the border an arrow towards it.
+/// Draws the epipole, or an arrow towards it at the border.
 pub(crate) fn draw_epipole(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -185,7 +185,7 @@ pub(crate) fn draw_epipole(
     }
 }
 
-/// Places for the label of an arrow at the border.
+/// Returns positions for the label of an arrow at the border.
 fn beside_arrow(from: Place, to: Place) -> [(Place, Align); 4] {
     let middle = ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0);
     let leans_left = to.0 < from.0;

@@ -1,4 +1,4 @@
-//! Small pieces of photographs, turned as a feature sees them, beside each other for comparison.
+//! Patches around features, rotated to their orientation, for comparison.
 
 use crate::canvas::{Canvas, Stroke};
 use crate::contract::{Panel, Rect};
@@ -7,15 +7,15 @@ use epipole::feature::Keypoint;
 use image::{Rgb, RgbImage};
 use serde::{Deserialize, Serialize};
 
-/// Side of a descriptor's window, in units of the feature's blur: four cells of three.
+/// Side of a descriptor's window, in units of the feature's scale σ: four cells of three.
 pub(crate) const WINDOW_SIGMAS: f64 = 12.0;
 
-/// Where a feature is, how large and how turned.
+/// Position, scale and orientation of a feature.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Spot {
     /// Column and row, pixels.
     pub(crate) place: [f64; 2],
-    /// Blur at which it was found, pixels.
+    /// Scale σ at which it was detected, pixels.
     pub(crate) scale_px: f64,
     pub(crate) angle_rad: f64,
 }
@@ -31,12 +31,13 @@ impl From<&Keypoint> for Spot {
 }
 
 impl Spot {
-    /// Half the side of the descriptor's window, pixels.
+    /// Returns half the side of the descriptor's window, pixels.
     pub(crate) fn half_px(&self) -> f64 {
         0.5 * WINDOW_SIGMAS * self.scale_px
     }
 
-    /// A place in its own frame: so many half windows along its direction and across it, pixels.
+    /// Returns the pixel at an offset in the feature's own frame, in half windows along its
+    /// orientation and across.
     pub(crate) fn at(&self, along: f64, across: f64) -> (f64, f64) {
         let (sin, cos) = (libm::sin(self.angle_rad), libm::cos(self.angle_rad));
         let half = self.half_px();
@@ -46,17 +47,18 @@ impl Spot {
         )
     }
 
-    /// Whether its numbers can be drawn.
+    /// Returns whether its values can be drawn.
     pub(crate) fn is_sound(&self) -> bool {
         let [u, v] = self.place;
-        // NaN is not less than anything.
+        // Written so that NaN fails.
         [u, v, self.scale_px, self.angle_rad]
             .iter()
             .all(|x| x.abs() < 1e5)
             && self.scale_px > 0.0
     }
 
-    /// What its window shows, turned so that its direction points right, `side` pixels wide.
+    /// Resamples the descriptor's window, rotated so that the orientation points right, `side`
+    /// pixels wide.
     pub(crate) fn cut(&self, photograph: &RgbImage, side: u32) -> RgbImage {
         let share = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(side) - 1.0;
         RgbImage::from_fn(side, side, |i, j| {
@@ -65,7 +67,7 @@ impl Spot {
     }
 }
 
-/// The color between pixels; the border repeats the edge pixel.
+/// Interpolates the color bilinearly; the border repeats the edge pixel.
 fn bilinear(photograph: &RgbImage, (u, v): (f64, f64)) -> Rgb<u8> {
     let (width, height) = photograph.dimensions();
     let keep = |x: f64, size: u32| x.clamp(0.0, f64::from(size - 1));
@@ -81,19 +83,19 @@ fn bilinear(photograph: &RgbImage, (u, v): (f64, f64)) -> Rgb<u8> {
     }))
 }
 
-/// Cut patches, kept until they are of others.
+/// Cache of patches.
 #[derive(Default)]
 pub(crate) struct Cuts {
     kept: Vec<(Spot, u64, RgbImage)>,
 }
 
-/// Pixels along a side of a cut patch.
+/// Side of a patch, pixels.
 const SIDE: u32 = 48;
 
 impl Cuts {
-    /// Draws what a feature's window shows.
+    /// Draws the window of a feature.
     ///
-    /// * `version`: of the photograph, another one for each
+    /// * `version`: version of the photograph, to invalidate the cache
     pub(crate) fn draw(
         &mut self,
         canvas: &mut Canvas,
@@ -104,7 +106,7 @@ impl Cuts {
     ) {
         let known = |(other, of, _): &(Spot, u64, RgbImage)| other == spot && *of == version;
         let index = self.kept.iter().position(known).unwrap_or_else(|| {
-            // As many as a figure shows at a time, and some more.
+            // A little more than a figure shows at a time.
             if self.kept.len() >= 40 {
                 self.kept.remove(0);
             }
@@ -116,7 +118,7 @@ impl Cuts {
     }
 }
 
-/// The square that a feature's descriptor looks at, with a hand in its direction.
+/// Outlines the window of a feature's descriptor, with a hand in its orientation.
 pub(crate) fn draw_window(canvas: &mut Canvas, panel: &Panel, spot: &Spot, stroke: Stroke) {
     let at = |along, across| panel.canvas_from_world(spot.at(along, across));
     let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
@@ -132,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_patch_is_turned_with_its_feature() {
-        // Brighter to the right, and redder downwards.
+        // Brightness increases to the right, redness downwards.
         let photograph = RgbImage::from_fn(60, 60, |u, v| Rgb([4 * v as u8, 4 * u as u8, 0]));
         let spot = Spot {
             place: [30.0, 30.0],
@@ -141,7 +143,8 @@ mod tests {
         };
         assert_eq!(spot.half_px(), 12.0);
         let cut = spot.cut(&photograph, 6);
-        // Its direction is down, so what is below lies to the right, 2 · 12 · 5/6 pixels apart.
+        // Its orientation is down, so what is below appears on the right, 2 · 12 · 5/6 pixels
+        // apart.
         let (left, right) = (cut.get_pixel(0, 3).0, cut.get_pixel(5, 3).0);
         assert_eq!(right[0] - left[0], 80);
         assert_eq!(right[1], left[1]);

@@ -1,11 +1,11 @@
-//! Rendered photographs for views: something at once, the sharp picture slice by slice.
+//! Rendered photographs for views: a preview at once, the sharp picture in slices.
 //!
-//! A reader who drags a slider wants every frame now, and a sharp photograph takes longer than a
-//! frame. So the last sharp one is seen from where the camera is now, by the depth of each pixel; what
-//! it did not show is filled from a draft, small and plain. Before there is any sharp one, the draft
-//! stands for all. Each call of [`View::refine`](crate::contract::View::refine) then prepares the scene
-//! or renders some rows of the next sharp picture, which is shown once it is complete. What a slice
-//! does is fixed, not timed, so the same calls give the same picture everywhere.
+//! A sharp photograph takes longer than a frame of a drag. Until it is ready, the last sharp
+//! photograph is reprojected to the current camera by its depth map, and a small draft fills the
+//! holes; before the first sharp photograph the draft fills everything. Each call of
+//! [`View::refine`](crate::contract::View::refine) then prepares the scene or renders some rows of
+//! the next sharp photograph, shown when complete. Slices have fixed sizes, not times, so that
+//! pictures are reproducible.
 
 use epipole::Error;
 use epipole::camera::PosedCamera;
@@ -13,42 +13,42 @@ use epipole_scenes::{Moved, Photograph, Reprojected, Sampling, Scene};
 use image::RgbImage;
 use std::ops::Range;
 
-/// Pixels of a draft for every pixel of the full picture, along each side.
+/// Scale of a draft relative to the full picture, along each side.
 const DRAFT_FACTOR: f64 = 1.0 / 6.0;
 
-/// Rows of the full picture that one slice renders.
+/// Rows of the full picture per slice.
 const ROWS_PER_SLICE: u32 = 4;
 
-/// Columns and rows of a draft.
+/// Column and row range of a draft.
 type Part = [Range<u32>; 2];
 
 /// One photograph of a scene, kept until the camera or the scene changes.
 #[derive(Default)]
 pub(crate) struct Photo {
-    /// The last one that was completed, of this camera or of another.
+    /// Last completed photograph, of this camera or another.
     sharp: Option<Shot>,
-    /// The next one, and how many of its rows are there.
+    /// Photograph in progress.
     growing: Option<Shot>,
     num_rows_done: u32,
-    /// What stands for a sharp one meanwhile, and what it shows.
+    /// Draft shown until a sharp photograph is there.
     draft: Option<Photograph>,
-    /// From where and how large the draft is, if it is whole, and its pixels of what can be moved.
+    /// Camera and size of the draft if it is complete, and its pixels of movable things.
     drafted: Option<(PosedCamera, (u32, u32), Part)>,
     meanwhile: Reprojected,
     shown: Option<(PosedCamera, [f64; 3])>,
     follow: Option<Follow>,
 }
 
-/// What has moved between two arrangements of a scene, if something has.
+/// Function that returns the motion between two arrangements of a scene, if any.
 pub(crate) type Follow = fn([f64; 3], [f64; 3]) -> Option<Moved>;
 
-/// Work on a photograph that is done slice by slice: [`Photo::prepare`] or [`Photo::refine`].
+/// One slice of work on a photograph: [`Photo::prepare`] or [`Photo::refine`].
 pub(crate) type Slice = fn(&mut Photo, &Scene, &PosedCamera, [f64; 3], (u32, u32)) -> bool;
 
-/// A photograph and what it shows.
+/// A photograph with its camera and arrangement.
 struct Shot {
     camera: PosedCamera,
-    /// What is movable in the scene, in the figure's own numbers.
+    /// Positions of the scene's movable things, in the figure's own numbers.
     arrangement: [f64; 3],
     photograph: Photograph,
 }
@@ -59,15 +59,15 @@ impl Shot {
     }
 }
 
-/// An empty photograph, in the memory of an old one if that has the size.
+/// Returns an empty photograph, in the memory of an old one of the same size.
 fn blank(old: Option<Photograph>, (width, height): (u32, u32)) -> Photograph {
     old.filter(|photograph| photograph.image.dimensions() == (width, height))
         .unwrap_or_else(|| Photograph::blank(width, height))
 }
 
 impl Photo {
-    /// Of a scene in which something moves that can be carried along. Without, a sharp photograph of
-    /// another arrangement is of no use.
+    /// Creates a photograph of a scene whose moving part can be reprojected. Without `follow`,
+    /// sharp photographs of other arrangements are not reused.
     pub(crate) fn following(follow: Follow) -> Self {
         Self {
             follow: Some(follow),
@@ -75,18 +75,18 @@ impl Photo {
         }
     }
 
-    /// Forgets what is sharp, or was to become so.
+    /// Discards the sharp photograph and the one in progress.
     pub(crate) fn forget(&mut self) {
         (self.sharp, self.growing, self.shown) = (None, None, None);
     }
 
-    /// The best picture that there is now.
+    /// Returns the best picture available now.
     ///
     /// * `camera`: for a full picture of `width × height` pixels
-    /// * `arrangement`: where the movable things of the scene are; any constant if none move
+    /// * `arrangement`: positions of the scene's movable things; any constant if none move
     ///
     /// # Errors
-    /// As [`Scene::render`]: the camera stands where no picture can be taken.
+    /// As [`Scene::render`]: no picture can be taken from the camera's position.
     pub(crate) fn picture(
         &mut self,
         scene: &Scene,
@@ -125,7 +125,7 @@ impl Photo {
             if let Some((from, size, before)) = self.drafted.take()
                 && (from, size) == (small_camera, small_size)
             {
-                // All others are as they were.
+                // Pixels without movable things are unchanged.
                 let parts = [&before, &moving];
                 for (place, wanted) in (0..).zip(&mut wanted) {
                     let (u, v) = (place % size.0, place / size.0);
@@ -141,8 +141,8 @@ impl Photo {
         Ok(self.meanwhile.image())
     }
 
-    /// Does the next slice of work towards the first picture: paints what drafts are made of, then makes the draft; false
-    /// when there is a picture, or none can be made.
+    /// Does the next slice of work towards the first picture, first the textures for drafts, then
+    /// the draft; false when a picture is there or none can be made.
     ///
     /// Arguments as for [`Photo::picture`].
     pub(crate) fn prepare(
@@ -157,7 +157,8 @@ impl Photo {
             || (!is_there && self.picture(scene, camera, arrangement, size).is_ok())
     }
 
-    /// Does the next slice of work towards a sharp picture; false when it is there, or cannot be made.
+    /// Does the next slice of work towards a sharp picture; false when it is there or cannot be
+    /// made.
     ///
     /// Arguments as for [`Photo::picture`].
     pub(crate) fn refine(
@@ -200,7 +201,7 @@ impl Photo {
         if next < height {
             return true;
         }
-        // The last one lends its memory to the next one, which is begun from its first row.
+        // The next photograph reuses the memory of the last one.
         std::mem::swap(&mut self.sharp, &mut self.growing);
         self.num_rows_done = 0;
         self.shown = None;
@@ -245,7 +246,7 @@ mod tests {
             moving_error < 0.6 * draft_error,
             "{moving_error} {draft_error}"
         );
-        // What comes in the end does not depend on the way.
+        // The final picture does not depend on the previews before it.
         settle(&mut photo, &scene, &second, still);
         assert_eq!(photo.picture(&scene, &second, still, SIZE).unwrap(), &truth);
         assert!(!photo.refine(&scene, &second, still, SIZE));

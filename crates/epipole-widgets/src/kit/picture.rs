@@ -1,4 +1,4 @@
-//! Photographs: how they travel to a worker and back, and those of the reader's own.
+//! Photographs: their serialization for workers, and the reader's own.
 
 use crate::contract::{PhotoSlot, Problem};
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
@@ -6,8 +6,8 @@ use image::RgbImage;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::rc::Rc;
 
-/// A photograph that a model, its question and its answer share without copying it. It travels as
-/// width, height and bytes; bytes that do not fit the size are refused.
+/// A photograph shared by a model, its question and its answer without copies. Serialized as width,
+/// height and bytes; a mismatch is an error.
 #[derive(Debug, Clone)]
 pub(crate) struct Picture(Rc<RgbImage>);
 
@@ -16,7 +16,7 @@ impl Picture {
         &self.0
     }
 
-    /// Width and height, pixels.
+    /// Returns width and height, pixels.
     pub(crate) fn size(&self) -> (u32, u32) {
         self.0.dimensions()
     }
@@ -34,14 +34,14 @@ impl PartialEq for Picture {
     }
 }
 
-/// Gray levels of a photograph, 0 to 255.
+/// Returns the gray levels of a photograph, 0 to 255.
 pub(crate) fn gray_levels(image: &RgbImage) -> GrayImage32 {
     let mut levels = rgb_to_gray_f32(image, &BT601_WEIGHTS);
     levels.pixels_mut().for_each(|pixel| pixel.0[0] *= 255.0);
     levels
 }
 
-/// Bytes as one piece: a byte at a time would take ten times as long.
+/// Bytes serialized as one piece, ten times as fast as one by one.
 struct Bytes<'a>(&'a [u8]);
 
 impl Serialize for Bytes<'_> {
@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for Picture {
     }
 }
 
-/// How an image of numbers travels: `#[serde(with = "picture::floats")]`.
+/// Serialization of an image of floats: `#[serde(with = "picture::floats")]`.
 pub(crate) mod floats {
     use super::{Deserialize, Deserializer, GrayImage32, Serialize, Serializer, de};
 
@@ -88,7 +88,7 @@ pub(crate) mod floats {
     }
 }
 
-/// The slot of one photograph of the reader's own.
+/// Creates the slot of one photograph of the reader's own.
 pub(crate) const fn slot(max_side_px: u32) -> PhotoSlot {
     PhotoSlot {
         id: "photo",
@@ -97,7 +97,7 @@ pub(crate) const fn slot(max_side_px: u32) -> PhotoSlot {
     }
 }
 
-/// The slots of two photographs of one scene.
+/// Creates the slots of two photographs of one scene.
 pub(crate) const fn pair_slots(max_side_px: u32) -> [PhotoSlot; 2] {
     [
         PhotoSlot {
@@ -121,10 +121,10 @@ pub(crate) struct Own<const N: usize> {
 }
 
 impl<const N: usize> Own<N> {
-    /// None yet.
+    /// Creates empty slots.
     ///
     /// * `slots`: `N` of them
-    /// * `min_side_px`: photographs with a shorter side are refused
+    /// * `min_side_px`: smallest accepted side, pixels
     pub(crate) fn new(slots: &'static [PhotoSlot], min_side_px: u32) -> Self {
         Self {
             slots,
@@ -136,7 +136,7 @@ impl<const N: usize> Own<N> {
     /// Takes a photograph.
     ///
     /// # Errors
-    /// A sentence if it is too small; all is then as it was.
+    /// A sentence if it is too small; nothing changes then.
     pub(crate) fn take(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         let (width, height) = photo.dimensions();
         if width.min(height) < self.min_side_px {
@@ -156,18 +156,18 @@ impl<const N: usize> Own<N> {
         Ok(())
     }
 
-    /// One of them, if it is there.
+    /// Returns one of them, if present.
     pub(crate) fn get(&self, index: usize) -> Option<&Picture> {
         self.pictures.get(index)?.as_ref()
     }
 
-    /// All, if all are there.
+    /// Returns all, if all are present.
     pub(crate) fn all(&self) -> Option<[Picture; N]> {
         let all: Vec<Picture> = self.pictures.iter().flatten().cloned().collect();
         all.try_into().ok()
     }
 
-    /// What the reader has still to choose, as a sentence.
+    /// Names the photographs that the reader has still to choose, as a sentence.
     pub(crate) fn wanted(&self) -> String {
         let missing = self.pictures.iter().position(Option::is_none);
         let present = self.pictures.iter().position(Option::is_some);

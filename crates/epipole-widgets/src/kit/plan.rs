@@ -1,4 +1,4 @@
-//! A view from above: x to the right, z away from the reader, in meters or steps of the world.
+//! A view from above: x to the right, z away from the reader, in meters or scene units.
 
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Panel, Rect, format_number};
@@ -7,15 +7,15 @@ use crate::kit::labels::Labels;
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2};
 
-/// A rule is never shorter than this, CSS pixels.
+/// Minimum length of a rule, CSS pixels.
 const RULE: f64 = 36.0;
-/// Lines of the grid are never nearer to each other, CSS pixels.
+/// Minimum spacing of grid lines, CSS pixels.
 const SPACING: f64 = 26.0;
 
-/// A panel that shows what lies around a place, with one scale for both directions.
+/// Creates a panel around a position, with one scale for both directions.
 ///
 /// * `middle`: (x, z) in the middle of the panel
-/// * `half_depth`: how far it shows to each side along z
+/// * `half_depth`: half of the visible range along z
 pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth: f64) -> Panel {
     let half_width = half_depth * rect.width / rect.height.max(1e-9);
     let across = [middle.0 - half_width, middle.0 + half_width];
@@ -23,7 +23,7 @@ pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth
     Panel::new(id, rect, across, away)
 }
 
-/// A panel that shows all of these ranges with some room around them, with one scale for both
+/// Creates a panel that shows these ranges with `room` around them, with one scale for both
 /// directions.
 pub(crate) fn panel_of(id: &'static str, rect: Rect, [x, z]: [[f64; 2]; 2], room: f64) -> Panel {
     let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
@@ -35,31 +35,31 @@ pub(crate) fn panel_of(id: &'static str, rect: Rect, [x, z]: [[f64; 2]; 2], room
 /// A camera seen from above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlanCamera {
-    /// Its center, (x, z).
+    /// Center, (x, z).
     pub(crate) center: Point2<f64>,
-    /// Where its optical axis points: 0 along z, positive to the right, radians.
+    /// Direction of the optical axis: 0 along z, positive to the right, radians.
     pub(crate) heading_rad: f64,
-    /// Half of the width that it sees at the distance 1.
+    /// Half the width of the field of view at distance 1.
     pub(crate) half_width: f64,
-    /// Its hue and its shape.
+    /// Hue and shape.
     pub(crate) mark: (Role, Shape),
 }
 
 impl PlanCamera {
-    /// The direction of the optical axis, and that of the image's rows.
+    /// Returns the directions of the optical axis and of the image's rows.
     fn axes(&self) -> (Vector2<f64>, Vector2<f64>) {
         let (sin, cos) = (libm::sin(self.heading_rad), libm::cos(self.heading_rad));
         (Vector2::new(sin, cos), Vector2::new(cos, -sin))
     }
 
-    /// A place on the image plane that stands `depth` in front of the center; `across` counts from
+    /// Returns a point of the image plane `depth` in front of the center; `across` is measured from
     /// the optical axis in units of half the image.
     pub(crate) fn on_image(&self, across: f64, depth: f64) -> Point2<f64> {
         let (forward, right) = self.axes();
         self.center + (forward + right * (across * self.half_width)) * depth
     }
 
-    /// The center, and the image plane `depth` in front of it with the rays to its ends.
+    /// Draws the center, the image plane `depth` in front of it, and the rays to its ends.
     pub(crate) fn draw(&self, canvas: &mut Canvas, panel: &Panel, depth: f64) {
         let (role, shape) = self.mark;
         let at = |point: &Point2<f64>| panel.place_of(point);
@@ -72,7 +72,7 @@ impl PlanCamera {
         canvas.marker(center, 5.5, shape, role, true);
     }
 
-    /// The edges of what it sees, as far as the panel goes.
+    /// Draws the edges of the field of view, clipped to the panel.
     pub(crate) fn draw_view(&self, canvas: &mut Canvas, panel: &Panel) {
         for across in [-1.0, 1.0] {
             let towards = self.on_image(across, 1.0) - self.center;
@@ -88,8 +88,8 @@ impl PlanCamera {
 }
 
 impl PlanCamera {
-    /// The camera with what it sees, its image plane `depth` in front of it, the ray that it sees
-    /// something along, the pixel on that ray, and its name at the side of the center.
+    /// Draws the camera with its field of view, its image plane `depth` in front of it, a viewing
+    /// ray with its pixel, and its name at the side of the center.
     pub(crate) fn draw_sight(
         &self,
         canvas: &mut Canvas,
@@ -127,7 +127,7 @@ impl PlanCamera {
     }
 }
 
-/// From a point on in a direction, beyond the edge of the panel.
+/// Draws a ray from a point to beyond the edge of the panel.
 pub(crate) fn draw_ray(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -152,7 +152,7 @@ pub(crate) fn draw_ray(
     });
 }
 
-/// Level lines at round distances with their numbers, such as "2 m".
+/// Draws horizontal lines at round distances with their numbers, such as "2 m".
 pub(crate) fn draw_distances(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     let rect = panel.rect;
     for z in round_distances(panel).1 {
@@ -166,7 +166,7 @@ pub(crate) fn draw_distances(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     draw_numbers(canvas, panel, unit);
 }
 
-/// The numbers of [`draw_distances`] alone: once more, where a ray would strike one through.
+/// Draws only the numbers of [`draw_distances`], again above a ray that would cross them.
 pub(crate) fn draw_numbers(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     let (spacing, distances) = round_distances(panel);
     let digits = if spacing < 1.0 { 1 } else { 0 };
@@ -181,7 +181,7 @@ pub(crate) fn draw_numbers(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     }
 }
 
-/// The round distances within a plan, and how far apart they are.
+/// Returns the spacing and the round distances within a plan.
 fn round_distances(panel: &Panel) -> (f64, impl Iterator<Item = f64>) {
     let (near, far) = (panel.y_axis.end, panel.y_axis.start);
     let pixels = panel.rect.height / (far - near).abs().max(1e-9);
@@ -193,7 +193,7 @@ fn round_distances(panel: &Panel) -> (f64, impl Iterator<Item = f64>) {
     (spacing, distances)
 }
 
-/// A line of a round length with its words, at the lower left.
+/// Draws a rule of a round length with its words, at the lower left.
 pub(crate) fn draw_rule(canvas: &mut Canvas, panel: &Panel, words: impl Fn(f64) -> String) {
     let length = round_length(RULE / panel.scale_x());
     let left: Place = (panel.rect.x + 12.0, panel.rect.bottom() - 12.0);
@@ -203,7 +203,7 @@ pub(crate) fn draw_rule(canvas: &mut Canvas, panel: &Panel, words: impl Fn(f64) 
     canvas.label((right.0 + 7.0, right.1), &words(length), style);
 }
 
-/// A level line with a short stroke across each end.
+/// Draws a horizontal line with a short stroke across each end.
 pub(crate) fn draw_span(canvas: &mut Canvas, left: Place, right: Place, stroke: Stroke) {
     canvas.line(left, right, stroke);
     for end in [left, right] {
@@ -211,7 +211,7 @@ pub(crate) fn draw_span(canvas: &mut Canvas, left: Place, right: Place, stroke: 
     }
 }
 
-/// The next larger of 0.1, 0.2, 0.5, 1, 2, 5, 10 …
+/// Rounds up to 0.1, 0.2, 0.5, 1, 2, 5, 10 …
 fn round_length(length: f64) -> f64 {
     let mut power = 1e-3;
     while power < 1e6 {
@@ -255,7 +255,7 @@ mod tests {
         };
         let middle = camera.on_image(0.0, 2.0);
         assert!((middle - Point2::new(3.0, 0.0)).norm() < 1e-12);
-        // Its right is nearer to the reader.
+        // Its right end is nearer to the reader.
         let right = camera.on_image(1.0, 2.0);
         assert!((right - Point2::new(3.0, -1.0)).norm() < 1e-12);
     }

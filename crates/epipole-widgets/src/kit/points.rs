@@ -4,28 +4,28 @@ use crate::contract::{Event, Handle};
 use crate::kit::probe::Probe;
 use nalgebra::Point2;
 
-/// One of them.
+/// A point with its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Numbered {
-    /// From 1.
+    /// Number, from 1.
     pub(crate) number: usize,
     pub(crate) place: Point2<f64>,
 }
 
-/// All of them. The handle of number 3 is "p3".
+/// The points. The handle of number 3 is "p3".
 pub(crate) struct Points {
-    /// What the handles have in common; "#" in its label is for the number.
+    /// Template of the handles; "#" in its label is replaced by the number.
     kind: Probe,
-    /// So many are never removed.
+    /// Minimum number of points that remain.
     fewest: usize,
-    /// In the order of their numbers.
+    /// Points by number.
     points: Vec<Numbered>,
 }
 
 impl Points {
-    /// Points that are numbered from 1.
+    /// Creates points numbered from 1.
     ///
-    /// * `fewest`: so many are never removed
+    /// * `fewest`: minimum number of points that remain
     pub(crate) fn new(
         kind: Probe,
         fewest: usize,
@@ -47,7 +47,7 @@ impl Points {
         self.points.len()
     }
 
-    /// In the order of their numbers.
+    /// Iterates over the points by number.
     pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = &Numbered> {
         self.points.iter()
     }
@@ -75,7 +75,7 @@ impl Points {
         self.points.iter().map(|point| self.handle(point)).collect()
     }
 
-    /// Puts the point of this number as near to a place as it can be, a new one if there is none yet.
+    /// Moves the point of this number to a position, clamped to its range, or adds it.
     pub(crate) fn put(&mut self, number: usize, x: f64, y: f64) {
         let Some((x, y)) = self.kind.handle().admit(x, y) else {
             return;
@@ -92,7 +92,7 @@ impl Points {
         self.points.retain(|point| point.number != number);
     }
 
-    /// Takes an event that drags or removes a point: its number.
+    /// Applies a drag or a removal; returns the number of the point.
     pub(crate) fn update(&mut self, event: &Event) -> Option<usize> {
         let (Event::HandleMoved { id, .. } | Event::HandleRemoved { id }) = event else {
             return None;
@@ -106,7 +106,7 @@ impl Points {
     }
 }
 
-/// The number of a handle, such as 3 of "p3".
+/// Returns the number of a handle, such as 3 of "p3".
 pub(crate) fn number_of(id: &str) -> Option<usize> {
     let number: usize = id.strip_prefix('p')?.parse().ok()?;
     (id == format!("p{number}")).then_some(number)

@@ -1,6 +1,6 @@
-//! A thing that the reader moves: over a photograph, over a plan, over any panel.
+//! A handle that the reader moves over a photograph, a plan or any other panel.
 //!
-//! A figure declares it as it does its sliders:
+//! A figure declares it like a slider:
 //!
 //! ```text
 //! const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
@@ -12,7 +12,7 @@
 use crate::contract::{Event, Handle, format_number};
 use nalgebra::Point2;
 
-/// A handle of its own with its place. A click in its panel moves it, too.
+/// A handle and its position. A click in its panel also moves it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Probe {
     id: &'static str,
@@ -25,11 +25,11 @@ pub(crate) struct Probe {
     words: fn((f64, f64)) -> String,
 }
 
-/// How far an arrow key moves a thing on a plan, meters, and the digits that its place is kept with.
+/// Step of an arrow key on a plan, meters, and digits of the position.
 const ON_PLAN: (f64, usize) = (0.05, 2);
 
 impl Probe {
-    /// A probe that has nowhere to go yet.
+    /// Creates a probe without a range.
     pub(crate) const fn new(id: &'static str, panel: &'static str, label: &'static str) -> Self {
         Self {
             id,
@@ -43,13 +43,13 @@ impl Probe {
         }
     }
 
-    /// The same probe over a photograph of this size: a place is a pixel.
+    /// Sets the range to a photograph of this size; positions are pixels.
     pub(crate) const fn over(self, size: (u32, u32)) -> Self {
         let ranges = ranges(size);
         Self { ranges, ..self }
     }
 
-    /// The same probe over a [`plan`](crate::kit::plan): meters to the right and away, within these ranges.
+    /// Sets the ranges on a [`plan`](crate::kit::plan): meters to the right and away.
     pub(crate) const fn on_plan(self, ranges: [[f64; 2]; 2]) -> Self {
         let (step, digits) = ON_PLAN;
         Self {
@@ -61,33 +61,33 @@ impl Probe {
         }
     }
 
-    /// The same probe within these ranges of its panel's world.
+    /// Sets the ranges in the panel's world.
     pub(crate) const fn within(self, ranges: [[f64; 2]; 2]) -> Self {
         Self { ranges, ..self }
     }
 
-    /// The same probe, moved so far by an arrow key.
+    /// Sets the step of an arrow key, world units.
     pub(crate) const fn step(self, step: f64) -> Self {
         Self { step, ..self }
     }
 
-    /// The same probe, its place kept with so many digits.
+    /// Sets the digits of the position.
     pub(crate) const fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// The same probe, its place told in these words.
+    /// Sets the function that puts the position in words.
     pub(crate) const fn told(self, words: fn((f64, f64)) -> String) -> Self {
         Self { words, ..self }
     }
 
-    /// The same probe elsewhere.
+    /// Sets the position.
     pub(crate) const fn at(self, x: f64, y: f64) -> Self {
         let place = (x, y);
         Self { place, ..self }
     }
 
-    /// The same probe over the middle of a photograph of this size.
+    /// Sets the position to the middle of a photograph of this size.
     pub(crate) fn in_middle(self, (width, height): (u32, u32)) -> Self {
         self.over((width, height))
             .at(f64::from(width / 2), f64::from(height / 2))
@@ -97,31 +97,31 @@ impl Probe {
         self.id
     }
 
-    /// Where it is, within its ranges.
+    /// Returns the position, clamped to its ranges.
     pub(crate) fn place(&self) -> (f64, f64) {
         let ((x, y), [across, down]) = (self.place, self.ranges);
         let keep = |value: f64, [low, high]: [f64; 2]| value.clamp(low, high);
         (keep(x, across), keep(y, down))
     }
 
-    /// Puts it as near to a place as it can be, with its digits; what is no place does not move it.
+    /// Moves it to a position, clamped and rounded; ignores NaN.
     pub(crate) fn put(&mut self, x: f64, y: f64) {
         self.place = self.handle().admit(x, y).unwrap_or(self.place);
     }
 
-    /// The same as a point.
+    /// Returns the position as a point.
     pub(crate) fn point(&self) -> Point2<f64> {
         let (x, y) = self.place();
         Point2::new(x, y)
     }
 
-    /// The pixel under it.
+    /// Returns the pixel under it.
     pub(crate) fn pixel(&self) -> (u32, u32) {
         let (u, v) = self.place();
         (u as u32, v as u32)
     }
 
-    /// Its place in words.
+    /// Returns its position in words.
     pub(crate) fn text(&self) -> String {
         (self.words)(self.place())
     }
@@ -132,7 +132,7 @@ impl Probe {
             .step([self.step; 2], self.digits)
     }
 
-    /// Takes an event that moves it; whether it was one.
+    /// Applies an event; returns whether the event moves it.
     pub(crate) fn update(&mut self, event: &Event) -> bool {
         let moved = self.handle().moved_by(event);
         self.place = moved.unwrap_or(self.place);
@@ -140,7 +140,7 @@ impl Probe {
     }
 }
 
-/// The columns and the rows of a photograph of this size, for a handle over it.
+/// Returns the column and row ranges of a photograph of this size, for a handle over it.
 pub(crate) const fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
     const fn range(size: u32) -> [f64; 2] {
         [0.0, size.saturating_sub(1) as f64]
@@ -148,13 +148,13 @@ pub(crate) const fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
     [range(width), range(height)]
 }
 
-/// A place in a photograph, such as "column 12, row 30".
+/// Returns a position in a photograph in words, such as "column 12, row 30".
 pub(crate) fn place_words((u, v): (f64, f64), digits: usize) -> String {
     let [column, row] = [u, v].map(|value| format_number(value, digits));
     format!("column {column}, row {row}")
 }
 
-/// A place on a plan, such as "2.00 m away, 0.30 m to the right".
+/// Returns a position on a plan in words, such as "2.00 m away, 0.30 m to the right".
 fn meters((x, z): (f64, f64)) -> String {
     let side = if x < 0.0 { "left" } else { "right" };
     let [away, aside] = [z, x.abs()].map(|value| format_number(value, 2));
@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(probe.pixel(), (29, 0));
         assert!(!probe.update(&Event::clicked("right", 1.0, 1.0)));
         assert!(!probe.update(&Event::moved("other", 1.0, 1.0)));
-        // A smaller photograph moves it, and the larger one has it where it was.
+        // A smaller photograph clamps the position; the larger one restores it.
         assert_eq!(probe.over((10, 10)).place(), (9.0, 0.0));
         assert_eq!(probe.over((10, 10)).over((30, 20)).place(), (29.0, 0.0));
         assert_eq!(probe.in_middle((31, 20)).place(), (15.0, 10.0));

@@ -1,8 +1,8 @@
-//! A question that takes long: what is asked, what is answered, and what a model keeps of both.
+//! Questions: long computations, their answers, and a model's state of both.
 //!
-//! A figure's `question.rs` says what is asked ([`Question`]); its model holds an [`Asked`] and names it in
-//! [`Model::asking`](crate::contract::Model::asking). Whatever a worker sends back is checked before it is
-//! believed.
+//! A figure's `question.rs` defines the computation ([`Question`]); its model holds an [`Asked`]
+//! and returns it from [`Model::asking`](crate::contract::Model::asking). Answers of a worker are
+//! validated before use.
 
 use crate::contract::{Asking, Job, JobResult, Problem, Progress};
 #[cfg(test)]
@@ -15,13 +15,13 @@ use std::ops::ControlFlow;
 
 /// Everything that a long computation depends on.
 pub(crate) trait Question: PartialEq + Serialize + DeserializeOwned + 'static {
-    /// What the computation finds.
+    /// Result of the computation.
     type Answer: Serialize + DeserializeOwned + 'static;
 
-    /// What the page says meanwhile, such as "Looking for corners".
+    /// Status shown meanwhile, such as "Looking for corners".
     const LABEL: &'static str;
 
-    /// How the sentence begins when there is no answer, such as "There are no corners".
+    /// Start of the sentence when the computation fails, such as "There are no corners".
     const FAILED: &'static str;
 
     /// Carries out the computation: a function of the question alone.
@@ -30,11 +30,11 @@ pub(crate) trait Question: PartialEq + Serialize + DeserializeOwned + 'static {
     /// A sentence without a capital and a full stop, or [`Error::Canceled`].
     fn answer(&self, progress: Progress<'_>) -> Result<Self::Answer, Problem>;
 
-    /// Whether this can be an answer to the question: of the right size, without NaN.
+    /// Returns whether this can be an answer to the question: of the right size, without NaN.
     fn fits(&self, answer: &Self::Answer) -> bool;
 }
 
-/// Carries out a question that has traveled as bytes: a model's `compute`.
+/// Carries out a serialized question: the `compute` of a model.
 pub(crate) fn carry_out<Q: Question>(request: &[u8], progress: Progress<'_>) -> JobResult {
     let unreadable = |_| Error::Degenerate {
         what: "the question of a figure",
@@ -45,7 +45,7 @@ pub(crate) fn carry_out<Q: Question>(request: &[u8], progress: Progress<'_>) -> 
     Ok(postcard::to_allocvec(&answer).unwrap_or_default())
 }
 
-/// Tells the share that is done, so that `?` ends the work of a reader who has gone on.
+/// Reports the fraction done and returns an error once the reader no longer waits.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -56,13 +56,13 @@ pub(crate) fn tell(progress: Progress<'_>, share: f64) -> Result<(), Error> {
     }
 }
 
-/// A question that is out.
+/// A pending question.
 struct Out<Q> {
     question: Q,
     key: OnceCell<u64>,
 }
 
-/// What a model has asked, and what is known.
+/// State of a question: pending, answered or failed.
 pub(crate) struct Asked<Q: Question> {
     out: Option<Out<Q>>,
     known: Option<(Q, Q::Answer)>,
@@ -82,14 +82,14 @@ impl<Q: Question> Default for Asked<Q> {
 }
 
 impl<Q: Question> Asked<Q> {
-    /// Nothing is known yet, and this is asked.
+    /// Creates a state with this question pending.
     pub(crate) fn about(question: Q) -> Self {
         let mut asked = Self::default();
         asked.ask(question);
         asked
     }
 
-    /// Asks, unless the answer is known. What was known before stays until the new answer comes.
+    /// Asks, unless the answer is known. The last answer stays until the new one arrives.
     pub(crate) fn ask(&mut self, question: Q) {
         self.problem = None;
         if self
@@ -106,57 +106,57 @@ impl<Q: Question> Asked<Q> {
         });
     }
 
-    /// There is nothing to ask, for a reason that the reader is told in a sentence.
+    /// Records a sentence on why nothing can be asked.
     pub(crate) fn refuse(&mut self, sentence: impl Into<String>) {
         self.forget();
         self.problem = Some(sentence.into());
     }
 
-    /// Forgets what is known: it is of something else altogether.
+    /// Discards question and answer, for instance after a change of subject.
     pub(crate) fn forget(&mut self) {
         (self.out, self.known, self.problem) = (None, None, None);
         self.version += 1;
     }
 
-    /// What is known, perhaps of the last question before the one that is out.
+    /// Returns the last answer, possibly of an earlier question than the pending one.
     pub(crate) fn answer(&self) -> Option<&Q::Answer> {
         self.known.as_ref().map(|(_, answer)| answer)
     }
 
-    /// What is known, with the question that it answers.
+    /// Returns the last answer with its question.
     pub(crate) fn answered(&self) -> Option<(&Q, &Q::Answer)> {
         self.known
             .as_ref()
             .map(|(question, answer)| (question, answer))
     }
 
-    /// What stands in the place of an answer: why there is none, or what is under way.
+    /// Returns the text in place of an answer: the problem, or the status.
     pub(crate) fn stand_in(&self) -> &str {
         self.problem().unwrap_or(Q::LABEL)
     }
 
-    /// What a figure says that can say no more: why there is no answer, or what is under way.
+    /// Returns the sentence in place of an answer: the problem, or the status.
     pub(crate) fn sentence(&self) -> String {
         self.problem()
             .map_or_else(|| format!("{}.", Q::LABEL), str::to_owned)
     }
 
-    /// What stands in the place of one number of the answer.
+    /// Returns the text in place of a missing number.
     pub(crate) fn missing(&self) -> &'static str {
         if self.is_waiting() { "…" } else { "–" }
     }
 
-    /// Why there is no answer, as a sentence.
+    /// Returns the problem, as a sentence, if the last question failed.
     pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()
     }
 
-    /// Whether a question is out.
+    /// Returns whether a question is pending.
     pub(crate) fn is_waiting(&self) -> bool {
         self.out.is_some()
     }
 
-    /// Changes whenever what is known does, so that a view knows what it may keep.
+    /// Returns a number that changes with the answer, for the caches of views.
     pub(crate) fn version(&self) -> u64 {
         self.version
     }
@@ -205,7 +205,7 @@ impl<Q: Question> Job for Out<Q> {
     }
 }
 
-/// FNV-1a of what is written, which is not kept.
+/// A writer that only computes the FNV-1a hash.
 struct Fnv(u64);
 
 impl postcard::ser_flavors::Flavor for Fnv {
@@ -221,7 +221,7 @@ impl postcard::ser_flavors::Flavor for Fnv {
     }
 }
 
-/// Answers all that a model asks, here and now.
+/// Answers all questions of a model at once.
 #[cfg(test)]
 pub(crate) fn settle<M: Declared>(model: &mut M) {
     while let Some(job) = model.job() {
@@ -230,7 +230,7 @@ pub(crate) fn settle<M: Declared>(model: &mut M) {
     }
 }
 
-/// A model in its default state, after these events and with all that it asks answered.
+/// Creates a model, applies events and answers all its questions.
 #[cfg(test)]
 pub(crate) fn settled<M: Declared>(events: &[Event]) -> M {
     let mut model = M::new();
@@ -277,13 +277,13 @@ mod tests {
         assert!(asked.is_waiting() && asked.answer().is_none());
         assert!(settle(&mut asked) && !asked.is_waiting());
         assert_eq!(asked.answered(), Some((&Half(3.0), &1.5)));
-        // What is known is not asked again, and a new question leaves it there meanwhile.
+        // A known answer is not asked for again, and stays during a new question.
         asked.ask(Half(3.0));
         assert!(asked.job().is_none());
         asked.ask(Half(5.0));
         assert_ne!(asked.job().unwrap().key(), key);
         assert_eq!(asked.answer(), Some(&1.5));
-        // Back to what is known: nothing is out any more.
+        // A question with a known answer cancels the pending one.
         asked.ask(Half(3.0));
         assert!(!asked.is_waiting());
         let version = asked.version();

@@ -1,4 +1,4 @@
-//! Loops that a reader runs, steps through and starts over: their buttons and their pace.
+//! Loops that a reader runs, steps and restarts: their buttons and their pace.
 
 use crate::contract::{Button, ButtonRole, Control, Event};
 
@@ -6,7 +6,7 @@ const RUN: Button = Button::new("run", "Run", ButtonRole::Run);
 const STEP: Button = Button::new("step", "Step", ButtonRole::Step);
 const RESTART: Button = Button::new("restart", "Start over", ButtonRole::Restart);
 
-/// Whether such a loop runs. Where it stands is the figure's business.
+/// State of a loop's animation; the figure keeps the current step.
 pub(crate) struct Running {
     steps_per_second: f64,
     is_running: bool,
@@ -14,7 +14,7 @@ pub(crate) struct Running {
 }
 
 impl Running {
-    /// A loop that stands still, and takes so many steps a second once it runs.
+    /// Creates a paused loop that runs at `steps_per_second`.
     pub(crate) fn at(steps_per_second: f64) -> Self {
         Self {
             steps_per_second,
@@ -35,7 +35,7 @@ impl Running {
         self.is_running &= !is_finished;
     }
 
-    /// The buttons of a loop after `step` steps.
+    /// Returns the buttons of a loop after `step` steps.
     pub(crate) fn controls(&self, can_run: bool, step: usize, is_finished: bool) -> [Control; 3] {
         [
             RUN.control(can_run, self.is_running),
@@ -44,7 +44,7 @@ impl Running {
         ]
     }
 
-    /// A button was pressed: the step to go to, if any. Running what is finished starts it over.
+    /// Applies a button; returns the step to go to, if any. Running a finished loop restarts it.
     pub(crate) fn press(&mut self, id: &str, step: usize, is_finished: bool) -> Option<usize> {
         let starts = id == RUN.id && !self.is_running;
         self.is_running = starts;
@@ -58,7 +58,7 @@ impl Running {
         }
     }
 
-    /// Takes an event: the step to go to, if it is a button of the loop or time that makes a step due.
+    /// Applies a button or a tick; returns the step to go to, if one is due.
     pub(crate) fn update(
         &mut self,
         event: &Event,
@@ -74,7 +74,7 @@ impl Running {
         }
     }
 
-    /// Time has passed: the step to go to, if it is due.
+    /// Advances the time; returns the step to go to, if one is due.
     pub(crate) fn tick(&mut self, dt_s: f64, step: usize) -> Option<usize> {
         let pause_s = 1.0 / self.steps_per_second;
         self.since_step_s += dt_s;
@@ -99,7 +99,7 @@ mod tests {
             [0.1, 0.1, 0.1].map(|dt_s| running.tick(dt_s, 7)),
             [None, None, Some(8)]
         );
-        // What was too much counts for the next step.
+        // The remaining time counts for the next step.
         assert_eq!(
             [0.1, 0.1].map(|dt_s| running.tick(dt_s, 8)),
             [None, Some(9)]

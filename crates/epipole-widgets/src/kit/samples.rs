@@ -1,31 +1,31 @@
-//! The core's RANSAC loop as a reader follows it: sample by sample, until enough have been drawn.
+//! The core's RANSAC loop for step-by-step display, until enough samples are drawn.
 
 use crate::contract::Readout;
 use epipole::Error;
 use epipole::robust::{Budget, Estimator, Ransac, RansacOptions, ScoreKind, Step, ransac};
 use serde::{Deserialize, Serialize};
 
-/// How sure the loop is to have drawn a sample of inliers alone before it ends.
+/// Confidence of having drawn an all-inlier sample at which the loop ends.
 const CONFIDENCE: f64 = 0.99;
-/// So many samples are never drawn, so a larger number says nothing more.
+/// Largest number of needed samples that is reported.
 const LARGEST_BUDGET: u64 = 1_000_000;
 
-/// What the loop is asked.
+/// Options of the loop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Rules {
-    /// How near a data point must be to vote for a model, pixels.
+    /// Inlier threshold, pixels.
     pub(crate) epsilon_px: f64,
     pub(crate) seed: u64,
-    /// No more samples are drawn.
+    /// Maximum number of samples.
     pub(crate) max_samples: usize,
-    /// Whether an inlier counts less the farther off it is; else each counts 1.
+    /// Whether inliers score by distance (MSAC) instead of 1 each.
     pub(crate) msac: bool,
-    /// Whether each new best model is fitted to its inliers at once.
+    /// Whether each new best model is refitted to its inliers at once.
     pub(crate) local_optimization: bool,
 }
 
 impl Rules {
-    /// The same for the core.
+    /// Converts to the core's options.
     fn options(&self) -> RansacOptions {
         RansacOptions::default()
             .with_max_error_px(self.epsilon_px)
@@ -41,8 +41,8 @@ impl Rules {
             .with_local_optimization(self.local_optimization)
     }
 
-    /// The whole loop at once: the model, and how many samples it took. As the last step of the plain
-    /// loop, without local optimization, the model is fitted once more to all inliers.
+    /// Runs the whole loop; returns the model and the number of samples. Without local
+    /// optimization, the model is finally refitted to all inliers.
     ///
     /// # Errors
     /// As [`ransac`].
@@ -60,22 +60,22 @@ impl Rules {
     }
 }
 
-/// Those of the data that are inliers.
+/// Returns the inliers among the data.
 pub(crate) fn inliers_of<T: Copy>(data: &[T], is_inlier: &[bool]) -> Vec<T> {
     let inliers = data.iter().zip(is_inlier).filter(|(_, is)| **is);
     inliers.map(|(datum, _)| *datum).collect()
 }
 
-/// The last sample that was drawn.
+/// Last sample drawn.
 #[derive(Debug, Clone)]
 pub(crate) struct Last<M> {
     /// Indices into the data.
     pub(crate) sample: Vec<usize>,
-    /// The model that it gave; of several the one with most votes.
+    /// Model of the sample; of several the one with most votes.
     pub(crate) model: Option<M>,
 }
 
-/// A loop that was begun.
+/// A loop in progress.
 pub(crate) struct Samples<E: Estimator> {
     engine: Ransac<E>,
     rules: Rules,
@@ -83,10 +83,10 @@ pub(crate) struct Samples<E: Estimator> {
 }
 
 impl<E: Estimator> Samples<E> {
-    /// A loop that has drawn nothing yet.
+    /// Creates a loop before its first sample.
     ///
     /// # Errors
-    /// As [`Ransac::new`]: too few data, or rules out of range.
+    /// As [`Ransac::new`]: too few data, or options out of range.
     pub(crate) fn new(estimator: E, rules: Rules) -> Result<Self, Error> {
         Ok(Self {
             engine: Ransac::new(estimator, rules.options())?,
@@ -95,7 +95,8 @@ impl<E: Estimator> Samples<E> {
         })
     }
 
-    /// Draws until there are so many samples in all, or enough. Says whether there is a new best model.
+    /// Draws until `count` samples in total, or enough. Returns whether the best model has
+    /// improved.
     pub(crate) fn draw_to(&mut self, count: usize) -> bool {
         let mut has_improved = false;
         while self.engine.iterations() < count {
@@ -115,17 +116,17 @@ impl<E: Estimator> Samples<E> {
         self.last.as_ref()
     }
 
-    /// The model with the most votes so far.
+    /// Returns the model with the most votes so far.
     pub(crate) fn best(&self) -> Option<&E::Model> {
         self.engine.best().map(|(model, _)| model)
     }
 
-    /// Samples drawn so far.
+    /// Returns the number of samples drawn so far.
     pub(crate) fn count(&self) -> usize {
         self.engine.iterations()
     }
 
-    /// How far the loop is.
+    /// Returns the progress of the loop.
     pub(crate) fn drawn(&self) -> Drawn {
         let required = self.engine.required_iterations();
         Drawn {
@@ -135,25 +136,25 @@ impl<E: Estimator> Samples<E> {
         }
     }
 
-    /// Whether there is nothing more to draw.
+    /// Returns whether the loop has ended.
     pub(crate) fn is_finished(&self) -> bool {
         self.drawn().is_finished()
     }
 }
 
-/// How far a loop is.
+/// Progress of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Drawn {
-    /// Samples drawn so far.
+    /// Number of samples drawn so far.
     pub(crate) count: usize,
-    /// Samples that are needed, going by the best model so far; `None` while out of reach.
+    /// Number of samples needed for the best model so far; `None` if above the reported maximum.
     pub(crate) budget: Option<u64>,
-    /// No more samples are drawn.
+    /// Maximum number of samples.
     pub(crate) max_samples: usize,
 }
 
 impl Drawn {
-    /// A loop that has drawn nothing yet.
+    /// Progress before the first sample.
     pub(crate) fn nothing(max_samples: usize) -> Self {
         Self {
             count: 0,
@@ -162,17 +163,17 @@ impl Drawn {
         }
     }
 
-    /// Whether enough samples have been drawn.
+    /// Returns whether enough samples have been drawn.
     pub(crate) fn is_confident(&self) -> bool {
         (self.budget).is_some_and(|budget| budget <= self.count as u64)
     }
 
-    /// Whether there is nothing more to draw.
+    /// Returns whether the loop has ended.
     pub(crate) fn is_finished(&self) -> bool {
         self.is_confident() || self.count >= self.max_samples
     }
 
-    /// How many samples a loop has drawn, and how many are needed; without a loop, these words.
+    /// Returns the readouts of samples drawn and needed; without a loop, these words.
     pub(crate) fn readouts(drawn: Option<Self>, none: &str) -> [Readout; 2] {
         let otherwise = if drawn.is_some() { "> 10⁶" } else { none };
         let count = drawn.map(|drawn| drawn.count as f64);
@@ -184,7 +185,7 @@ impl Drawn {
         ]
     }
 
-    /// How long the loop goes on, as a sentence.
+    /// Returns a sentence on the number of samples needed.
     pub(crate) fn outlook(&self) -> String {
         match self.budget {
             _ if self.is_confident() => "That is enough for 99 % confidence.".to_owned(),
@@ -197,7 +198,7 @@ impl Drawn {
         }
     }
 
-    /// "1 sample" or "12 samples".
+    /// Returns the count, such as "1 sample" or "12 samples".
     pub(crate) fn count_words(&self) -> String {
         match self.count {
             1 => "1 sample".to_owned(),
@@ -220,7 +221,7 @@ mod tests {
         local_optimization: false,
     };
 
-    /// Eight points on a line, and eight that are not.
+    /// Creates eight points on a line, and eight off it.
     fn points() -> LineEstimator {
         let on = (0..8).map(|k| Point2::new(f64::from(k) * 10.0, 50.0));
         let off = (0..8).map(|k| Point2::new(f64::from(k * k) * 3.0, f64::from(k * 37 % 100)));

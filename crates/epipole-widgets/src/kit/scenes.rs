@@ -11,38 +11,38 @@ use image::RgbImage;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 use std::sync::OnceLock;
 
-/// Size of a photograph, pixels.
+/// Width of a photograph, pixels.
 pub(crate) const PHOTO_WIDTH: u32 = 640;
-/// Size of a photograph, pixels.
+/// Height of a photograph, pixels.
 pub(crate) const PHOTO_HEIGHT: u32 = 480;
 /// Width and height of a photograph, pixels.
 pub(crate) const PHOTO_SIZE: (u32, u32) = (PHOTO_WIDTH, PHOTO_HEIGHT);
 /// Height over width.
 pub(crate) const PHOTO_ASPECT: f64 = PHOTO_HEIGHT as f64 / PHOTO_WIDTH as f64;
 
-/// Whether a place of the image plane lies within the photograph.
+/// Returns whether a position of the image plane lies within the photograph.
 pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
     (-0.5..=f64::from(PHOTO_WIDTH) - 0.5).contains(&pixel.x)
         && (-0.5..=f64::from(PHOTO_HEIGHT) - 0.5).contains(&pixel.y)
 }
 
-/// How the second of two cameras before the still life sees what is at a pixel of the first.
+/// Visibility in photograph 2 of the still-life point at a pixel of photograph 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Seen {
-    /// There it is.
+    /// Visible at this pixel.
     Visible(Point2<f64>),
-    /// It would be there, but this hides it.
+    /// Hidden at this pixel by the named thing.
     Hidden(Point2<f64>, &'static str),
-    /// It would be beyond the picture's edge.
+    /// Outside of the picture, at this pixel.
     Outside(Point2<f64>),
-    /// Camera 2 has gone past it.
+    /// Behind camera 2.
     Behind,
-    /// Camera 1 sees nothing there.
+    /// No surface at the pixel of photograph 1.
     Nothing,
 }
 
 impl Seen {
-    /// By the scene's exact depth.
+    /// Computes it from the scene's exact depth.
     pub(crate) fn of([first, second]: &[PosedCamera; 2], pixel1: &Point2<f64>) -> Self {
         match still_life().transfer(first, second, pixel1) {
             Transfer::Visible { pixel2, .. } | Transfer::Occluded { pixel2, .. }
@@ -57,7 +57,7 @@ impl Seen {
         }
     }
 
-    /// The pixel of photograph 2, inside the picture or not, hidden or not.
+    /// Returns the pixel of photograph 2, even if hidden or outside.
     pub(crate) fn pixel(self) -> Option<Point2<f64>> {
         match self {
             Self::Visible(pixel) | Self::Hidden(pixel, _) | Self::Outside(pixel) => Some(pixel),
@@ -66,14 +66,14 @@ impl Seen {
     }
 }
 
-/// Where the middle of the long table's ball is below the cameras, meters.
+/// Height of the long table's ball center below the cameras, meters.
 pub(crate) const BALL_Y_M: f64 = 0.14;
 
-/// The ball itself, with a hair of margin, meters; and how far around it its shade is to be seen.
+/// Radius of the ball with a small margin, meters; and the radius of its shade's extent.
 const BALL_RADIUS_M: f64 = 0.112;
 const BALL_SHADE_M: f64 = 0.3;
 
-/// The long table's ball, if it has moved from one place of its middle to another, meters.
+/// Returns the motion of the long table's ball between two positions of its center, meters.
 pub(crate) fn moved_ball(from: [f64; 3], to: [f64; 3]) -> Option<Moved> {
     let (from, to) = (Point3::from(from), Point3::from(to));
     (from != to).then_some(Moved {
@@ -84,20 +84,20 @@ pub(crate) fn moved_ball(from: [f64; 3], to: [f64; 3]) -> Option<Moved> {
     })
 }
 
-/// What the scene calls it.
+/// Name of the ball in the scene.
 pub(crate) const BALL: &str = "the ball";
 
-/// The still life of the book.
+/// Returns the still life of the book.
 pub(crate) fn still_life() -> Scene {
     Scene::still_life()
 }
 
-/// Two cameras before the still life: the one it was composed for, and one moved and turned in the
-/// first one's own horizontal plane.
+/// Returns two cameras on the still life: the one it was composed for, and one moved and rotated in
+/// the first one's horizontal plane.
 ///
 /// * `size`: width and height of both photographs, pixels
-/// * `right_m`, `forward_m`, `left_deg`: where the second camera stands in the frame of the first,
-///   and how far it is turned to the left
+/// * `right_m`, `forward_m`, `left_deg`: position of the second camera in the frame of the first,
+///   and its rotation to the left
 pub(crate) fn still_life_pair(
     (width, height): (u32, u32),
     right_m: f64,
@@ -105,7 +105,7 @@ pub(crate) fn still_life_pair(
     left_deg: f64,
 ) -> [PosedCamera; 2] {
     let first = still_life_camera(width, height);
-    // y points down, so turning the camera left turns what it sees right, by +y.
+    // y points down: turning the camera left rotates what it sees to the right, by +y.
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_deg.to_radians());
     let to_center = Translation3::new(-right_m, 0.0, -forward_m);
     let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
@@ -116,11 +116,10 @@ pub(crate) fn still_life_pair(
     [first, second]
 }
 
-/// A sharp photograph of the still life.
+/// Renders a sharp photograph of the still life.
 ///
 /// # Errors
-/// As [`Scene::render`], and [`Error::Canceled`] if `progress`, told the share that is done, ended
-/// it.
+/// As [`Scene::render`], and [`Error::Canceled`] if `progress` ended it.
 pub(crate) fn photograph(
     camera: &PosedCamera,
     (width, height): (u32, u32),
@@ -139,11 +138,11 @@ pub(crate) fn photograph(
     Ok(photograph.image)
 }
 
-/// The long table, with its ball at this place seen from above, meters to the right of the left
-/// camera and away from it.
+/// Returns the long table with its ball at a position seen from above, meters to the right of the
+/// left camera and away from it.
 ///
 /// # Errors
-/// As [`Scene::long_table`]: the place is not on the table.
+/// As [`Scene::long_table`]: the position is not on the table.
 pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
     Scene::long_table(MovableObject {
         kind: MovableKind::Ball,
@@ -155,8 +154,8 @@ pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
 /// Size of [`square_picture`], pixels.
 pub(crate) const SQUARE_SIZE: (u32, u32) = (240, 180);
 
-/// A dark square, tilted by 15°, on a light ground; edges smoothed over a pixel, and noise of a
-/// standard deviation of so many gray levels.
+/// Returns a dark square on a light ground, rotated by 15°, with edges smoothed over a pixel and
+/// noise of this standard deviation in gray levels.
 pub(crate) fn square_picture(noise: f64) -> RgbImage {
     static GRAIN: OnceLock<Vec<f64>> = OnceLock::new();
     let (width, height) = SQUARE_SIZE;
@@ -178,7 +177,7 @@ pub(crate) fn square_picture(noise: f64) -> RgbImage {
             let outside = (x * cos + along).abs().max((across - x * sin).abs()) - half;
             let cover = (0.5 - outside).clamp(0.0, 1.0);
             let gray = 215.0 - 150.0 * cover + noise * grain;
-            // A cast cuts off, and takes what is negative for 0.
+            // The cast truncates and saturates negative values at 0.
             *pixel = [(gray + 0.5) as u8; 3];
         }
     }

@@ -1,6 +1,6 @@
-//! Drawing in three dimensions: colored points, cameras, a ground, axes, far things first.
+//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near.
 //!
-//! Coordinates are those of the chapters: x right, y **down**, z forward, as camera 1 has them.
+//! Coordinates are as in the chapters and in camera 1: x right, y **down**, z forward.
 
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::Panel;
@@ -15,7 +15,7 @@ use epipole::camera::PosedCamera;
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Narrower panels do not show how things are moved across, CSS pixels.
+/// Minimum panel width with a handle for panning, CSS pixels.
 const SMALLEST: f64 = 300.0;
 /// Size of labels, CSS pixels.
 const TEXT: f64 = 13.0;
@@ -29,21 +29,21 @@ enum Mark {
     Face(Vec<Place>, Role, f64),
 }
 
-/// A scene as the reader sees it, collected mark by mark and then drawn.
+/// A scene in the reader's view, collected mark by mark and then drawn.
 pub(crate) struct Space<'a> {
     lens: Lens,
     /// Drawn first, in their order.
     ground: Vec<(Place, Place, Stroke)>,
-    /// Far ones first.
+    /// Far to near.
     photographs: Vec<Standing<'a>>,
-    /// How many photographs are drawn before it, and how far it is from the reader.
+    /// Number of photographs drawn before the mark, its depth, and the mark.
     marks: Vec<(usize, f64, Mark)>,
     labels: Vec<(Place, &'static str, Role)>,
 }
 
 impl<'a> Space<'a> {
-    /// An empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the subject
-    /// is nowhere.
+    /// Creates an empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the
+    /// subject is not finite.
     pub(crate) fn new(panel: &Panel, orbit: &Orbit, subject: &Subject) -> Option<Self> {
         let size = (panel.rect.width, panel.rect.height);
         let middle = panel.canvas_from_world(orbit.middle());
@@ -56,8 +56,8 @@ impl<'a> Space<'a> {
         })
     }
 
-    /// Puts up photographs that hide what is behind them, each `depth` in front of its camera. Before
-    /// any other mark but the ground.
+    /// Adds photographs that hide what is behind them, each `depth` in front of its camera. Must
+    /// precede all marks except the ground.
     pub(crate) fn stand<'b: 'a>(
         &mut self,
         photographs: impl IntoIterator<Item = (&'b PosedCamera, &'a RgbImage)>,
@@ -70,7 +70,7 @@ impl<'a> Space<'a> {
         self.photographs.sort_by(|a, b| b.depth.total_cmp(&a.depth));
     }
 
-    /// Collects a mark with its middle and its corners on the page.
+    /// Collects a mark with its center and its corners on the page.
     fn push(&mut self, in_eye: &Point3<f64>, places: &[Place], mark: Mark) {
         let behind = (self.photographs.iter()).position(|photo| photo.hides(in_eye, places));
         let layer = behind.unwrap_or(self.photographs.len());
@@ -81,19 +81,19 @@ impl<'a> Space<'a> {
         self.lens.eye.cam_from_world * point
     }
 
-    /// Where a point is shown and how far from the reader it is; `None` behind the reader.
+    /// Projects a point; returns its position and depth, `None` behind the reader.
     pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(Place, f64)> {
         self.lens.shown(&self.in_eye(point))
     }
 
-    /// The part of a segment that is in front of the reader, in the eye's frame.
+    /// Clips a segment to the part in front of the reader, in the eye's frame.
     fn segment(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<[Point3<f64>; 2]> {
         let (mut a, mut b) = (self.in_eye(from), self.in_eye(to));
         let nearest = self.lens.nearest;
         if a.z.is_nan() || b.z.is_nan() || a.z.max(b.z) <= nearest {
             return None;
         }
-        // The nearer end is moved along the segment to where things can be seen.
+        // Move the nearer end along the segment to the near plane.
         let (nearer, farther) = if a.z < b.z { (&mut a, b) } else { (&mut b, a) };
         if nearer.z < nearest {
             let share = (nearest - nearer.z) / (farther.z - nearer.z);
@@ -107,7 +107,7 @@ impl<'a> Space<'a> {
         Some((self.lens.shown(a)?.0, self.lens.shown(b)?.0))
     }
 
-    /// A colored point; `radius` is that of its disk in the middle of the scene, CSS pixels.
+    /// Adds a colored point; `radius` is that of its disk at the center of the scene, CSS pixels.
     pub(crate) fn dot(&mut self, point: &Point3<f64>, radius: f64, color: Rgb) {
         let in_eye = self.in_eye(point);
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
@@ -116,8 +116,8 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A point of a surface, without a rim, so that neighbors grow together; `side` is that of its square in
-    /// the middle of the scene, CSS pixels.
+    /// Adds a point of a surface, without a rim, so that neighbors merge; `side` is that of its
+    /// square at the center of the scene, CSS pixels.
     pub(crate) fn speck(&mut self, point: &Point3<f64>, side: f64, color: Rgb) {
         let in_eye = self.in_eye(point);
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
@@ -126,7 +126,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A marker of fixed size.
+    /// Adds a marker of fixed size.
     pub(crate) fn marker(&mut self, point: &Point3<f64>, radius: f64, shape: Shape, role: Role) {
         let in_eye = self.in_eye(point);
         if let Some((place, _)) = self.lens.shown(&in_eye) {
@@ -134,7 +134,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A straight line.
+    /// Adds a straight line.
     pub(crate) fn line(&mut self, from: &Point3<f64>, to: &Point3<f64>, stroke: Stroke) {
         let Some([a, b]) = self.segment(from, to) else {
             return;
@@ -153,7 +153,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A flat convex piece, which lets what is behind it shine through.
+    /// Adds a flat convex face, which is translucent.
     pub(crate) fn face(&mut self, corners: &[Point3<f64>], role: Role, opacity: f64) {
         let corners: Vec<_> = corners.iter().map(|corner| self.in_eye(corner)).collect();
         if corners
@@ -179,8 +179,8 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A quadrilateral, such as a piece of a surface, with a line along the two sides that meet in its first
-    /// corner; none if a corner is behind the reader.
+    /// Adds a quadrilateral, such as a piece of a surface, with an outline along the two sides at
+    /// its first corner; nothing if a corner is behind the reader.
     pub(crate) fn facet(&mut self, corners: [Point3<f64>; 4], color: Rgb, outline: Stroke) {
         let [Some(a), Some(b), Some(c), Some(d)] = corners.map(|corner| self.place(&corner)) else {
             return;
@@ -191,7 +191,7 @@ impl<'a> Space<'a> {
         self.push(&middle, &places, Mark::Facet(places, color, outline));
     }
 
-    /// A camera: its center, and the outline of its picture at the depth `depth`, upper edge
+    /// Adds a camera: its center, and the outline of its picture at the depth `depth`, upper edge
     /// thicker.
     pub(crate) fn frustum(
         &mut self,
@@ -214,7 +214,7 @@ impl<'a> Space<'a> {
         self.marker(&center, 4.5, shape, role);
     }
 
-    /// Where a pixel is on a camera's picture, put up in the world at the depth `depth`.
+    /// Returns the position of a pixel on a camera's picture at the depth `depth`, in the world.
     pub(crate) fn on_picture(
         &self,
         camera: &PosedCamera,
@@ -224,7 +224,8 @@ impl<'a> Space<'a> {
         camera.center_in_world() + camera.ray_in_world(pixel) * depth
     }
 
-    /// A grid on the level plane at the height `y`, `lines` lines to each side of its middle.
+    /// Adds a grid on the horizontal plane at the height `y`, `lines` lines to each side of its
+    /// middle.
     pub(crate) fn ground(&mut self, middle: &Point3<f64>, y: f64, spacing: f64, lines: i32) {
         let snap = |value: f64| (value / spacing).round() * spacing;
         let (x, z) = (snap(middle.x), snap(middle.z));
@@ -250,7 +251,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// The three axes of a camera, `length` long: x solid, y dashed, z dotted.
+    /// Adds the three axes of a camera, `length` long: x solid, y dashed, z dotted.
     pub(crate) fn axes(&mut self, camera: &PosedCamera, length: f64) {
         let world_from_cam = camera.cam_from_world.inverse();
         let origin = camera.center_in_world();
@@ -268,17 +269,17 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A name beside a point, on top of everything.
+    /// Adds a name beside a point, on top of everything.
     pub(crate) fn label(&mut self, point: &Point3<f64>, text: &'static str, role: Role) {
         if let Some((place, _)) = self.place(point) {
             self.labels.push((place, text, role));
         }
     }
 
-    /// Draws everything, far things first.
+    /// Draws everything, far to near.
     pub(crate) fn draw(self, canvas: &mut Canvas, panel: &Panel) {
-        // Keys are sorted rather than marks, which are ten times as large. The order of equally far marks
-        // is that in which they came.
+        // Sort keys instead of marks, which are ten times as large. Equally deep marks keep their
+        // order.
         let keys = self.marks.iter().enumerate();
         let mut order: Vec<(usize, u64, u32)> = keys
             .map(|(index, (layer, depth, _))| (*layer, far_first(*depth), index as u32))
@@ -322,7 +323,7 @@ impl<'a> Space<'a> {
         for (place, text, role) in self.labels {
             if panel.rect.contains(place) {
                 let mut around = Labels::around(place, 7.0);
-                // Things stand above their feet, so there is more room below.
+                // Objects extend upwards from the labeled point, so try below first.
                 around.swap(0, 3);
                 let style = TextStyle::new(role, TEXT).cased();
                 labels.draw(canvas, &around, text, style);
@@ -331,24 +332,23 @@ impl<'a> Space<'a> {
     }
 }
 
-/// A whole number that is less the larger a number is, in the order of `f64::total_cmp`.
+/// Maps a depth to an integer that decreases with it, in the order of `f64::total_cmp`.
 fn far_first(depth: f64) -> u64 {
     let bits = depth.to_bits();
-    // Negative numbers are the larger the more bits they have.
+    // The bits of negative numbers increase with their magnitude.
     let is_negative = bits >> 63 == 1;
     let rising = if is_negative { !bits } else { bits | 1 << 63 };
     !rising
 }
 
-/// The two handles of a space, each with what it does: a grip to turn it by, a small cross in its
-/// middle to move it by.
+/// Draws the two handles of a space: a grip to turn it, and a small cross at its center to move it.
 pub(crate) fn draw_handles(canvas: &mut Canvas, panel: &Panel, orbit: &Orbit) {
     let middle = panel.canvas_from_world(orbit.middle());
     let grip = panel.canvas_from_world((orbit.turn_deg(), orbit.rise_deg()));
     let mut labels = Labels::new(panel.rect.inset(4.0));
     labels.keep_free(middle, 6.0);
     labels.keep_free(grip, 9.0);
-    // In a small panel, as on phones, two fingers do it, and the cross would only be in the way.
+    // Small panels, as on phones, use two fingers, and the cross would only be in the way.
     let is_small = panel.rect.width < SMALLEST;
     let marks = [(grip, 9.0, "turn"), (middle, 5.0, "move")];
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
@@ -395,7 +395,7 @@ mod tests {
         assert!(place.0 > 210.0);
         let (place, _) = space(Orbit::new(0.0, 30.0)).place(&front).unwrap();
         assert!(place.1 > 160.0);
-        // y is down, and a larger zoom shows things larger.
+        // y is down, and a larger zoom enlarges.
         let low = Point3::new(0.0, 1.0, 5.0);
         let at = |zoom| {
             space(Orbit::new(0.0, 0.0).zoomed(zoom))

@@ -1,5 +1,5 @@
-//! Photographs that stand in a scene, each on the picture of its camera. They hide what is behind them,
-//! so what crosses their planes is cut there.
+//! Photographs in a scene, each in the image plane of its camera. They hide what is behind them, so
+//! marks that cross their planes are cut there.
 
 use crate::canvas::Place;
 use crate::kit::lens::Lens;
@@ -8,7 +8,7 @@ use epipole::homography::homography_from_motion;
 use image::RgbImage;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-/// Seen at a smaller angle than this, a photograph is a line. The sine of the angle.
+/// Sine of the viewing angle below which a photograph is edge-on and not drawn.
 const EDGE_ON: f64 = 0.01;
 
 /// A photograph in the frame of the reader's eye.
@@ -19,7 +19,7 @@ pub(crate) struct Standing<'a> {
     /// From CSS pixels of the page to pixels of the photograph.
     pub(crate) photo_from_page: Matrix3<f64>,
     plane: Plane,
-    /// How far from the eye its middle is.
+    /// Depth of its center from the eye.
     pub(crate) depth: f64,
 }
 
@@ -37,8 +37,8 @@ impl Plane {
 }
 
 impl<'a> Standing<'a> {
-    /// The photograph of a camera, `depth` in front of its center. `None` where it cannot be seen:
-    /// edge-on, or partly behind the eye.
+    /// Places the photograph of a camera `depth` in front of its center. `None` where it cannot be
+    /// seen: edge-on, or partly behind the eye.
     pub(crate) fn new(
         lens: &Lens,
         camera: &PosedCamera,
@@ -88,11 +88,11 @@ impl<'a> Standing<'a> {
         })
     }
 
-    /// Whether a mark may be hidden: it is on the other side of the plane, and overlaps the photograph on
-    /// the page. Marks on the plane are not.
+    /// Returns whether the photograph may hide a mark: the mark is behind its plane and overlaps it
+    /// on the page. Marks in the plane are not hidden.
     ///
-    /// * `in_eye`: the middle of the mark
-    /// * `places`: its corners on the page, in turn; it is convex
+    /// * `in_eye`: center of the mark
+    /// * `places`: corners of the convex mark on the page, in order
     pub(crate) fn hides(&self, in_eye: &Point3<f64>, places: &[Place]) -> bool {
         self.plane.side(in_eye) < -1e-9 * self.depth
             && !self.sides.iter().any(|side| side.has_beyond(places))
@@ -101,14 +101,14 @@ impl<'a> Standing<'a> {
                 || !(0..places.len()).any(|index| Side::of(places, index).has_beyond(&self.corners)))
     }
 
-    /// Where a segment crosses the plane, as a share of the way.
+    /// Returns the fraction of a segment at which it crosses the plane.
     pub(crate) fn crossing(&self, from: &Point3<f64>, to: &Point3<f64>) -> Option<f64> {
         let (a, b) = (self.plane.side(from), self.plane.side(to));
         let tiny = 1e-9 * self.depth;
         (a.abs() > tiny && b.abs() > tiny && a * b < 0.0).then(|| a / (a - b))
     }
 
-    /// A convex polygon in what is before the plane and what is behind it.
+    /// Cuts a convex polygon into the parts in front of and behind the plane.
     pub(crate) fn halves(&self, corners: &[Point3<f64>]) -> [Vec<Point3<f64>>; 2] {
         [1.0, -1.0].map(|sign| half(corners, |corner| sign * self.plane.side(corner)))
     }
@@ -118,12 +118,12 @@ impl<'a> Standing<'a> {
 struct Side {
     from: Place,
     along: Place,
-    /// How far the polygon reaches from it, times its length; negative on one of its two hands.
+    /// Signed extent of the polygon from the side, times the side's length.
     reach: f64,
 }
 
 impl Side {
-    /// The side from a corner to the next one.
+    /// Returns the side from a corner to the next one.
     fn of(polygon: &[Place], index: usize) -> Self {
         let (from, to) = (polygon[index], polygon[(index + 1) % polygon.len()]);
         let mut side = Self {
@@ -144,14 +144,14 @@ impl Side {
         self.along.0 * (y - self.from.1) - self.along.1 * (x - self.from.0)
     }
 
-    /// Whether another convex polygon is altogether on the other hand.
+    /// Returns whether another convex polygon is entirely on the other side.
     fn has_beyond(&self, other: &[Place]) -> bool {
         let beyond = |place: &Place| self.off(place) * self.reach < -1e-9 * self.reach * self.reach;
         !other.is_empty() && other.iter().all(beyond)
     }
 }
 
-/// The part of a convex polygon where `side` is not negative; a function that is linear in space.
+/// Clips a convex polygon to where `side`, a function linear in space, is not negative.
 pub(crate) fn half(
     corners: &[Point3<f64>],
     side: impl Fn(&Point3<f64>) -> f64,
@@ -207,7 +207,7 @@ mod tests {
                 |point: &Point3<f64>| standing.hides(point, &[lens.shown(point).unwrap().0]);
             assert_eq!(hides(&at(1.2)), eye_is_behind);
             assert_eq!(hides(&at(0.6)), !eye_is_behind);
-            // Far aside nothing is hidden, on whichever side of the plane it is.
+            // Far to the side nothing is hidden, on either side of the plane.
             for z in [0.6, 1.2] {
                 assert!(!hides(&(at(z) + Vector3::new(1.5, 0.0, 0.0))));
             }
@@ -219,7 +219,7 @@ mod tests {
             assert!(before.len() >= 3 && behind.len() >= 3);
             assert!(behind.iter().all(|p| standing.plane.side(p) < 1e-9));
         }
-        // Exactly from the side it is a line.
+        // Exactly from the side the photograph is a line.
         let lens = Lens::new(
             (300.0, 200.0),
             (1.0, 1.0),

@@ -7,15 +7,15 @@ use epipole::math::Line2;
 use epipole::robust::LineEstimator;
 use nalgebra::Point2;
 
-/// What one sample came to.
+/// Outcome of one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vote {
     pub(crate) num_votes: usize,
-    /// Whether the loop kept its line.
+    /// Whether its line became the best.
     pub(crate) is_best: bool,
 }
 
-/// Some samples, and what they came to.
+/// A number of samples and their outcomes.
 pub(crate) struct Tally {
     pub(crate) samples: Samples<LineEstimator>,
     pub(crate) votes: Vec<Vote>,
@@ -23,12 +23,12 @@ pub(crate) struct Tally {
     pub(crate) candidate: Option<Consensus>,
     /// The best line so far, fitted to its voters.
     pub(crate) best: Option<Consensus>,
-    /// The hidden line, with its own.
+    /// The hidden line, with its voters.
     pub(crate) truth: Consensus,
 }
 
 impl Tally {
-    /// Draws so many samples, or fewer if they are enough.
+    /// Draws `num_samples` samples, or fewer if they are enough.
     ///
     /// # Errors
     /// As [`Samples::new`].
@@ -63,7 +63,7 @@ impl Tally {
         })
     }
 
-    /// The points of the last sample, as indices.
+    /// Returns the indices of the points of the last sample.
     pub(crate) fn sample(&self) -> &[usize] {
         self.samples.last().map_or(&[], |last| &last.sample)
     }
@@ -88,7 +88,8 @@ mod tests {
         let tally = Tally::new(places, scattered.truth, rules, 500).unwrap();
         assert_eq!(tally.votes.len(), tally.samples.count());
         assert!(tally.samples.is_finished() && tally.votes[0].is_best);
-        // The best is the first one of the most votes, and each best has more than the last.
+        // The best is the first sample with the most votes, and each best has more than the one
+        // before.
         let most = tally.votes.iter().map(|vote| vote.num_votes).max().unwrap();
         assert_eq!(tally.best.unwrap().num_votes(), most);
         let kept = tally.votes.iter().filter(|vote| vote.is_best);

@@ -1,5 +1,5 @@
-//! A number at every whole place around a middle, as a landscape: a map with level lines, and a net seen
-//! from above and in front.
+//! A function on an integer grid as a terrain: a map with level lines, and a surface net seen from
+//! above and in front.
 
 use crate::canvas::{Canvas, Place, Stroke, TextStyle};
 use crate::contract::Rect;
@@ -7,14 +7,14 @@ use crate::kit::grid::SMALL;
 use crate::theme::{Rgb, Role};
 use image::RgbImage;
 
-/// Pixels of the map from one place to the next.
+/// Pixels of the map per grid step.
 const FINE: usize = 16;
 
-/// Numbers, all at least 0.
+/// A non-negative function on the grid.
 pub(crate) struct Terrain<'a> {
-    /// They are known so far to each side of the middle.
+    /// Half size of the grid, steps to each side of the middle.
     pub(crate) reach: usize,
-    /// The number at a whole place: so far to the right, so far down.
+    /// Value at a grid point: x to the right, y down.
     pub(crate) height: &'a dyn Fn((f64, f64)) -> f64,
 }
 
@@ -23,10 +23,10 @@ impl Terrain<'_> {
         (self.height)((f64::from(x), f64::from(y)))
     }
 
-    /// The map, numbers between whole places interpolated.
+    /// Draws the map, interpolated between grid points.
     ///
-    /// * `level`: of a number, from 0
-    /// * `colors`: of a level, and of the line around it
+    /// * `level`: index of the level of a value, from 0
+    /// * `colors`: color of a level, and of the line around it
     pub(crate) fn map(
         &self,
         level: impl Fn(f64) -> usize,
@@ -51,12 +51,12 @@ impl Terrain<'_> {
         map
     }
 
-    /// The level of every pixel of the map, row by row, and how many pixels a row has.
+    /// Returns the level of every pixel of the map, row by row, and the pixels per row.
     fn levels(&self, level: impl Fn(f64) -> usize) -> (Vec<usize>, usize) {
         let reach = self.reach as i32;
         let side = (2 * self.reach + 1) * FINE;
         let limit = f64::from(reach);
-        // The number of the whole place before each pixel, and how far the pixel is beyond it.
+        // The grid point before each pixel, and the fraction beyond it.
         let places: Vec<(usize, f64)> = (0..side)
             .map(|pixel| {
                 let at = (pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit;
@@ -64,7 +64,7 @@ impl Terrain<'_> {
                 ((at.floor() + limit) as usize, at - at.floor())
             })
             .collect();
-        // Across the columns once for each row of places, then down the rows.
+        // Interpolate across the columns once per grid row, then down the rows.
         let across: Vec<Vec<f64>> = (-reach..=reach)
             .map(|y| {
                 let row: Vec<f64> = (-reach..=reach).map(|x| self.at(x, y)).collect();
@@ -82,10 +82,10 @@ impl Terrain<'_> {
         (levels, side)
     }
 
-    /// The net, a place on it marked.
+    /// Draws the net with a marked point.
     ///
-    /// * `top`: the number that reaches up to the upper edge
-    /// * `color`: of a number
+    /// * `top`: value at the upper edge
+    /// * `color`: color of a value
     pub(crate) fn draw_net(
         &self,
         canvas: &mut Canvas,
@@ -114,7 +114,7 @@ impl Terrain<'_> {
                 let places = cell.map(|(right, down)| corner(x + right, y + down));
                 let heights = cell.map(|(right, down)| self.at(x + right, y + down));
                 canvas.polygon_color(&places, color(heights.iter().sum::<f64>() / 4.0));
-                // The sides towards the viewer are drawn with the cells that lie there.
+                // The sides towards the viewer are drawn with the cells in front of them.
                 let [back, right, front, left] = places;
                 let mut sides = vec![left, back, right];
                 if x == reach - 1 {
@@ -153,7 +153,7 @@ mod tests {
         let fill = |level: usize| [level as u8; 3];
         let map = terrain.map(|height| height as usize, |level| [fill(level), [200; 3]]);
         assert_eq!(map.dimensions(), (80, 80));
-        // A number is in the middle of its pixels.
+        // A value applies to the center of its block of pixels.
         let row: Vec<u8> = (0..80).map(|u| map.get_pixel(u, 40).0[0]).collect();
         let lines: Vec<usize> = (0..80).filter(|&u| row[u] == 200).collect();
         assert_eq!(lines, [23, 39, 55]);

@@ -1,4 +1,4 @@
-//! How figures of two photographs say pixels, epipoles, lines and matrices.
+//! Pixels, epipoles, lines and matrices in words.
 
 use crate::contract::format_number;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
@@ -6,7 +6,7 @@ use epipole::epipolar::Epipole;
 use epipole::math::Line2;
 use nalgebra::{Matrix3, Point2};
 
-/// A pixel, such as "(320.0, 240.5)".
+/// Formats a pixel, such as "(320.0, 240.5)".
 pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
     format!(
         "({}, {})",
@@ -15,13 +15,13 @@ pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
     )
 }
 
-/// A pixel, whole, such as "(320, 240)".
+/// Formats a pixel without decimals, such as "(320, 240)".
 pub(crate) fn whole_pixel(pixel: &Point2<f64>) -> String {
     let [u, v] = [pixel.x, pixel.y].map(|x| format_number(x, 0));
     format!("({u}, {v})")
 }
 
-/// An epipole, such as "(1273, 240)".
+/// Formats an epipole, such as "(1273, 240)".
 pub(crate) fn short_epipole(epipole: &Epipole) -> String {
     match epipole {
         Epipole::Finite(place) => whole_pixel(place),
@@ -29,7 +29,7 @@ pub(crate) fn short_epipole(epipole: &Epipole) -> String {
     }
 }
 
-/// On which side of the picture a pixel is.
+/// Returns the side of the picture that a pixel is on.
 pub(crate) fn side(pixel: &Point2<f64>) -> &'static str {
     let beyond = [
         (-0.5 - pixel.x, "left of the picture"),
@@ -44,7 +44,7 @@ pub(crate) fn side(pixel: &Point2<f64>) -> &'static str {
     farthest.map_or("", |(_, words)| words)
 }
 
-/// An epipole, such as "at (−290, 240), left of the picture".
+/// Describes an epipole, such as "at (−290, 240), left of the picture".
 pub(crate) fn epipole(epipole: &Epipole) -> String {
     match epipole {
         Epipole::Finite(place) => {
@@ -73,7 +73,7 @@ pub(crate) fn epipole(epipole: &Epipole) -> String {
     }
 }
 
-/// A line, such as "0.123 u − 0.992 v + 211.4 = 0".
+/// Formats a line, such as "0.123 u − 0.992 v + 211.4 = 0".
 pub(crate) fn line(line: &Line2) -> String {
     let term = |value: f64, digits: usize| {
         let sign = if value < 0.0 { "−" } else { "+" };
@@ -87,12 +87,12 @@ pub(crate) fn line(line: &Line2) -> String {
     )
 }
 
-/// A sentence behind others, if there is one.
+/// Formats a sentence to follow others: a space and the sentence, or nothing.
 pub(crate) fn after(sentence: Option<&str>) -> String {
     sentence.map_or_else(String::new, |sentence| format!(" {sentence}"))
 }
 
-/// A number with as few decimals as it needs, two at most.
+/// Formats a number with as few decimals as needed, two at most.
 pub(crate) fn short(value: f64) -> String {
     let digits = (0..2).find(|&digits| {
         let times = [1.0, 10.0][digits];
@@ -101,7 +101,7 @@ pub(crate) fn short(value: f64) -> String {
     format_number(value, digits.unwrap_or(2))
 }
 
-/// A matrix of very different entries, row by row; lines break between rows only.
+/// Formats a matrix row by row; lines break only between rows.
 pub(crate) fn matrix(matrix: &Matrix3<f64>) -> String {
     let rows: Vec<String> = (0..3)
         .map(|row| {
@@ -112,7 +112,7 @@ pub(crate) fn matrix(matrix: &Matrix3<f64>) -> String {
     rows.join("; ")
 }
 
-/// A number with three significant digits, such as "−3.21·10⁻⁶".
+/// Formats a number with three significant digits, such as "−3.21·10⁻⁶".
 fn entry(value: f64) -> String {
     // Zero up to rounding, in a matrix of unit norm.
     if value.abs() < 1e-13 {
@@ -124,8 +124,8 @@ fn entry(value: f64) -> String {
     with_power(value, 2)
 }
 
-/// A positive number of any size with about three significant digits, such as "41.3", "0.0217" or
-/// "2.05·10⁵"; what is zero up to rounding beside `largest` is "0".
+/// Formats a positive number with about three significant digits, such as "41.3", "0.0217" or
+/// "2.05·10⁵"; zero up to rounding relative to `largest` is "0".
 pub(crate) fn magnitude(value: f64, largest: f64) -> String {
     match value {
         value if value <= 1e-12 * largest => "0".to_owned(),
@@ -143,7 +143,7 @@ fn with_power(value: f64, digits: usize) -> String {
     format!("{}·10{}", mantissa.replace('-', "−"), raised(exponent))
 }
 
-/// A whole number as an exponent.
+/// Formats an integer as an exponent.
 pub(crate) fn raised(number: &str) -> String {
     let raise = |c: char| match c {
         '-' => '⁻',

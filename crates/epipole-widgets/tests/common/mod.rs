@@ -1,4 +1,4 @@
-//! What the tests of figures share: random events, and what must hold in every state.
+//! Helpers for tests of figures: random events and invariants.
 
 #![allow(dead_code, reason = "each test uses a part")]
 
@@ -6,10 +6,10 @@ use epipole::math::random::Random;
 use epipole_widgets::contract::{Control, ControlKind, Event, ReadoutValue, Value};
 use epipole_widgets::{Answers, Figure};
 
-/// Longest text that a screen reader should have to read for a picture.
+/// Maximum length of a description, characters, as a screen reader reads it aloud.
 const LONGEST_DESCRIPTION: usize = 400;
 
-/// One event, usually sensible, sometimes not.
+/// Returns a random event, usually valid.
 pub(crate) fn random_event(figure: &Figure, random: &mut Random) -> Event {
     match random.below(100) {
         0..35 => {
@@ -148,7 +148,7 @@ fn odd_value(random: &mut Random) -> Value {
     }
 }
 
-/// What must hold in every state of every figure.
+/// Asserts the invariants of every state of every figure.
 pub(crate) fn assert_sound(figure: &Figure, width: f64) {
     let name = figure.name();
     let context = format!("{name} at {}", figure.query());
@@ -198,7 +198,7 @@ pub(crate) fn assert_sound(figure: &Figure, width: f64) {
     }
 }
 
-/// Text that says something, and nothing that only a computer would say.
+/// Asserts that a text is not empty and has no debug output such as "NaN" or "None".
 fn assert_readable(text: &str, context: &str) {
     assert!(!text.trim().is_empty(), "{context}: an empty text");
     let bad = ["NaN", "nan", "inf", "None", "Some"];
@@ -209,12 +209,12 @@ fn assert_readable(text: &str, context: &str) {
 
 static ANSWERS: Answers = Answers::new();
 
-/// Carries out what a figure waits for, unless that has been done before.
+/// Finishes the pending jobs of a figure, cached across tests.
 pub(crate) fn finish(figure: &mut Figure) {
     ANSWERS.finish(figure);
 }
 
-/// A new figure with the state of another.
+/// Creates a new figure with the state of another.
 pub(crate) fn copy_of(figure: &Figure) -> Figure {
     let mut copy = Figure::new(figure.name()).expect("it exists");
     let problems = copy.apply(&figure.state());

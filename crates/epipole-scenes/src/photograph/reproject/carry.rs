@@ -1,8 +1,8 @@
-//! How pixels go from one picture to another, near ones after far ones.
+//! Forward warping of pixels from one picture to another, far ones before near ones.
 //!
-//! Pixels are carried over in an order in which near ones cover far ones without any comparison of depths (McMillan and
-//! Bishop 1995, "Plenoptic Modeling", section 4): along each ray of the other camera they follow the epipolar line,
-//! towards the epipole where that camera stands in front of this one, away from it where it stands behind.
+//! Pixels are visited in an order in which near ones cover far ones without depth comparisons
+//! (McMillan and Bishop 1995, "Plenoptic Modeling", section 4): along epipolar lines, towards the
+//! epipole if the other camera is in front of this one, away from it if it is behind.
 
 use crate::photograph::Photograph;
 use epipole::camera::{PosedCamera, RigidTransform};
@@ -10,21 +10,22 @@ use epipole::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Nothing nearer than this to the other camera is carried over, meters.
+/// Near plane of the other camera, meters; nearer points are left out.
 pub(super) const NEAR_M: f32 = 0.02;
-/// A pixel never becomes a larger square than this, pixels.
+/// Maximum side of the square of a pixel, pixels.
 const LARGEST: f32 = 6.0;
-/// How much farther apart two neighbors may come than a surface that faces the camera lets them.
+/// Enlargement of squares relative to a fronto-parallel surface, for slanted ones.
 const SLANT: f32 = 1.15;
 
-/// How pixels go from one picture to the other: `(map · (u, v, 1)) z + shift`, up to scale.
+/// Warp of pixels from one picture to the other: `(map · (u, v, 1)) z + shift`, up to scale.
 pub(super) struct Carry {
     map: Matrix3<f32>,
     shift: Vector3<f32>,
-    /// Where the other camera is seen, pixels, and whether it is in front.
+    /// Epipole: projection of the other camera, pixels, clamped to the picture; and whether it is
+    /// in front.
     epipole: (u32, u32),
     is_ahead: bool,
-    /// Side of a pixel in the other picture if its depth stays the same, pixels.
+    /// Side of a pixel in the other picture at equal depth, pixels.
     zoom: f32,
     size: (u32, u32),
 }
@@ -43,7 +44,7 @@ impl Carry {
             });
         }
         let center = from.cam_from_world * to.center_in_world();
-        // An epipole far away has the same order as one at infinity.
+        // A distant epipole gives the same order as one at infinity.
         let depth = if center.z.abs() < 1e-9 {
             1e-9
         } else {
@@ -61,7 +62,7 @@ impl Carry {
         })
     }
 
-    /// The same for pixels of what has moved in the world meanwhile.
+    /// Returns the warp for pixels of a thing that has moved in the world by `by`, meters.
     pub(super) fn moved(self, to: &PosedCamera, by: &Vector3<f64>) -> Self {
         let shift = to.intrinsics.matrix() * (to.cam_from_world.rotation * by);
         Self {
@@ -70,7 +71,7 @@ impl Carry {
         }
     }
 
-    /// All pixels with a depth, so that near ones come after far ones.
+    /// Warps all pixels with a depth, far ones before near ones.
     pub(super) fn all(&self, photograph: &Photograph, depths: &[f32], target: &mut [u32]) {
         let [columns, rows] = [(self.epipole.0, self.size.0), (self.epipole.1, self.size.1)]
             .map(|(epipole, size)| self.order(epipole, size));
@@ -84,14 +85,14 @@ impl Carry {
         }
     }
 
-    /// Rows or columns on both sides of the epipole: towards it or away from it.
+    /// Returns the rows or columns on both sides of the epipole, towards it or away from it.
     fn order(&self, epipole: u32, size: u32) -> [Run; 2] {
         let [before, after] = [0..epipole, epipole..size];
         let run = |places, is_upward| Run { places, is_upward };
         [run(before, self.is_ahead), run(after, !self.is_ahead)]
     }
 
-    /// The pixels of a part of a row.
+    /// Warps the pixels of a part of a row.
     pub(super) fn run(
         &self,
         photograph: &Photograph,
@@ -129,7 +130,7 @@ impl Carry {
                 let (left, top) = (squares.left[index] as usize, squares.top[index] as usize);
                 let [r, g, b] = colors[index];
                 let pixel = u32::from_le_bytes([r, g, b, 255]);
-                // Most squares are of one or four pixels, and their way is short.
+                // Special cases: most squares have one or four pixels.
                 let at = top * width + left;
                 if side == 2 && left + 2 <= width && top + 2 <= height {
                     let rows = &mut target[at..at + width + 2];
@@ -148,10 +149,10 @@ impl Carry {
     }
 }
 
-/// Neighbors whose squares are found together.
+/// Number of neighbors whose squares are computed together.
 const AT_ONCE: usize = 8;
 
-/// The squares that neighbors in a row become in the other picture, pixels; one without a side is not there.
+/// Squares of neighbors in the other picture, pixels; those outside have side 0.
 #[derive(Default)]
 struct Squares {
     left: [i32; AT_ONCE],
@@ -159,7 +160,7 @@ struct Squares {
     side: [i32; AT_ONCE],
 }
 
-/// How the pixels of a row go over: `(slope u + base) z + shift`, up to scale.
+/// Warp of the pixels of a row: `(slope u + base) z + shift`, up to scale.
 struct Way {
     slope: [f32; 3],
     base: [f32; 3],
@@ -167,14 +168,14 @@ struct Way {
     zoom: f32,
     /// Width and height of the other picture.
     size: [f32; 2],
-    /// Whether columns and rows come in the order of their numbers.
+    /// Whether columns and rows are visited in increasing order.
     is_upward: [bool; 2],
 }
 
 impl Way {
-    /// Of the neighbors from a column on. Made for vector instructions: nothing branches.
+    /// Computes the squares of the neighbors from a column on; branch-free for vector instructions.
     ///
-    /// * `depths`: 0 where there is nothing
+    /// * `depths`: 0 for no pixel
     #[inline(always)]
     fn find(&self, column: f32, depths: &[f32; AT_ONCE], squares: &mut Squares) {
         for index in 0..AT_ONCE {
@@ -185,16 +186,17 @@ impl Way {
             let zoom = self.zoom * z * inverse;
             // Not `f32::min`, which is a call.
             let reach = zoom * SLANT;
-            // Processors cast to signed numbers in one instruction.
+            // Processors cast to signed integers in one instruction.
             let side = if reach < LARGEST { reach } else { LARGEST } as i32 + 1;
-            // A square reaches over the gap to the next one, which comes later and covers the rest.
+            // A square reaches over the gap to the next one, which is drawn later and covers the
+            // rest.
             let half = 0.5 * (zoom - 1.0);
             let first = |is_upward: bool| match is_upward {
                 true => 0.5 - half,
                 false => 1.5 + half - side as f32,
             };
-            // Whatever hangs over the left or upper edge is left out with the whole square: the squares
-            // are small, and a draft fills the edge.
+            // Squares beyond the left or upper edge are left out whole: they are small, and a draft
+            // fills the edge.
             let left = along(0) * inverse + first(self.is_upward[0]);
             let top = along(1) * inverse + first(self.is_upward[1]);
             let is_there = (z > 0.0)
@@ -210,7 +212,7 @@ impl Way {
     }
 }
 
-/// Places of a row or column in one direction.
+/// Range of a row or column with its direction.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
     pub(super) places: Range<u32>,
@@ -218,7 +220,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Pieces of neighbors, in this direction.
+    /// Splits the range into groups of neighbors, in this direction.
     fn pieces(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let (start, end) = (self.places.start as usize, self.places.end as usize);
         let count = (end - start).div_ceil(AT_ONCE);
@@ -231,7 +233,7 @@ impl Run {
     }
 
     fn places(&self) -> impl Iterator<Item = u32> + use<> {
-        // Counting down is adding the largest number and going round.
+        // Counting down adds `u32::MAX`, with wrapping.
         let (first, step) = match self.is_upward {
             true => (self.places.start, 1),
             false => (self.places.end.wrapping_sub(1), u32::MAX),

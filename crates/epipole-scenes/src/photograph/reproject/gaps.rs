@@ -1,31 +1,31 @@
-//! A picture of pixels that came from elsewhere, with the gaps that they leave and what fills them.
+//! A reprojected picture, its gaps and their filling.
 
 use image::RgbImage;
 use std::ops::Range;
 
-/// A photograph from elsewhere, made of the pixels of another one.
+/// A photograph reprojected to another camera.
 #[derive(Debug, Default)]
 pub struct Reprojected {
     pub(super) image: RgbImage,
-    /// Red, green, blue and 255; 0 where no pixel came.
+    /// Red, green, blue and 255; 0 where no pixel was projected.
     pub(super) pixels: Vec<u32>,
-    /// Places that stay empty, each run of neighbors in a row.
+    /// Gaps: runs of neighboring pixels in a row.
     pub(super) missing: Vec<Range<u32>>,
 }
 
 impl Reprojected {
-    /// The picture. What is missing is black until it is filled.
+    /// Returns the picture. Gaps are black until they are filled.
     pub fn image(&self) -> &RgbImage {
         &self.image
     }
 
-    /// The number of pixels that are missing.
+    /// Returns the number of missing pixels.
     pub fn num_missing(&self) -> usize {
         self.missing.iter().map(Range::len).sum()
     }
 
-    /// Which pixels of a picture of `size` of the same view [`Reprojected::fill`] takes, row by row;
-    /// of a larger one, also those between.
+    /// Returns the mask, row by row, of the pixels of a draft of `size` of the same view that
+    /// [`Reprojected::fill`] uses; in a larger draft, also those between.
     pub fn wanted(&self, (width, height): (u32, u32)) -> Vec<bool> {
         let (own_width, own_height) = self.image.dimensions();
         let mut wanted = vec![false; width as usize * height as usize];
@@ -50,7 +50,7 @@ impl Reprojected {
         wanted
     }
 
-    /// Fills what is missing from a picture of the same view, of any size, between its pixels.
+    /// Fills the gaps by interpolation from a picture of the same view, of any size.
     pub fn fill(&mut self, draft: &RgbImage) {
         let (width, height) = self.image.dimensions();
         let (draft_width, draft_height) = draft.dimensions();
@@ -60,8 +60,8 @@ impl Reprojected {
         let columns: Vec<_> = (0..width).map(|u| between(u, width, draft_width)).collect();
         let draft = draft.as_raw().as_chunks::<3>().0;
         let draft: Vec<&[[u8; 3]]> = draft.chunks_exact(draft_width as usize).collect();
-        // The two rows of the draft around a row, stretched to its width and kept while they last: then they are
-        // mixed along memory.
+        // Stretch the two draft rows around a row to its width and keep them while needed, so that
+        // mixing accesses memory in order.
         let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0; 3 * width as usize]));
         let image: &mut [u8] = &mut self.image;
         for runs in by_rows(&self.missing, width) {
@@ -85,7 +85,7 @@ impl Reprojected {
         }
     }
 
-    /// A picture of this size of which all is missing.
+    /// Resets to a picture of this size with all pixels missing.
     pub fn clear(&mut self, (width, height): (u32, u32)) {
         self.begin_image((width, height));
         self.pixels.clear();
@@ -107,7 +107,8 @@ impl Reprojected {
         self.missing.clear();
     }
 
-    /// Makes the picture of the pixels that have come. A gap one pixel wide takes its neighbor's color.
+    /// Makes the picture from the projected pixels. A gap one pixel wide takes its neighbor's
+    /// color.
     pub(super) fn finish(&mut self) {
         let width = self.image.width() as usize;
         let (fours, rest) = self.pixels.as_chunks::<4>();
@@ -118,7 +119,7 @@ impl Reprojected {
             runs: &mut self.missing,
         };
         for (index, (four, target)) in fours.iter().zip(target_fours).enumerate() {
-            // Whatever has come is opaque; most of a picture has.
+            // Projected pixels are opaque, and most of a picture is projected.
             if (four[0] & four[1] & four[2] & four[3]) >> 24 != 0 {
                 for i in 0..4 {
                     target[i] = rgb(four[i]);
@@ -142,7 +143,7 @@ impl Reprojected {
     }
 }
 
-/// A row at the width of another picture, 256 times as bright.
+/// Stretches a row to the width of another picture; values are times 256.
 #[inline(never)]
 fn stretch(row: &[[u8; 3]], columns: &[(usize, usize, u32)], target: &mut [u16]) {
     let pixels = target.as_chunks_mut::<3>().0;
@@ -154,11 +155,11 @@ fn stretch(row: &[[u8; 3]], columns: &[(usize, usize, u32)], target: &mut [u16])
     }
 }
 
-/// Mixes two such rows; `down` is 256 times the way to the second of them.
-// Views are compiled for size: inlined into one, it would lose its vectors.
+/// Mixes two stretched rows; `down` is the weight of the second one, of 256.
+// Inlined into views, which are compiled for size, it would lose vectorization.
 #[inline(never)]
 fn mix([above, below]: [&[u16]; 2], down: u32, target: &mut [u8]) {
-    // Sixteen at once, which vector instructions do, and what is left over.
+    // Sixteen at a time for vector instructions, then the remainder.
     const AT_ONCE: usize = 16;
     let mixed =
         |a: u16, b: u16| ((u32::from(a) * (256 - down) + u32::from(b) * down + 32_768) >> 16) as u8;
@@ -166,7 +167,7 @@ fn mix([above, below]: [&[u16]; 2], down: u32, target: &mut [u8]) {
     let (above, last_above) = above.as_chunks::<AT_ONCE>();
     let (below, last_below) = below.as_chunks::<AT_ONCE>();
     for ((target, above), below) in targets.iter_mut().zip(above).zip(below) {
-        // In a place of its own, which is not the rows' memory.
+        // A local buffer, which cannot alias the rows.
         let mut here = [0; AT_ONCE];
         for i in 0..AT_ONCE {
             here[i] = mixed(above[i], below[i]);
@@ -178,19 +179,19 @@ fn mix([above, below]: [&[u16]; 2], down: u32, target: &mut [u8]) {
     }
 }
 
-/// Runs that are in order, row by row.
+/// Groups sorted runs by row.
 fn by_rows(runs: &[Range<u32>], width: u32) -> impl Iterator<Item = &[Range<u32>]> {
     runs.chunk_by(move |a, b| a.start / width == b.start / width)
 }
 
-/// Runs of places that stay empty, as they are found.
+/// Collects the gaps in order.
 struct Missing<'a> {
     width: u32,
     runs: &'a mut Vec<Range<u32>>,
 }
 
 impl Missing<'_> {
-    /// Places of one row, behind all that have come before.
+    /// Appends pixels of one row; they must follow all earlier ones.
     fn push(&mut self, places: Range<usize>) {
         let [start, end] = [places.start, places.end].map(|place| place as u32);
         match self.runs.last_mut() {
@@ -206,13 +207,14 @@ fn rgb(pixel: u32) -> [u8; 3] {
     [r, g, b]
 }
 
-/// Whether no pixel has come to four of one row, nor above them: then none of them is a gap that is closed.
+/// Returns whether four pixels of a row, and those above, are all missing: then none is a one-pixel
+/// gap.
 fn is_amid_nothing(pixels: &[u32], width: usize, start: usize) -> bool {
     let is_empty = |start: usize| pixels[start..start + 4] == [0; 4];
     start % width + 4 <= width && is_empty(start) && (start < width || is_empty(start - width))
 }
 
-/// The color of a pixel, or of its neighbor if it is a gap one pixel wide; black if it is missing.
+/// Returns the color of a pixel, or its neighbor's if it is a one-pixel gap; black if missing.
 #[inline]
 fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
     let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
@@ -232,8 +234,8 @@ fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>)
     rgb(pixel)
 }
 
-/// Between which two rows or columns of a picture one of another picture lies, and how much the
-/// second of them counts, of 256.
+/// Returns the two rows or columns of another picture around one of this picture, and the weight of
+/// the second, of 256.
 fn between(at: u32, size: u32, other_size: u32) -> (usize, usize, u32) {
     let place = (at as f32 + 0.5) * other_size as f32 / size as f32 - 0.5;
     let place = place.clamp(0.0, (other_size as f32 - 1.0).max(0.0));

@@ -1,7 +1,7 @@
-//! Photographs as another camera would have taken them, as far as their pixels tell.
+//! Reprojection of photographs to another camera.
 //!
-//! Every pixel has its depth, so it is known where the other camera sees it: [`carry`] takes it there. What the other
-//! camera sees and this one did not is left out, and filled from a draft: [`gaps`].
+//! Every pixel has a depth, so [`carry`] can project it into the other camera. Surfaces that only
+//! the other camera sees leave gaps, which [`gaps`] fills from a draft.
 
 mod carry;
 mod gaps;
@@ -18,30 +18,30 @@ use std::ops::Range;
 /// A thing that has moved since a photograph was taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
-    /// Its middle at that time, in the world, meters.
+    /// Its former center in the world, meters.
     pub center: Point3<f64>,
-    /// It is the surface within this distance of its middle, meters.
+    /// Radius around its center that contains its surface, meters.
     pub radius_m: f64,
-    /// Within this distance of where it was and of where it is, nothing else looks as it did, because
-    /// its shade has moved along, meters.
+    /// Radius around its former and its new center in which other surfaces are outdated, because
+    /// its shade has moved, meters.
     pub stale_m: f64,
-    /// How far it has moved, meters.
+    /// Displacement, meters.
     pub by: Vector3<f64>,
 }
 
 impl Photograph {
-    /// This photograph as the camera `to` would have taken it, with gaps where it sees what this one
-    /// did not.
+    /// Reprojects this photograph to the camera `to`, with gaps at surfaces that this one did not
+    /// see.
     ///
     /// * `from`: the camera that took it
     /// * `to`: another one, for a picture of the same size
-    /// * `moved`: what has moved in between
+    /// * `moved`: a thing that has moved in between
     ///
-    /// Reflections and whatever else changes with the place of the eye stay as they were.
+    /// Reflections and other view-dependent effects are unchanged.
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] if colors and depths are not of one size; [`Error::NotFinite`] for a
-    /// camera that is nowhere.
+    /// [`Error::SizeMismatch`] if colors and depths differ in size; [`Error::NotFinite`] for a
+    /// camera that is not finite.
     ///
     /// Source: McMillan and Bishop 1995, "Plenoptic Modeling: An Image-Based Rendering System".
     ///
@@ -105,7 +105,7 @@ impl Photograph {
             }
             carry.all(self, &depths, &mut target.pixels);
         }
-        // It comes last, as if nothing stood in front of it.
+        // The moved thing is drawn last, as if nothing were in front of it.
         let carry = carry.moved(to, &moved.by);
         for indices in carried.chunk_by(|a, b| a + 1 == *b && !b.is_multiple_of(size.0)) {
             let (u, v) = (indices[0] % size.0, indices[0] / size.0);
@@ -119,8 +119,8 @@ impl Photograph {
         Ok(())
     }
 
-    /// What a camera in the same place sees that looks the same way: larger, smaller or aside, at whatever depth.
-    // Not inlined where all is compiled for size.
+    /// Reprojects to a camera of equal pose and other intrinsics, which is independent of depth.
+    // Inlining would compile it for size with its callers.
     #[inline(never)]
     fn zoom(&self, from: &PosedCamera, to: &PosedCamera, target: &mut [u32]) {
         let (width, height) = self.image.dimensions();
@@ -133,7 +133,7 @@ impl Photograph {
                 (source >= 0.0 && source < f64::from(size)).then_some(source as usize)
             })
         };
-        // Those that come are neighbors.
+        // The columns inside are contiguous.
         let columns = sources(width, center.x, new_center.x, zoom_u);
         let skipped = columns.clone().take_while(Option::is_none).count();
         let columns: Vec<usize> = columns.flatten().collect();
@@ -163,7 +163,7 @@ impl Photograph {
 }
 
 impl Moved {
-    /// Pixels that no longer look as they did, and pixels of the thing itself.
+    /// Returns the outdated pixels, and the pixels of the thing itself.
     fn find(&self, photograph: &Photograph, camera: &PosedCamera) -> (Vec<u32>, Vec<u32>) {
         let (width, height) = photograph.image.dimensions();
         let old = camera.cam_from_world * self.center;
@@ -198,7 +198,7 @@ impl Moved {
     }
 }
 
-/// Columns and rows that may show something of a ball; all where it reaches up to the camera.
+/// Returns columns and rows that may show a ball; all if it reaches up to the camera.
 fn bounds(
     camera: &PosedCamera,
     middle: &Point3<f64>,
@@ -213,7 +213,7 @@ fn bounds(
     let focal = [k.fu_px(), k.fv_px()];
     let center = k.principal_point();
     std::array::from_fn(|i| {
-        // Of all depths within the ball, the nearest moves its edges out most.
+        // Within the ball, the nearest depth moves its edges out most.
         let edge = |sign: f64| {
             let offset = middle[i] + sign * radius_m;
             let depth = if offset * sign > 0.0 {
@@ -274,7 +274,7 @@ mod tests {
             .unwrap()
     }
 
-    /// Places where both pictures have a color, and what these are.
+    /// Pairs of colors at pixels that are not missing.
     fn pairs<'a>(
         seen: &'a Reprojected,
         truth: &'a RgbImage,
@@ -287,7 +287,7 @@ mod tests {
             .map(|(_, (a, b))| (a.0, b.0))
     }
 
-    /// What comes over looks like a photograph from there, and far more so than a draft.
+    /// Asserts that the reprojection is close to a photograph from there, much closer than a draft.
     #[test]
     fn it_looks_like_a_photograph_from_there() {
         let scene = Scene::still_life();
@@ -325,8 +325,8 @@ mod tests {
         }
     }
 
-    /// Near surfaces cover far ones wherever the camera goes: depths painted as colors stay those of
-    /// what is seen there.
+    /// Asserts that near surfaces cover far ones for any camera motion, with positions in the room
+    /// as colors.
     #[test]
     fn near_surfaces_cover_far_ones() {
         let scene = Scene::still_life();
@@ -337,7 +337,7 @@ mod tests {
             let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
             camera.center_in_world() + camera.ray_in_world(&pixel) * depth
         };
-        // Where in the room a surface is, from front to back.
+        // Color of a surface by its z in the room, from front to back.
         let paint = |point: Point3<f64>| [((point.z + 0.6) * 140.0).clamp(0.0, 250.0) as u8 + 3; 3];
         let painted = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
             image::Rgb(paint(in_world(&from, &photograph, u, v)))
@@ -355,7 +355,7 @@ mod tests {
                 all += 1;
                 wrong += usize::from(a[0].abs_diff(b[0]) > 10);
             }
-            // At the outlines of things, one pixel is as good as the next.
+            // At outlines, either neighbor is right.
             assert!(wrong * 100 < all * 6, "{index}: {wrong} of {all}");
         }
     }
@@ -395,7 +395,7 @@ mod tests {
         }
     }
 
-    /// A draft of which only the wanted pixels are rendered fills as well as a whole one.
+    /// Asserts that rendering only the wanted pixels of a draft fills the gaps equally well.
     #[test]
     fn only_what_is_wanted_of_a_draft_is_used() {
         let scene = Scene::still_life();
@@ -462,7 +462,8 @@ mod tests {
         assert!(wrong * 8 < differs, "{wrong}, {differs}");
     }
 
-    /// A longer lens enlarges what it sees, and that alone: no pixel covers another, and inside there is no gap.
+    /// Asserts that a longer focal length only enlarges: no pixel covers another, and inside there
+    /// is no gap.
     #[test]
     fn another_focal_length_zooms() {
         let scene = Scene::still_life();
@@ -503,7 +504,7 @@ mod tests {
         nowhere.cam_from_world.translation.x = f64::NAN;
         let refused = photograph.reproject(&camera, &nowhere, None, &mut seen);
         assert!(matches!(refused, Err(Error::NotFinite { .. })));
-        // Without depths nothing comes over.
+        // Pixels without depth are not projected.
         let other = still_life_camera(9, 6);
         photograph
             .reproject(&camera, &other, None, &mut seen)

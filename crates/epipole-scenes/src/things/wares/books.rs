@@ -51,7 +51,7 @@ impl Wares {
             )
             .painted(FRONT, &Paint::new(&edition.spine).glossy(0.8).lit(24, 6)),
         ];
-        // One stand-in for all four.
+        // One proxy for all four.
         let whole = cuboid(size_m, at(0.0, -thick / 2.0, 0.0), &edge).boxed();
         parts[2].proxies = whole.proxies;
         parts

@@ -1,4 +1,4 @@
-//! Fruit, and a ball that is as round.
+//! Fruit, and a ball.
 
 use super::Wares;
 use super::profiles::ball_profile;

@@ -1,4 +1,4 @@
-//! Things to put on a table and on walls, and the textures that they share.
+//! Things on tables and on walls, and their shared textures.
 
 mod books;
 mod crockery;
@@ -23,7 +23,7 @@ pub(crate) struct Edition {
     cloth: [f32; 3],
 }
 
-/// Textures that both scenes use, painted once.
+/// Textures that all scenes share, painted once.
 pub(crate) struct Wares {
     pub(crate) noise: &'static Noise,
     pub(crate) plaster: Arc<Texture>,
@@ -48,9 +48,9 @@ pub(crate) struct Wares {
 pub(crate) const LANDSCAPE_M: [f64; 2] = [0.62, 0.46];
 pub(crate) const GEOMETRIC_M: [f64; 2] = [0.38, 0.46];
 pub(crate) const STAR_CHART_M: [f64; 2] = [0.40, 0.52];
-/// How far a picture stands out from its wall, meters.
+/// Distance of a picture's front from its wall, meters.
 pub(crate) const PICTURE_DEPTH_M: f64 = 0.028;
-/// Side of the square of wall that the plaster covers before it repeats, meters.
+/// Side of the square of wall after which the plaster repeats, meters.
 pub(crate) const PLASTER_M: f64 = 1.7;
 
 impl Wares {
@@ -125,7 +125,7 @@ impl Wares {
     }
 }
 
-/// The place of a part, given in the frame of a thing that stands at `at`, turned by `yaw_rad`.
+/// Returns the world position of a part of a thing at `at` that is rotated by `yaw_rad`.
 pub(crate) fn placed(at: [f64; 3], yaw_rad: f64, part: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = libm::sincos(yaw_rad);
     [

@@ -1,4 +1,4 @@
-//! What is on walls: windows and pictures.
+//! Things on walls: windows and pictures.
 
 use super::{PICTURE_DEPTH_M, Wares};
 use crate::paint::texture::Texture;
@@ -7,7 +7,7 @@ use crate::things::body::{Body, Paint};
 use std::sync::Arc;
 
 impl Wares {
-    /// What a movable thing stands on while its light is computed: the plane y = 0.
+    /// Returns the support of a movable thing while its light is computed: the plane y = 0.
     pub(crate) fn slab(&self, width_m: f64, depth_m: f64) -> Body {
         let paint = Paint::new(&self.plaster).lit(1, 1);
         let center = [0.0, 0.02, 0.0];

@@ -1,4 +1,4 @@
-//! `ransac-budget`: how many samples are needed, against the inlier ratio.
+//! `ransac-budget`: the number of samples needed, against the inlier ratio.
 
 mod model;
 mod view;

@@ -10,7 +10,7 @@ use epipole::robust::num_trials_with_replacement;
 /// Sample sizes: of a line, a homography, E, and F from seven or from eight matches.
 pub(super) const SIZES: [usize; 5] = [2, 4, 5, 7, 8];
 
-/// Smallest and largest inlier ratio, and the one at first.
+/// Smallest and largest inlier ratio, and the default.
 pub(super) const RATIOS: [f64; 2] = [0.1, 0.99];
 const RATIO: f64 = 0.5;
 
@@ -31,7 +31,7 @@ impl RansacBudget {
         self.settings.number(&CONFIDENCE)
     }
 
-    /// Samples of this size needed when a share `w` are inliers.
+    /// Returns the number of samples of this size needed at inlier ratio `w`.
     pub(super) fn trials(&self, size: usize, w: f64) -> Option<u64> {
         num_trials_with_replacement(w, size, self.confidence()).ok()
     }

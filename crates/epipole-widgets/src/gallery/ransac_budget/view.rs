@@ -1,4 +1,4 @@
-//! The curves of the sample sizes over the inlier ratio, the number of samples in decades.
+//! Curves of the number of samples over the inlier ratio, one per sample size, in decades.
 
 use super::model::{RATIOS, RansacBudget, SIZES};
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle};
@@ -9,11 +9,11 @@ use crate::theme::Role;
 
 /// Height of the plot with its numbers, CSS pixels.
 const HEIGHT: f64 = 420.0;
-/// From one line of the legend to the next.
+/// Line spacing of the legend, CSS pixels.
 const ROW: f64 = 18.0;
-/// From the legend's markers to the right edge: nine digits fit.
+/// Width of the legend, from its markers to the right edge, CSS pixels: nine digits fit.
 const LEGEND: f64 = 128.0;
-/// Points of a curve.
+/// Number of points per curve.
 const NUM_STEPS: u32 = 890;
 
 /// Draws [`RansacBudget`].
@@ -47,13 +47,13 @@ impl View for RansacBudgetView {
             });
             plot::draw_curve(canvas, plot, places, Stroke::of_series(index, 2.25));
         }
-        // From the highest mark down: above it is the legend.
+        // Labels go from the highest mark down, since the legend is above it.
         let mark = |trials: u64| plot.canvas_from_world((ratio, plot::decade(trials as f64)));
         let (u, top) = mark(model.now(SIZES[SIZES.len() - 1]));
         let now = Stroke::solid(Role::Grip, 2.0).dashed();
         canvas.line((u, top.max(plot.rect.y)), (u, plot.rect.bottom()), now);
         canvas.grip(plot.canvas_from_world((ratio, 0.0)), Role::Grip);
-        // The curves fall: the corner at the top right is always free, and the largest sample is the
+        // The curves fall, so the upper right corner is always free; the largest sample has the
         // highest curve.
         let left = plot.rect.right() - LEGEND;
         for (index, size) in SIZES.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What `ransac-budget` says.
+//! Readouts and description of `ransac-budget`.
 
 use super::model::{RansacBudget, SIZES};
 use crate::contract::{Readout, Words, format_number};
@@ -16,7 +16,7 @@ impl Words for RansacBudget {
         let mut readouts = vec![ratio.main()];
         for ((id, label), size) in LABELS.into_iter().zip(SIZES) {
             let count = Readout::number(id, label, self.now(size) as f64, 0, "");
-            // The cheapest, one in the middle and the dearest carry the point.
+            // The smallest, a middle and the largest size carry the figure's point.
             let is_main = [2, 4, 8].contains(&size);
             readouts.push(count.main_if(is_main));
         }

@@ -1,6 +1,6 @@
-//! Matches of two photographs, of which some are wrong, and the loop that finds F all the same.
+//! Matches of two photographs with outliers, and the RANSAC loop that estimates F from them.
 //!
-//! The photographs, their matches and all votes come from a worker. How many samples have been drawn is part of
+//! The photographs, their matches and all votes come from a worker. The number of samples is one of
 //! the settings; the loop is deterministic, so a permalink replays it.
 
 use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
@@ -46,7 +46,7 @@ const EPSILON: Slider = Slider::new("epsilon", "Threshold ε")
 const LOCAL: Toggle = Toggle::new("local", "Local optimization").more();
 const SEED: Slider = Slider::seed(1.0);
 const MAX_SAMPLES: usize = 1000;
-/// Asked for; the loop ends before when enough have been drawn.
+/// Requested number of samples; the loop ends earlier when enough are drawn.
 const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(MAX_SAMPLES as f64)
@@ -54,16 +54,16 @@ const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
 const KNOBS: &[Knob] = knobs![SOURCE, SHOW, EPSILON, RATIO, LOCAL, SEED, ITERATIONS];
 
 const SLOTS: &[PhotoSlot] = &pair_slots(640);
-/// Smaller photographs have no features to speak of.
+/// Minimum side of a photograph, pixels; smaller ones have no useful features.
 const MIN_SIDE_PX: u32 = 32;
 const SAMPLES_PER_SECOND: f64 = 8.0;
-/// At first on the jug of the still life.
+/// Initially on the jug of the still life.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
     .over(STILL_LIFE_SIZE)
     .step(4.0)
     .at(244.0, 170.0);
 
-/// What is drawn.
+/// Content of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Show {
     Matches,
@@ -82,7 +82,7 @@ pub struct RansacEpipolar {
 }
 
 impl RansacEpipolar {
-    /// The photographs and all their matches.
+    /// Returns the photographs and all their matches.
     pub(super) fn matched(&self) -> Option<&Matched> {
         match self.matched.answer()? {
             Answer::Matched(found) => Some(found),
@@ -90,19 +90,19 @@ impl RansacEpipolar {
         }
     }
 
-    /// Width and height of both photographs, pixels, also before they are there.
+    /// Returns width and height of both photographs, pixels, also before they are there.
     pub(super) fn sizes(&self) -> [(u32, u32); 2] {
         let is_own = self.settings.chosen(&SOURCE) == OWN;
         let own = |index| self.own.get(index).filter(|_| is_own);
         [0, 1].map(|index| own(index).map_or(STILL_LIFE_SIZE, |picture| picture.size()))
     }
 
-    /// A place in photograph 1, pixels.
+    /// Returns the probe's position in photograph 1, pixels.
     pub(super) fn probe(&self) -> Point2<f64> {
         self.probe.point()
     }
 
-    /// The matches that pass the ratio test; those that have voted, if any have.
+    /// Returns the matches that have voted; before the votes, those that pass the ratio test.
     pub(super) fn matches(&self) -> Vec<&Match> {
         let most = match self.votes.answered() {
             Some((Question::Votes(voters), _)) => voters.most_ratio,
@@ -127,18 +127,18 @@ impl RansacEpipolar {
         }
     }
 
-    /// The election as it stands after the samples that have been drawn.
+    /// Returns the state of the loop after the samples drawn so far.
     pub(super) fn moment(&self) -> Option<Moment<'_>> {
         let votes = self.votes()?;
         Some(votes.after(self.settings.count(&ITERATIONS)))
     }
 
-    /// The F with the most votes so far.
+    /// Returns the F with the most votes so far.
     pub(super) fn best(&self) -> Option<&Best> {
         self.moment()?.best
     }
 
-    /// What the votes do not determine, once all are in.
+    /// Returns the degeneracy of the final F, if any.
     pub(super) fn left_open(&self) -> Option<LeftOpen> {
         let votes = self.votes().filter(|_| self.is_finished())?;
         votes.left_open
@@ -152,19 +152,19 @@ impl RansacEpipolar {
         self.settings.number(&EPSILON)
     }
 
-    /// Why there is nothing to see, as a sentence.
+    /// Returns the reason why nothing can be shown, as a sentence.
     pub(super) fn problem(&self) -> Option<&str> {
         let refusal = || self.votes()?.refusal.as_deref();
         let problem = self.matched.problem().or(self.votes.problem());
         problem.or_else(refusal)
     }
 
-    /// What is waited for, if nothing can be shown yet.
+    /// Returns the status while nothing can be shown yet.
     pub(super) fn label(&self) -> Option<&'static str> {
         self.votes().is_none().then_some(Question::LABEL)
     }
 
-    /// How far the loop is, once there are votes.
+    /// Returns the progress of the loop, once there are votes.
     pub(super) fn drawn(&self) -> Option<Drawn> {
         let last = self.moment()?.last;
         Some(last.map_or(Drawn::nothing(MAX_SAMPLES), |trial| trial.drawn))
@@ -179,7 +179,7 @@ impl RansacEpipolar {
         self.settings.count(&ITERATIONS).min(num_all)
     }
 
-    /// Asks for the matches of the present photographs.
+    /// Requests the matches of the current photographs.
     fn ask(&mut self) {
         self.running.stop();
         self.probe = self.probe.over(self.sizes()[0]);
@@ -192,7 +192,7 @@ impl RansacEpipolar {
         }
     }
 
-    /// Asks for the votes by the present rules.
+    /// Requests the votes under the current settings.
     fn ask_for_votes(&mut self) {
         if self.matched().is_none() {
             return;
@@ -209,14 +209,15 @@ impl RansacEpipolar {
         self.votes.ask(Question::Votes(voters));
     }
 
-    /// Draws to so many samples in all. The number asked for is kept: other rules may need more.
+    /// Draws to `count` samples in total. The requested number is kept, since other settings may
+    /// need more.
     fn draw_to(&mut self, count: usize) {
         self.settings.slide(&ITERATIONS, count as f64);
         self.running
             .stop_if(self.votes().is_none() || self.is_finished());
     }
 
-    /// How many voters of the best F are right, where the truth is known.
+    /// Returns the number of correct matches among the best F's inliers, where the truth is known.
     pub(super) fn num_right(&self) -> Option<usize> {
         let best = self.best()?;
         let mut count = 0;
@@ -264,7 +265,7 @@ impl Model for RansacEpipolar {
         vec![self.probe.handle()]
     }
 
-    /// Those of one of the elected matches.
+    /// Returns the symbols of one inlier of the best F.
     fn symbols(&self) -> Vec<Symbol> {
         let elected = self.best().into_iter().flat_map(|best| {
             let matches = self.matches().into_iter().zip(&best.is_inlier);
@@ -294,7 +295,7 @@ impl Model for RansacEpipolar {
         self.running.is_running()
     }
 
-    /// The matches first: they are who votes.
+    /// Requests the matches first, since the votes depend on them.
     fn asking(&mut self) -> Option<&mut dyn Asking> {
         Some(match self.matched.is_waiting() {
             true => &mut self.matched,
@@ -362,7 +363,7 @@ mod tests {
         assert!(model.drawn().unwrap().is_confident());
         let num_right = model.num_right().unwrap();
         assert!(best.num_votes > 100 && 20 * num_right > 19 * best.num_votes);
-        // The outliers are wrong: right matches are hardly ever outvoted.
+        // Nearly all outliers are wrong matches.
         let matches = model.matches();
         let all_right = matches
             .iter()
@@ -391,7 +392,7 @@ mod tests {
         assert!(model.best().unwrap().num_votes > 20);
         assert_eq!(model.num_right(), None, "nobody knows the truth");
         assert_eq!(model.left_open(), None);
-        // A gray card has no features, and that is no reason to fail.
+        // A uniform image has no features, which must not be an error.
         model.take_photo("first", RgbImage::new(64, 64)).unwrap();
         settle(&mut model);
         assert!(model.problem().unwrap().starts_with("There is no F"));
@@ -418,7 +419,7 @@ mod tests {
             let words = model.describe();
             assert!(words.contains(expected), "{words}");
             assert!(words.contains("Take a step aside"), "{words}");
-            // Before the last sample nobody can say so.
+            // Degeneracy is only reported after the last sample.
             model.update(&Event::press("restart")).unwrap();
             model.update(&Event::press("step")).unwrap();
             assert!(model.is_finished() || !model.describe().contains(expected));

@@ -1,4 +1,4 @@
-//! Which features of two photographs look alike, and for which F do they vote?
+//! The matches of two photographs, and their votes for F.
 
 use super::votes::{Voters, Votes};
 use crate::contract::{Problem, Progress};
@@ -15,30 +15,29 @@ use std::sync::OnceLock;
 /// Size of the rendered photographs, pixels.
 pub(super) const STILL_LIFE_SIZE: (u32, u32) = features::SIZE;
 
-/// What is asked.
+/// Requested computation.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Question {
     /// The matches of the rendered still life.
     StillLife,
-    /// Those of the reader's own photographs.
+    /// The matches of the reader's own photographs.
     Own([Picture; 2]),
-    /// Their votes.
+    /// The votes of matches.
     Votes(Voters),
 }
 
-/// A feature of photograph 1 and the one of photograph 2 that looks most alike, each the other's
-/// nearest.
+/// A match: mutual nearest neighbors of two photographs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Match {
     /// Column and row in photograph 1, then in photograph 2.
     pub(super) places: [[f64; 2]; 2],
-    /// Lowe's ratio: distance of the descriptors over that of the second nearest.
+    /// Ratio of the distances to the nearest and the second nearest descriptor (Lowe).
     pub(super) ratio: f32,
-    /// Whether it is right, where the truth is known.
+    /// Whether the match is correct, where the truth is known.
     pub(super) is_right: Option<bool>,
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) enum Answer {
     Matched(Matched),
@@ -101,7 +100,7 @@ impl question::Question for Question {
     }
 }
 
-/// The still life never changes, and posters of several sizes need it several times.
+/// Cached: the still life never changes, and posters of several sizes need it.
 fn still_life(progress: Progress<'_>) -> Result<Matched, Problem> {
     static FOUND: OnceLock<Vec<Match>> = OnceLock::new();
     let pair = Pair::of_still_life(&mut |share| progress(0.9 * share))?;
@@ -120,9 +119,9 @@ fn still_life(progress: Progress<'_>) -> Result<Matched, Problem> {
     })
 }
 
-/// Mutual nearest neighbors, told apart later by their ratio.
+/// Finds mutual nearest neighbors; the ratio test comes later.
 ///
-/// * `judge`: whether the features of these indices belong together, if that is known
+/// * `judge`: returns whether the features of these indices are a correct match, if known
 fn find_matches(
     [first, second]: [&Features; 2],
     judge: impl Fn(usize, usize) -> Option<bool>,
@@ -142,7 +141,7 @@ fn find_matches(
             second.keypoints[found.index2].point(),
         );
         let places = [pixel1.coords.into(), pixel2.coords.into()];
-        // A feature with two directions is one piece of evidence.
+        // A feature with two orientations counts once.
         if matches.iter().all(|other| other.places != places) {
             matches.push(Match {
                 places,

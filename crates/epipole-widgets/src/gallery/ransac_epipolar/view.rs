@@ -10,12 +10,12 @@ use crate::kit::pair::{draw_line, spread};
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
 
-/// A tall photograph must not push everything else off the screen.
+/// Maximum height of a photograph, CSS pixels, so that a tall one leaves room for the rest.
 const TALLEST: f64 = 372.0;
-/// So many inliers and so many outliers have their connection drawn on a wide page; more would hide
-/// everything.
+/// Maximum number of inliers, and of outliers, drawn as lines on a wide page, so that the
+/// photographs stay visible.
 const NUM_CONNECTED: f64 = 70.0;
-/// So many inliers have their epipolar line drawn.
+/// Number of inliers with their epipolar lines drawn.
 const NUM_LINES: usize = 12;
 
 /// Draws [`RansacEpipolar`].
@@ -168,7 +168,7 @@ fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) 
     }
 }
 
-/// While the loop goes on, the seven matches of the last sample.
+/// During the loop, draws the seven matches of the last sample.
 fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
     let last = model.moment().and_then(|moment| moment.last);
     let Some(last) = last.filter(|_| !model.is_finished()) else {
@@ -206,7 +206,7 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
     canvas.grip(first.place_of(&probe), Role::Grip);
 }
 
-/// What the reader should know or do before there is an F to see, or of one that means nothing.
+/// Returns a hint before there is an F, or a warning about one that means nothing.
 fn notice(model: &RansacEpipolar) -> Option<String> {
     let is_untouched = model.num_samples() == 0;
     let before = model.problem().or(model.label());

@@ -12,61 +12,61 @@ use epipole::two_view::{Degeneracy, TwoViewOptions, find_degeneracy};
 use nalgebra::{Matrix3, Point2};
 use serde::{Deserialize, Serialize};
 
-/// Who votes, and by which rules.
+/// The matches and the options of the loop.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Voters {
     /// Column and row in photograph 1, then in photograph 2, of each match.
     pub(super) places: Vec<[[f64; 2]; 2]>,
-    /// No match has a larger ratio.
+    /// Maximum ratio of the matches.
     pub(super) most_ratio: f32,
     pub(super) rules: Rules,
-    /// Whether nobody knows the truth: then it is asked what the votes leave open.
+    /// Whether the truth is unknown; degeneracies are then looked for.
     pub(super) is_own: bool,
 }
 
-/// An election from its first sample to its last.
+/// A complete run of the loop.
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Votes {
     trials: Vec<Trial>,
-    /// Each has more votes than the one before.
+    /// Best models in order, each with more votes than the one before.
     bests: Vec<Best>,
-    /// Why there is none, as a sentence.
+    /// Reason for having no F, as a sentence.
     pub(super) refusal: Option<String>,
-    /// What the voters of the last of them do not determine.
+    /// Degeneracy of the last best model.
     pub(super) left_open: Option<LeftOpen>,
 }
 
-/// Why an F is one of many, and how many of its voters say so.
+/// Degeneracy of an F, and the number of its inliers that cause it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) enum LeftOpen {
-    /// They are at one place in both photographs.
+    /// The matches have the same position in both photographs.
     Unmoved(usize),
-    /// One homography explains them.
+    /// One homography explains the matches.
     Homography(usize),
 }
 
-/// One sample and what came of it.
+/// A sample and its outcome.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Trial {
     /// Indices of its seven matches.
     pub(super) sample: Vec<usize>,
-    /// How many matches vote for its F; none if it gave no F.
+    /// Number of inliers of its F; 0 if it gave no F.
     pub(super) num_votes: usize,
-    /// How far the loop has come with it.
+    /// Progress of the loop after this sample.
     pub(super) drawn: Drawn,
-    /// How many of the best ones have been found by now.
+    /// Number of best models found so far.
     num_bests: usize,
 }
 
 /// The F with the most votes so far.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Best {
-    /// Which matches vote for it.
+    /// Inlier mask over the matches.
     pub(super) is_inlier: Vec<bool>,
     pub(super) num_votes: usize,
-    /// Fitted once more, to all that vote for it.
+    /// F refitted to all its inliers.
     pub(super) fundamental: Matrix3<f64>,
-    /// Mean Sampson distance of its voters, pixels.
+    /// Mean Sampson distance of its inliers, pixels.
     pub(super) mean_px: f64,
 }
 
@@ -80,7 +80,7 @@ impl Voters {
         }
     }
 
-    /// Holds the election. Too few matches, or all on a line, are a refusal.
+    /// Runs the loop. Too few matches, or matches all on a line, give a refusal.
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.
@@ -99,7 +99,7 @@ impl Voters {
                 let best = samples.best().map(|fundamental| self.refitted(fundamental));
                 votes.bests.extend(best);
             }
-            // A loop that draws nothing more is at its end.
+            // The loop has ended if it draws no further sample.
             let Some(last) = samples.last().filter(|_| samples.count() == count) else {
                 break;
             };
@@ -120,7 +120,7 @@ impl Voters {
         Ok(votes)
     }
 
-    /// What the voters of an F do not determine.
+    /// Returns the degeneracy of an F, if any.
     fn left_open(&self, best: &Best) -> Result<Option<LeftOpen>, Error> {
         let [pixels1, pixels2] = [0, 1].map(|side| self.pixels(side).collect::<Vec<_>>());
         let options = TwoViewOptions::default().within(self.rules.epsilon_px);
@@ -137,25 +137,25 @@ impl Voters {
         Samples::new(estimator, self.rules)
     }
 
-    /// The places in one of the photographs.
+    /// Returns the positions in one of the photographs, pixels.
     fn pixels(&self, side: usize) -> impl Iterator<Item = Point2<f64>> {
         self.places.iter().map(move |places| places[side].into())
     }
 
-    /// Which matches vote for a fundamental matrix.
+    /// Returns the inlier mask of a fundamental matrix.
     fn inliers(&self, fundamental: &Matrix3<f64>) -> impl Iterator<Item = bool> {
         let pairs = self.pixels(0).zip(self.pixels(1));
         pairs.map(move |(p, q)| sampson_px(fundamental, &p, &q) < self.rules.epsilon_px)
     }
 
-    /// The voters of an F, and F fitted to all of them.
+    /// Returns the inliers of an F, and F refitted to them.
     fn refitted(&self, fundamental: &Matrix3<f64>) -> Best {
         let is_inlier: Vec<bool> = self.inliers(fundamental).collect();
         let [pixels1, pixels2] = [0, 1].map(|side| -> Vec<Point2<f64>> {
             let marked = self.pixels(side).zip(&is_inlier);
             marked.filter(|(_, is)| **is).map(|(p, _)| p).collect()
         });
-        // Voters that do not determine F keep the one of its sample.
+        // Keep the sample's F if its inliers do not determine one.
         let fundamental = refine_fundamental(fundamental, &pixels1, &pixels2, RobustLoss::Trivial)
             .unwrap_or(*fundamental);
         let pairs = pixels1.iter().zip(&pixels2);
@@ -170,12 +170,12 @@ impl Voters {
 }
 
 impl Votes {
-    /// Samples until there is nothing more to draw.
+    /// Returns the number of samples until the loop ends.
     pub(super) fn len(&self) -> usize {
         self.trials.len()
     }
 
-    /// What had happened after so many samples.
+    /// Returns the state after `count` samples.
     pub(super) fn after(&self, count: usize) -> Moment<'_> {
         let last = self.trials[..count.min(self.len())].last();
         let num_bests = last.map_or(0, |trial| trial.num_bests);
@@ -185,7 +185,7 @@ impl Votes {
         }
     }
 
-    /// Whether these can be the votes of so many matches.
+    /// Returns whether these can be the votes of `num_matches` matches.
     pub(super) fn fit(&self, num_matches: usize) -> bool {
         let trial_fits = |trial: &Trial| {
             trial.num_bests <= self.bests.len() && trial.sample.iter().all(|&k| k < num_matches)
@@ -199,7 +199,7 @@ impl Votes {
     }
 }
 
-/// An election at some time.
+/// State of the loop after some samples.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a> {
     /// The last sample that was drawn.
@@ -224,7 +224,7 @@ mod tests {
         local_optimization: false,
     };
 
-    /// Matches of random points before two cameras, the last 40 of them wrong.
+    /// Projects random points into two cameras; the last 40 matches are wrong.
     fn matches() -> Vec<Match> {
         let mut random = Random::new(9);
         let [first, second] = still_life_pair((640, 480), 0.4, -0.3, 12.0);
@@ -261,7 +261,7 @@ mod tests {
         assert!(best.num_votes <= NUM_RIGHT + 3, "{}", best.num_votes);
         assert!(best.mean_px < 0.1, "{}", best.mean_px);
         assert!(last.num_votes <= best.num_votes);
-        // Sample by sample, the best only grows.
+        // The best model never loses votes.
         assert!(votes.after(0).best.is_none() && votes.after(0).last.is_none());
         let growth: Vec<usize> = (1..=votes.len())
             .map(|count| votes.after(count))

@@ -1,4 +1,4 @@
-//! What `ransac-epipolar` says.
+//! Readouts and description of `ransac-epipolar`.
 
 use super::model::{RansacEpipolar, Show};
 use super::votes::LeftOpen;
@@ -7,10 +7,10 @@ use crate::kit::samples::Drawn;
 use crate::kit::words;
 use epipole::epipolar::epipolar_line2;
 
-/// Stands for a number until there is one.
+/// Text in place of a missing number.
 const WAITING: &str = "none yet";
 
-/// Why the F that was elected means nothing, and what helps.
+/// Explains why a degenerate F means nothing, and what to do.
 pub(super) fn left_open(model: &RansacEpipolar) -> Option<String> {
     let num_votes = model.best()?.num_votes;
     let why = match model.left_open()? {

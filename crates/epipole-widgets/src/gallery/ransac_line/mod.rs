@@ -1,5 +1,5 @@
-//! `ransac-line`: sample, band, votes; the tally of every sample, and what MSAC and local optimization
-//! change over a hundred runs.
+//! `ransac-line`: sample, band and votes; the votes of every sample, and the effect of MSAC and
+//! local optimization over a hundred runs.
 
 mod model;
 mod question;

@@ -22,7 +22,7 @@ const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(7.0)
     .hidden();
-/// How much of the last sample has happened: drawn, banded, its votes cast.
+/// Phase of the last sample's animation, 0 to 1: drawn, band shown, votes cast.
 const PHASE: Slider = Slider::new("phase", "Votes cast")
     .range(0.0, 1.0, 0.005)
     .at(1.0)
@@ -32,7 +32,7 @@ const KNOBS: &[Knob] = knobs![
     OUTLIERS, EPSILON, MSAC, LOCAL, COUNT, SEED, ITERATIONS, PHASE
 ];
 
-/// Slow enough to see the votes fly.
+/// Pace of the animation, slow enough to follow the votes.
 const SAMPLES_PER_SECOND: f64 = 0.7;
 
 /// The model of `ransac-line`.
@@ -45,12 +45,12 @@ pub(crate) struct RansacLine {
 }
 
 impl RansacLine {
-    /// The samples so far, or why there are none.
+    /// Returns the samples so far, or why there are none.
     pub(super) fn tally(&self) -> Result<&Tally, &str> {
         self.tally.as_ref().map_err(String::as_str)
     }
 
-    /// The hundred runs of each kind, perhaps of the settings before.
+    /// Returns the hundred runs of each kind, possibly of earlier settings.
     pub(super) fn runs(&self) -> Option<&Runs> {
         self.asked.answer()
     }
@@ -63,12 +63,12 @@ impl RansacLine {
         self.settings.number(&PHASE)
     }
 
-    /// The kind of run that the toggles ask for.
+    /// Returns the kind of run that the toggles select.
     pub(super) fn kind(&self) -> usize {
         kind(self.settings.flag(&MSAC), self.settings.flag(&LOCAL))
     }
 
-    /// How far the best line is from the hidden one, degrees.
+    /// Returns the angle between the best line and the hidden one, degrees.
     pub(super) fn error_deg(&self) -> Option<f64> {
         let best = self.tally.as_ref().ok()?.best.as_ref()?;
         Some(angle_between_deg(&best.line, &self.scattered.truth))
@@ -99,7 +99,7 @@ impl RansacLine {
         });
     }
 
-    /// Draws to so many samples, of the last of which this much has happened.
+    /// Draws to `count` samples, the last one in this phase.
     fn run_to(&mut self, count: usize, phase: f64) {
         self.settings.slide(&ITERATIONS, count as f64);
         self.settings.slide(&PHASE, phase);
@@ -156,9 +156,9 @@ impl Model for RansacLine {
                 let next = self.running.update(event, drawn, is_finished);
                 let from = next.unwrap_or(drawn);
                 match self.running.is_running() && !was_running {
-                    // The first sample does not wait.
+                    // The first sample starts at once.
                     true => self.run_to(from + 1, 0.0),
-                    // What a reader steps to is there at once, and what is stopped is complete.
+                    // Stepping and stopping show the sample complete, without its animation.
                     false => self.run_to(from, 1.0),
                 }
             }

@@ -1,4 +1,4 @@
-//! A hundred runs of each kind on points of their own.
+//! A hundred runs of each kind, each run on its own points.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::line_points::{angle_between_deg, scatter};
@@ -8,19 +8,19 @@ use epipole::Error;
 use epipole::robust::{LineEstimator, fit_line_total_least_squares};
 use serde::{Deserialize, Serialize};
 
-/// Runs of each kind.
+/// Number of runs of each kind.
 pub(super) const NUM_RUNS: usize = 100;
-/// Kinds of run: MSAC off and on, and the same with local optimization; see [`kind`].
+/// Number of kinds of run: MSAC off and on, without and with local optimization; see [`kind`].
 pub(super) const NUM_KINDS: usize = 4;
-/// No run draws more samples.
+/// Maximum number of samples per run.
 pub(super) const MAX_SAMPLES: usize = 500;
 
-/// The index of a kind of run.
+/// Returns the index of a kind of run.
 pub(super) fn kind(msac: bool, local: bool) -> usize {
     usize::from(msac) + 2 * usize::from(local)
 }
 
-/// How far off are the lines of many runs?
+/// Errors of the lines of many runs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) outlier_ratio: f64,
@@ -28,10 +28,10 @@ pub(super) struct Question {
     pub(super) count: usize,
 }
 
-/// How a run ended.
+/// Result of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Run {
-    /// From the hidden line.
+    /// Angle from the hidden line, degrees.
     pub(super) error_deg: f64,
     pub(super) num_samples: usize,
 }
@@ -41,7 +41,7 @@ pub(super) struct Run {
 pub(super) struct Runs(pub(super) Vec<Vec<Run>>);
 
 impl Runs {
-    /// The middle one of the errors of a kind, degrees.
+    /// Returns the median error of a kind, degrees.
     pub(super) fn median_deg(&self, kind: usize) -> Option<f64> {
         let mut errors: Vec<f64> = self.0.get(kind)?.iter().map(|run| run.error_deg).collect();
         errors.sort_by(f64::total_cmp);
@@ -49,13 +49,13 @@ impl Runs {
         Some(0.5 * (errors.get(half.checked_sub(1)?)? + errors.get(half)?))
     }
 
-    /// How many runs of a kind end within 1° of the hidden line.
+    /// Returns the number of runs of a kind within 1° of the hidden line.
     pub(super) fn num_near(&self, kind: usize) -> usize {
         let runs = self.0.get(kind).map_or(&[][..], Vec::as_slice);
         runs.iter().filter(|run| run.error_deg <= 1.0).count()
     }
 
-    /// Samples that a run of a kind takes on average.
+    /// Returns the mean number of samples of a kind.
     pub(super) fn mean_samples(&self, kind: usize) -> Option<f64> {
         let runs = self.0.get(kind).filter(|runs| !runs.is_empty())?;
         let sum: usize = runs.iter().map(|run| run.num_samples).sum();

@@ -1,5 +1,5 @@
-//! The plane with the last sample, its band and its voters; beside it the tally, one column a sample, into
-//! which the votes fly; and the errors of a hundred runs of each kind.
+//! The plane with the last sample, its band and its inliers; the votes of the last samples, one
+//! column each, to which votes fly; and the errors of a hundred runs of each kind.
 
 use super::model::RansacLine;
 use super::question::NUM_KINDS;
@@ -14,16 +14,17 @@ use crate::kit::plot::{self, Ruler};
 use crate::kit::tally::Tally;
 use crate::theme::Role;
 
-/// The tally shows so many samples, the last ones.
+/// Number of last samples shown in the tally.
 const SHOWN: usize = 40;
-/// When the band is there, and when the first vote and the last one leave, as shares of a sample's time.
+/// Phases, as fractions of a sample's time, at which the band appears, and the first and the last
+/// vote depart.
 const BANDED: f64 = 0.3;
 const FIRST: f64 = 0.35;
 const LAST: f64 = 0.72;
-/// How long a vote flies.
+/// Flight time of a vote, as a fraction of a sample's time.
 const FLIGHT: f64 = 0.26;
 const DECADES: [f64; 2] = [-1.7, 1.95];
-/// Where the axis ends: beyond the dots there is room for a number.
+/// End of the axis, in decades: a number fits beyond the dots.
 const AXIS_END: f64 = 2.75;
 
 const CANDIDATE: Stroke = Stroke::solid(Role::Candidate, 2.0);
@@ -58,7 +59,7 @@ fn run_rulers() -> [Ruler; 2] {
     ]
 }
 
-/// The plane, the tally and the runs.
+/// Adds the cells of the plane, the tally and the runs.
 fn cells(grid: &mut Grid, width: f64) -> [Rect; 3] {
     const ASPECT: f64 = HEIGHT_PX / WIDTH_PX;
     if grid::is_narrow(width) {
@@ -117,7 +118,7 @@ impl View for RansacLineView {
     }
 }
 
-/// How far something has come that takes from `start` to `end`, slow at both ends.
+/// Interpolates 0 to 1 from `start` to `end`, slow at both ends.
 fn eased(phase: f64, start: f64, end: f64) -> f64 {
     let share = ((phase - start) / (end - start)).clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
@@ -176,14 +177,14 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     }
 }
 
-/// How many votes of the last sample have landed.
+/// Returns the number of the last sample's votes that have arrived.
 fn num_landed(phase: f64, num_votes: usize) -> usize {
     (0..num_votes)
         .filter(|index| flown(phase, *index, num_votes) >= 1.0)
         .count()
 }
 
-/// How far a vote has come on its way to the tally.
+/// Returns the fraction of its flight that a vote has completed.
 fn flown(phase: f64, index: usize, num_votes: usize) -> f64 {
     if phase >= 1.0 {
         return 1.0;
@@ -232,7 +233,7 @@ fn draw_tally(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     labels.draw(canvas, &places, "hidden line", style);
 }
 
-/// The votes of the last sample on their way from the plane to its column.
+/// Draws the votes of the last sample in flight from the plane to its column.
 fn draw_flight(
     model: &RansacLine,
     tally: &Tally,
@@ -257,7 +258,7 @@ fn draw_flight(
     }
 }
 
-/// A place on the way, which rises a little.
+/// Interpolates between two positions along a slightly rising path.
 fn between(from: Place, to: Place, share: f64) -> Place {
     let mix = |a: f64, b: f64| a + (b - a) * share;
     let rise = 26.0 * 4.0 * share * (1.0 - share);
@@ -283,7 +284,7 @@ fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
                 Role::Reference
             };
             for (index, run) in runs.0[kind].iter().enumerate() {
-                // Spread over the row, so that they do not hide each other.
+                // Spread over the row, so that dots do not overlap.
                 let aside = 0.6 * ((index * 37 % 100) as f64 / 100.0 - 0.5);
                 canvas.disk(at(run.error_deg, row + aside), 1.7, role, 0.8);
             }

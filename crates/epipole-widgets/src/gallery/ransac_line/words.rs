@@ -1,4 +1,4 @@
-//! What `ransac-line` says.
+//! Readouts and description of `ransac-line`.
 
 use super::model::RansacLine;
 use super::question::NUM_RUNS;

@@ -1,4 +1,4 @@
-//! Both fits to the points as they are: least squares, and RANSAC after some number of samples.
+//! Both fits to the current points: least squares, and RANSAC after a number of samples.
 
 use crate::kit::line_points::{Consensus, angle_between_deg};
 use crate::kit::samples::{Drawn, Rules};
@@ -7,22 +7,23 @@ use epipole::math::Line2;
 use epipole::robust::fit_line_total_least_squares;
 use nalgebra::Point2;
 
-/// A line farther from the hidden one is a wrong line, degrees.
+/// Angle from the hidden line above which a line is wrong, degrees.
 const WRONG_DEG: f64 = 5.0;
 
-/// What follows from the points, the rules and the number of samples. A few hundred samples take well
-/// under a millisecond, so all is computed anew after each event.
+/// Fits for the current points, settings and number of samples, recomputed after each event: a few
+/// hundred samples take well under a millisecond.
 pub(super) struct Fits {
     /// The hidden line, with the points near it.
     pub(super) truth: Consensus,
-    /// Points that have no such line, such as a square's corners, may still be sampled.
+    /// Least-squares line; `None` for points without one, such as a square's corners, which RANSAC
+    /// can still sample.
     pub(super) least_squares: Option<Line2>,
     pub(super) tally: Option<Tally>,
-    /// Why there is no fit, as a sentence.
+    /// Reason for having no fit, as a sentence.
     pub(super) problem: Option<String>,
 }
 
-/// Acute angles between lines, degrees; `None` for what has no line yet.
+/// Acute angles between lines, degrees; `None` if a line is missing.
 pub(super) struct Angles {
     pub(super) between: Option<f64>,
     /// From the hidden line.
@@ -31,19 +32,19 @@ pub(super) struct Angles {
     pub(super) ransac: Option<f64>,
 }
 
-/// How a run ends.
+/// Outcome of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
     /// Near the hidden line.
     Right,
     /// On a wrong line, which has at least as many votes as the hidden one.
     Outvoted,
-    /// On a wrong line, because no sample came near the hidden one.
+    /// On a wrong line, since no sample came near the hidden one.
     Missed,
 }
 
 impl Fits {
-    /// Fits both ways, and draws so many samples, or fewer if they are enough.
+    /// Fits both ways, drawing `num_samples` samples, or fewer if they are enough.
     pub(super) fn new(
         places: &[Point2<f64>],
         truth: Line2,
@@ -61,27 +62,27 @@ impl Fits {
         }
     }
 
-    /// The line of the last sample.
+    /// Returns the line of the last sample.
     pub(super) fn candidate(&self) -> Option<&Consensus> {
         self.tally.as_ref()?.candidate.as_ref()
     }
 
-    /// The line with the most votes so far, fitted to them.
+    /// Returns the line with the most votes so far, refitted to its inliers.
     pub(super) fn best(&self) -> Option<&Consensus> {
         self.tally.as_ref()?.best.as_ref()
     }
 
-    /// How far the loop is.
+    /// Returns the progress of the loop.
     pub(super) fn drawn(&self) -> Option<Drawn> {
         Some(self.tally.as_ref()?.samples.drawn())
     }
 
-    /// Whether no more samples are drawn.
+    /// Returns whether the loop has ended.
     pub(super) fn is_finished(&self) -> bool {
         self.drawn().is_some_and(|drawn| drawn.is_finished())
     }
 
-    /// Samples drawn so far.
+    /// Returns the number of samples drawn so far.
     pub(super) fn num_samples(&self) -> usize {
         self.drawn().map_or(0, |drawn| drawn.count)
     }
@@ -98,7 +99,7 @@ impl Fits {
         }
     }
 
-    /// How the loop has ended, if it has.
+    /// Returns the outcome of the loop, if it has ended.
     pub(super) fn ending(&self) -> Option<Ending> {
         let best = self.best().filter(|_| self.is_finished())?;
         if self.angles_deg().ransac? <= WRONG_DEG {

@@ -1,8 +1,7 @@
-//! Points on a hidden line among outliers; least squares and the core's own RANSAC, sample by
-//! sample.
+//! Points on a hidden line among outliers; least squares and the core's RANSAC, sample by sample.
 //!
-//! The state is the settings, the points and how many samples have been drawn. Everything else is
-//! computed from these anew after each event, and so a permalink replays exactly.
+//! The state is the settings, the points and the number of samples. Everything else is recomputed
+//! from these after each event, so a permalink replays exactly.
 
 use super::fits::Fits;
 use crate::contract::{
@@ -22,14 +21,14 @@ const OUTLIERS: Slider = Slider::new("outliers", "Outlier ratio")
     .at(0.4)
     .digits(2);
 const SEED: Slider = Slider::seed(36.0);
-/// Asked for; the loop ends before when enough have been drawn.
+/// Requested number of samples; the loop ends earlier when enough are drawn.
 const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(3.0)
     .hidden();
 const KNOBS: &[Knob] = knobs![OUTLIERS, EPSILON, COUNT, SEED, ITERATIONS];
 
-/// What the handles of all points have in common.
+/// Template of the handles of all points.
 const POINT: Probe = Probe::new("p", "plane", "Point #")
     .within([[0.0, WIDTH_PX], [0.0, HEIGHT_PX]])
     .step(10.0)
@@ -38,7 +37,7 @@ const POINT: Probe = Probe::new("p", "plane", "Point #")
         let [across, down] = [x, y].map(|value| format_number(value, 0));
         format!("{across} px across, {down} px down")
     });
-/// Two points are a line.
+/// Minimum number of points: two define a line.
 const FEWEST: usize = 2;
 const MAX_ADDED: usize = 24;
 const SAMPLES_PER_SECOND: f64 = 4.0;
@@ -57,20 +56,20 @@ impl RansacRace {
         self.settings.number(&EPSILON)
     }
 
-    /// Fits both ways to the present points and replays the samples.
+    /// Fits both ways to the current points and replays the samples.
     fn compute(&mut self) {
         self.fits = fit_as(&self.settings, self.truth, &self.points);
     }
 
-    /// Draws to `iterations` samples in all, or as many as the budget asks for. The number asked
-    /// for is kept: other data may need more of them.
+    /// Draws to `iterations` samples in total, or as many as the budget asks for. The requested
+    /// number is kept, since other data may need more.
     fn run_to(&mut self, iterations: usize) {
         self.settings.slide(&ITERATIONS, iterations as f64);
         self.compute();
         self.running.stop_if(self.fits.is_finished());
     }
 
-    /// Adds a point unless there are enough; those that were there at first have the numbers up to COUNT.
+    /// Adds a point unless there are enough; numbers up to COUNT belong to the initial points.
     fn add(&mut self, number: usize, x: f64, y: f64) -> bool {
         let num_drawn = self.settings.count(&COUNT);
         let added = self.points.iter().filter(|point| point.number > num_drawn);
@@ -89,14 +88,14 @@ fn fit_as(settings: &Settings, truth: Line2, points: &Points) -> Fits {
         seed: settings.count(&SEED) as u64,
         max_samples: MAX_SAMPLES,
         msac: false,
-        // The reader sees the plain loop: candidates come straight from two points.
+        // The plain loop is shown: candidates come straight from two points.
         local_optimization: false,
     };
     let count = settings.count(&ITERATIONS);
     Fits::new(&points.places(), truth, rules, count)
 }
 
-/// The hidden line, and points that the reader may drag.
+/// Returns the hidden line, and points that the reader may drag.
 fn scattered(settings: &Settings) -> (Line2, Points) {
     let Scatter { truth, points, .. } = Scatter::by(settings, &SEED, &OUTLIERS);
     (truth, Points::new(POINT, FEWEST, points))
@@ -142,7 +141,7 @@ impl Model for RansacRace {
         }
         if let Some(id) = self.settings.update(event)? {
             if [OUTLIERS.id, COUNT.id, SEED.id].contains(&id) {
-                // What the reader had moved or added is gone.
+                // New points discard those that the reader had moved or added.
                 (self.truth, self.points) = scattered(&self.settings);
             }
             self.run_to(self.settings.count(&ITERATIONS));
@@ -256,7 +255,7 @@ mod tests {
         model.fits.best().map_or(0, |best| best.num_votes())
     }
 
-    /// How often the best line gains votes from here to the end.
+    /// Returns the number of times that the best line gains votes from now to the end.
     fn num_improvements(model: &mut RansacRace) -> usize {
         let (mut count, mut votes) = (0, best(model));
         while !model.fits.is_finished() {
@@ -269,13 +268,13 @@ mod tests {
 
     #[test]
     fn there_is_something_to_watch() {
-        // At first RANSAC is the nearer one already, and the reader still sees it improve twice.
+        // The default state shows RANSAC nearer already, with two improvements left to see.
         let mut model = RansacRace::new();
         let angles = model.fits.angles_deg();
         assert!(angles.ransac.unwrap() < 2.0 && angles.least_squares.unwrap() > 8.0);
         assert!(num_improvements(&mut model) >= 2);
         assert_eq!(model.fits.ending(), Some(Ending::Right));
-        // From the very start as well, with as many outliers as inliers, too.
+        // The same from the first sample, and with as many outliers as inliers.
         for outliers in [0.4, 0.5] {
             let zero = Event::set(&ITERATIONS, 0.0);
             let mut model = after(&[Event::set(&OUTLIERS, outliers), zero]);
@@ -284,7 +283,7 @@ mod tests {
         }
     }
 
-    /// What the book says of all seeds.
+    /// The book's claim about all seeds.
     #[test]
     fn at_seven_in_ten_no_seed_fails_and_at_eight_in_ten_one_in_three() {
         let failures = |outliers: f64| -> Vec<(u32, Ending)> {

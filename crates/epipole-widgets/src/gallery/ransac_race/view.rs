@@ -1,4 +1,4 @@
-//! The plane with its points and lines, how the vote stands above, and a legend below.
+//! The plane with its points and lines, the votes above, and a legend below.
 
 use super::fits::Ending;
 use super::model::RansacRace;
@@ -11,7 +11,7 @@ use crate::kit::line_points::{Consensus, HEIGHT_PX, WIDTH_PX};
 use crate::kit::tally::Tally;
 use crate::theme::Role;
 
-/// The plane must not push everything else off the screen.
+/// Maximum height of the plane, CSS pixels, to leave room for the rest.
 const TALLEST: f64 = 460.0;
 const WHOLE_SCREEN: f64 = 680.0;
 
@@ -37,7 +37,7 @@ impl View for RansacRaceView {
 
     fn layout(&self, _: &RansacRace, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        // A broad room for a tall picture is a whole screen.
+        // On a broad page a tall picture would fill the whole screen.
         let is_broad = grid::is_broad(width);
         let tallest = if is_broad { WHOLE_SCREEN } else { TALLEST };
         let [plane] = grid.row([HEIGHT_PX / WIDTH_PX], tallest);
@@ -97,7 +97,7 @@ fn draw_points(canvas: &mut Canvas, plane: &Panel, model: &RansacRace) {
     }
 }
 
-/// How the vote stands.
+/// Returns the current votes as a sentence.
 fn standing(model: &RansacRace) -> String {
     let (fits, num_points) = (&model.fits, model.points.len());
     let votes = |consensus: Option<&Consensus>| consensus.map_or(0, Consensus::num_votes);

@@ -1,4 +1,4 @@
-//! What `ransac-race` says.
+//! Readouts and description of `ransac-race`.
 
 use super::fits::Ending;
 use super::model::RansacRace;

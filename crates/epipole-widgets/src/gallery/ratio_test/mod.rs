@@ -1,4 +1,5 @@
-//! `ratio-test`: the nearest neighbors of two photographs' features, and which of them to believe.
+//! `ratio-test`: nearest neighbors of two photographs' features, accepted by the ratio test and the
+//! mutual check.
 
 mod model;
 mod question;

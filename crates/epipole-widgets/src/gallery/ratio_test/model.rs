@@ -1,4 +1,4 @@
-//! Every feature's nearest neighbor, the two tests that it has to pass, and what they cost.
+//! Every feature's nearest neighbor, both tests, and the matches that they cost.
 
 use super::question::{Answer, Candidate, Question};
 use super::tally::{Rules, Tally};
@@ -16,9 +16,9 @@ pub(super) const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
     .digits(2);
 const MUTUAL: Toggle = Toggle::new("mutual", "Mutual check");
 const KNOBS: &[Knob] = knobs![RATIO, MUTUAL];
-/// So little below τ, a match is the next to go.
+/// Margin below τ in which a match would be rejected next.
 const BRINK: f32 = 0.05;
-/// At first on the fringe of the cloth.
+/// Initially on the fringe of the cloth.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
     .over(SIZE)
     .step(4.0)
@@ -29,7 +29,8 @@ pub(crate) struct RatioTest {
     settings: Settings,
     pub(super) asked: Asked<Question>,
     pub(super) probe: Probe,
-    /// Precision against recall, from the smallest τ to the largest; without the mutual check, then with it.
+    /// Precision and recall, from the smallest τ to the largest; without the mutual check, then
+    /// with it.
     pub(super) curves: [Vec<Tally>; 2],
 }
 
@@ -41,17 +42,17 @@ impl RatioTest {
         }
     }
 
-    /// What is left, once the matches are there.
+    /// Returns the counts of accepted matches, once there are matches.
     pub(super) fn tally(&self) -> Option<Tally> {
         Some(Tally::of(self.asked.answer()?, self.rules()))
     }
 
-    /// Whether a match goes as soon as τ falls a little.
+    /// Returns whether a slightly smaller τ would reject the match.
     pub(super) fn is_on_the_brink(&self, candidate: &Candidate) -> bool {
         candidate.ratio >= self.rules().max_ratio - BRINK
     }
 
-    /// The feature of photograph 1 nearest to the probe, and its match.
+    /// Returns the feature of photograph 1 nearest to the probe, and its match.
     pub(super) fn probed(&self) -> Option<(usize, &Candidate)> {
         let answer = self.asked.answer()?;
         let (u, v) = self.probe.place();
@@ -65,7 +66,7 @@ impl RatioTest {
     }
 }
 
-/// What is left for every τ that the slider knows.
+/// Returns the counts of accepted matches for every τ of the slider.
 fn curve(answer: &Answer, is_mutual: bool) -> Vec<Tally> {
     let num_steps = ((RATIO.max - RATIO.min) / RATIO.step).round() as usize;
     let ratios = (0..=num_steps).map(|k| RATIO.snap(RATIO.min + RATIO.step * k as f64) as f32);
@@ -200,7 +201,7 @@ mod tests {
         }
     }
 
-    /// NumPy: every distance of two descriptors, sorted; the same photographs, features and truth.
+    /// NumPy: all distances between descriptors, sorted; the same photographs, features and truth.
     #[test]
     fn the_curve_is_that_of_numpy() {
         let mut model: RatioTest = settled(&[]);
@@ -224,7 +225,7 @@ mod tests {
             assert_eq!((tally.num_kept, tally.num_right), (num_kept, num_right));
             assert!((tally.precision().unwrap() - precision).abs() < 1e-6);
             assert!((tally.recall() - recall).abs() < 1e-6);
-            // The point lies on the curve that is drawn.
+            // The current point is on the drawn curve.
             assert!(model.curves[usize::from(is_mutual)].contains(&tally));
         }
     }

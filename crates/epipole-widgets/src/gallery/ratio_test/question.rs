@@ -1,4 +1,4 @@
-//! Which features of two photographs look most alike? The two nearest of each, and which are right.
+//! The two nearest neighbors of each feature, and which are correct.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{Pair, RIGHT_WITHIN_PX, SIZE};
@@ -8,37 +8,37 @@ use crate::kit::question::{self, tell};
 use epipole::feature::{MatchOptions, match_descriptors, nearest_few};
 use serde::{Deserialize, Serialize};
 
-/// Bytes of a descriptor for a length of 1.
+/// Norm of a byte descriptor.
 const UNIT: f32 = 512.0;
 
-/// The rendered still life, always.
+/// The rendered still life; there are no other inputs.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
-/// A feature of photograph 1 and the two of photograph 2 that look most like it.
+/// A feature of photograph 1 with its two nearest neighbors in photograph 2.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Candidate {
-    /// Index of the nearest and of the second nearest.
+    /// Indices of the nearest and the second nearest.
     pub(super) nearest: [u32; 2],
-    /// Their distances, for descriptors of length 1.
+    /// Their distances, for descriptors of norm 1.
     pub(super) distances: [f32; 2],
     /// The smaller distance over the larger.
     pub(super) ratio: f32,
-    /// Whether the nearest one's nearest is this feature.
+    /// Whether the nearest neighbor's nearest neighbor is this feature.
     pub(super) is_mutual: bool,
-    /// Whether the nearest shows the same thing.
+    /// Whether the nearest neighbor is a correct match.
     pub(super) is_right: bool,
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photographs: [Picture; 2],
     /// The features.
     pub(super) spots: [Vec<Spot>; 2],
-    /// One for each feature of photograph 1.
+    /// Candidates by feature of photograph 1.
     pub(super) candidates: Vec<Candidate>,
-    /// How many features of photograph 1 have a right match among those of photograph 2.
+    /// Number of features of photograph 1 with a correct match among those of photograph 2.
     pub(super) num_findable: u32,
 }
 

@@ -1,11 +1,11 @@
-//! How many matches pass the tests, and how many of those are right.
+//! Numbers of matches that pass the tests, and of correct ones among them.
 
 use super::question::{Answer, Candidate};
 
-/// Which matches are believed.
+/// Acceptance of matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rules {
-    /// The nearest must be closer than this share of the second nearest; 1 leaves the test out.
+    /// Maximum ratio of the distances to the nearest and the second nearest; 1 turns the test off.
     pub(super) max_ratio: f32,
     /// Require mutual nearest neighbors.
     pub(super) is_mutual: bool,
@@ -18,7 +18,7 @@ impl Rules {
     }
 }
 
-/// What is left of the matches.
+/// Counts of accepted matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tally {
     pub(super) num_kept: usize,
@@ -41,12 +41,12 @@ impl Tally {
         }
     }
 
-    /// The share of the kept ones that are right; `None` if none are kept.
+    /// Returns the fraction of accepted matches that are correct; `None` if none are accepted.
     pub(super) fn precision(&self) -> Option<f64> {
         (self.num_kept > 0).then(|| self.num_right as f64 / self.num_kept as f64)
     }
 
-    /// The share of those that could be found that are found.
+    /// Returns the fraction of findable matches that are found.
     pub(super) fn recall(&self) -> f64 {
         self.num_right as f64 / self.num_findable.max(1) as f64
     }

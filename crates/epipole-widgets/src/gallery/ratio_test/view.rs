@@ -13,9 +13,9 @@ use crate::kit::patch::{self, Cuts};
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 
-/// One in so many right matches has its line drawn: more would hide the photographs.
+/// One in this many correct matches is drawn, so that the photographs stay visible.
 const EVERY: usize = 3;
-/// Room for the words below a patch.
+/// Room for the words below a patch, CSS pixels.
 const BELOW: f64 = 20.0;
 /// The marks of the three patches, in the photographs and beside them.
 const MARKS: [(Role, Shape); 3] = [
@@ -26,7 +26,7 @@ const MARKS: [(Role, Shape); 3] = [
 
 const RIGHT: Stroke = Stroke::solid(Role::Inlier, 1.25);
 const WRONG: Stroke = Stroke::solid(Role::Outlier, 1.5).dashed();
-/// Of a match that goes next, as it looks in the legend.
+/// Legend entry of a match that would be rejected next.
 const FAINT: Stroke = Stroke::solid(Role::Muted, 0.75);
 const LEGEND: [Entry; 3] = [
     (Swatch::Line(RIGHT), "right"),
@@ -101,7 +101,7 @@ impl View for RatioTestView {
     }
 }
 
-/// Three squares in a row, with room for words below them.
+/// Returns three squares in a row, with room for words below them.
 fn squares(rect: Rect) -> [Rect; 3] {
     let room = rect.height - BELOW;
     let side = ((rect.width - 2.0 * GAP) / 3.0).min(room);
@@ -111,7 +111,7 @@ fn squares(rect: Rect) -> [Rect; 3] {
     [0.0, 1.0, 2.0].map(|k| Rect::new(left + k * (side + GAP), top, side, side))
 }
 
-/// Both ends of a match, on the page.
+/// Returns both ends of a match on the page.
 fn ends(answer: &Answer, index1: usize, found: &Candidate, panels: [&Panel; 2]) -> [Place; 2] {
     let [u, v] = answer.spots[0][index1].place;
     let [x, y] = answer.spots[1][found.nearest[0] as usize].place;
@@ -127,7 +127,7 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
     let is_small = panels[0].rect.width < 250.0;
     let every = if is_small { 2 * EVERY } else { EVERY };
     let radius = if is_small { 1.5 } else { 2.25 };
-    // Faint ones first, so that they cover nothing, then right ones, then wrong ones.
+    // Faint matches first, so that they cover nothing, then correct, then wrong ones.
     for pass in 0..3 {
         for (index1, found) in answer.candidates.iter().enumerate() {
             let is_faint = model.is_on_the_brink(found);
@@ -150,7 +150,7 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
                 stroke
             };
             let [from, to] = ends(answer, index1, found, panels);
-            // The same ones whatever τ is, so that nothing flickers.
+            // The choice does not depend on τ, so that nothing flickers.
             if !found.is_right && !is_small || index1 % every == 0 {
                 canvas.line(from, to, stroke);
             }
@@ -197,7 +197,7 @@ fn draw_curves(model: &RatioTest, panel: &Panel, canvas: &mut Canvas) {
 }
 
 impl RatioTestView {
-    /// The feature under the probe, its two nearest, and their patches.
+    /// Draws the feature under the probe, its two nearest neighbors, and their patches.
     fn draw_probed(
         &mut self,
         model: &RatioTest,

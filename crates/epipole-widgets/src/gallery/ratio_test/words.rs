@@ -1,11 +1,11 @@
-//! What `ratio-test` says.
+//! Readouts and description of `ratio-test`.
 
 use super::model::RatioTest;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::words::whole_pixel;
 use nalgebra::Point2;
 
-/// Stands for a number until there is one.
+/// Text in place of a missing number.
 const WAITING: &str = "none yet";
 
 fn kept_or_not(is_kept: bool) -> &'static str {

@@ -1,4 +1,4 @@
-//! `rectify`: turning two cameras about their own centers until epipolar lines are rows.
+//! `rectify`: rotation of two cameras about their centers until epipolar lines are rows.
 
 mod model;
 mod turned;

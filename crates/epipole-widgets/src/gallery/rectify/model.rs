@@ -1,4 +1,4 @@
-//! Two cameras that look the wrong way for stereo, some matches, and how far the pair has been turned.
+//! Two cameras not yet aligned for stereo, some matches, and the progress of their rotation.
 
 use super::turned::{Turned, Way};
 use crate::contract::{
@@ -39,7 +39,7 @@ const MATCH: Slider = Slider::new("match", "Match p")
 const KNOBS: &[Knob] = knobs![PARALLEL, ALONG, TURN, FORWARD, FRAME, MATCH];
 
 const NUM_MATCHES: usize = 8;
-/// Pixels of photograph 1 whose matches are followed, spread over the things and the walls.
+/// Pixels of photograph 1 with their matches shown, spread over the objects and the walls.
 const PIXELS: [(f64, f64); NUM_MATCHES] = [
     (70.0, 70.0),
     (330.0, 60.0),
@@ -51,24 +51,24 @@ const PIXELS: [(f64, f64); NUM_MATCHES] = [
     (480.0, 420.0),
 ];
 
-/// A match: where both pictures show one point.
+/// A match in both pictures.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shown {
     pub(super) point: Point3<f64>,
-    /// In the pictures as they are turned now.
+    /// Pixels in the rotated pictures.
     pub(super) pixels: [Point2<f64>; 2],
-    /// Whether photograph 2 shows the point: nothing hides it, and it is inside.
+    /// Whether photograph 2 shows the point: neither hidden nor outside.
     pub(super) is_seen: bool,
 }
 
 impl Shown {
-    /// Row in picture 2 minus row in picture 1, pixels.
+    /// Returns the row in picture 2 minus the row in picture 1, pixels.
     pub(super) fn rows_px(&self) -> f64 {
         self.pixels[1].y - self.pixels[0].y
     }
 }
 
-/// Everything that the picture shows.
+/// The pair with its matches as shown.
 pub(super) struct State {
     pub(super) turned: Turned,
     pub(super) geometry: Option<Geometry>,
@@ -101,7 +101,8 @@ impl State {
         })
     }
 
-    /// The largest difference of rows among the matches that both photographs show, pixels.
+    /// Returns the largest difference of rows among the matches visible in both photographs,
+    /// pixels.
     pub(super) fn worst_px(&self) -> f64 {
         let seen = self.matches.iter().filter(|shown| shown.is_seen);
         seen.map(|shown| shown.rows_px().abs()).fold(0.0, f64::max)
@@ -115,13 +116,13 @@ pub(crate) struct Rectify {
 }
 
 impl Rectify {
-    /// The pair as it is turned now, or why there is none.
+    /// Returns the rotated pair, or why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
         let state = self.state.get_or_init(|| self.compute());
         state.as_ref().map_err(String::as_str)
     }
 
-    /// The match that p and p′ are, if camera 1 sees it.
+    /// Returns the match labeled p and p′, if camera 1 sees it.
     pub(super) fn selected(&self) -> Option<(usize, &Shown)> {
         let index = self.settings.count(&MATCH) - 1;
         Some((index, self.state().ok()?.matches.get(index)?))
@@ -132,7 +133,7 @@ impl Rectify {
         way.parallel >= 1.0 && way.along >= 1.0
     }
 
-    /// Whether the cameras stand and look as they were placed at the start.
+    /// Returns whether the cameras have their initial poses.
     fn is_as_placed(&self) -> bool {
         self.settings.number(&TURN) == TURN.default
             && self.settings.number(&FORWARD) == FORWARD.default
@@ -152,7 +153,7 @@ impl Rectify {
         state.map_err(|error| format!("The pair cannot be rectified: {error}."))
     }
 
-    /// The match nearest to a place of a picture.
+    /// Returns the match nearest to a position in a picture.
     fn nearest(&self, panel: &str, place: Point2<f64>) -> Option<usize> {
         let side = match panel {
             "first" => 0,

@@ -1,4 +1,5 @@
-//! A pair of cameras on the way to the rectified one: first parallel to each other, then along the baseline.
+//! A pair of cameras on the way to the rectified one: first made parallel, then aligned with the
+//! baseline.
 
 use crate::kit::scenes::{PHOTO_SIZE, PHOTO_WIDTH, still_life_pair};
 use epipole::Error;
@@ -7,33 +8,34 @@ use epipole::homography::transfer;
 use epipole::stereo::{PixelRect, Rectification, RectifyOptions, rectify_calibrated};
 use nalgebra::{Isometry3, Matrix3, Point2, UnitQuaternion, Vector2, Vector3};
 
-/// Meters from center to center, to the right.
+/// Distance of camera 2 to the right of camera 1, meters.
 pub(super) const RIGHT_M: f64 = 0.4;
 
-/// How far the cameras have turned, and what is kept of their photographs.
+/// Progress of the rotation, and the crop of the photographs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Way {
-    /// Share of the turn of each camera toward the other's heading, 0 to 1.
+    /// Fraction of each camera's rotation toward the other's heading, 0 to 1.
     pub(super) parallel: f64,
-    /// Share of the turn of both together toward the baseline, 0 to 1.
+    /// Fraction of the common rotation toward the baseline, 0 to 1.
     pub(super) along: f64,
-    /// Whether the rectified pair shows all of both photographs, or only pixels that both have.
+    /// Whether the rectified pair shows both photographs whole, or only the pixels common to both.
     pub(super) shows_all: bool,
 }
 
-/// The pair as it was photographed, and as it is turned now.
+/// The pair as photographed, and as rotated.
 pub(super) struct Turned {
     pub(super) taken: [PosedCamera; 2],
-    /// What each photograph would have been, had its camera been turned.
+    /// Rotated camera of each photograph.
     pub(super) shown: [PosedCamera; 2],
-    /// From pixels of each photograph taken to pixels shown.
+    /// Homographies from pixels of the photographs to pixels shown.
     pub(super) shown_from_taken: [Matrix3<f64>; 2],
-    /// In each rectified picture, what its photograph fills.
+    /// Valid rectangle of each rectified picture.
     pub(super) valid: [PixelRect; 2],
 }
 
 impl Turned {
-    /// * `forward_m`, `left_deg`: how far camera 2 stands ahead of camera 1, and is turned to the left
+    /// * `forward_m`, `left_deg`: distance of camera 2 ahead of camera 1, and its rotation to the
+    ///   left
     ///
     /// # Errors
     /// As [`rectify_calibrated`].
@@ -48,7 +50,7 @@ impl Turned {
             true => frames_of_all(&rectified),
             false => [Frame::SAME; 2],
         };
-        // Each turns by half of what is between them; what is then left to do is the same for both.
+        // Each camera rotates by half of the relative rotation; the rest is the same for both.
         let half = motion.rotation.powf(0.5);
         let whole = UnitQuaternion::from_rotation_matrix(&rectified.rect_from_cam[0]);
         let together = (whole * half.inverse()).powf(way.along);
@@ -79,13 +81,13 @@ impl Turned {
         })
     }
 
-    /// The angle between the two headings, degrees.
+    /// Returns the angle between the two headings, degrees.
     pub(super) fn apart_deg(&self) -> f64 {
         let [one, two] = self.shown.map(|camera| camera.cam_from_world.rotation);
         (one * two.inverse()).angle().to_degrees()
     }
 
-    /// The largest angle between the baseline and the rows of a picture, degrees.
+    /// Returns the largest angle between the baseline and the rows of a picture, degrees.
     pub(super) fn off_baseline_deg(&self) -> f64 {
         let [one, two] = self.shown.map(|camera| camera.center_in_world());
         let angles = self.shown.map(|camera| {
@@ -95,7 +97,7 @@ impl Turned {
         angles[0].max(angles[1])
     }
 
-    /// The smaller share of a rectified picture that its photograph fills, 0 to 1.
+    /// Returns the smaller fraction of a rectified picture that its photograph fills, 0 to 1.
     pub(super) fn valid_share(&self) -> f64 {
         let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
         let all = right * bottom;
@@ -103,7 +105,8 @@ impl Turned {
         area(&self.valid[0]).min(area(&self.valid[1])) / all
     }
 
-    /// Seen from above in the frame of camera 1 as it stood: center and heading, (x, z) and radians.
+    /// Returns center (x, z) and heading in radians, seen from above in the initial frame of camera
+    /// 1.
     pub(super) fn seen_from_above(&self, index: usize) -> (Point2<f64>, f64) {
         let frame = self.taken[0].cam_from_world;
         let center = frame * self.shown[index].center_in_world();
@@ -116,7 +119,7 @@ impl Turned {
     }
 }
 
-/// A rectified picture, enlarged and moved.
+/// Scaling and shift of a rectified picture.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
     scale: f64,
@@ -139,7 +142,7 @@ impl Frame {
         )
     }
 
-    /// The part of a rectangle that is inside.
+    /// Transforms a rectangle and clips it to the picture.
     fn rect(&self, rect: &PixelRect) -> PixelRect {
         let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
         let u = |u: f64| (self.scale * u + self.shift.x).clamp(0.0, right);
@@ -153,7 +156,7 @@ impl Frame {
     }
 }
 
-/// The corners of a photograph in its rectified picture, in turn from the upper left.
+/// Returns the corners of a photograph in its rectified picture, in order from the upper left.
 fn corners(rectified: &Rectification, index: usize) -> [Point2<f64>; 4] {
     let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
     [(0.0, 0.0), (right, 0.0), (right, bottom), (0.0, bottom)].map(|(u, v)| {
@@ -162,7 +165,7 @@ fn corners(rectified: &Rectification, index: usize) -> [Point2<f64>; 4] {
     })
 }
 
-/// Frames that show both photographs whole and as large as they can be, rows level with each other.
+/// Returns frames that show both photographs whole and as large as possible, with equal rows.
 fn frames_of_all(rectified: &Rectification) -> [Frame; 2] {
     let bounds = |index: usize, axis: usize| {
         let values = corners(rectified, index).map(|corner| corner[axis]);
@@ -185,7 +188,8 @@ fn frames_of_all(rectified: &Rectification) -> [Frame; 2] {
     })
 }
 
-/// A rectangle that the photograph fills in its rectified picture: between the inner corners.
+/// Returns a rectangle that the photograph fills in its rectified picture: between the inner
+/// corners.
 fn valid_part(rectified: &Rectification, index: usize) -> PixelRect {
     let [a, b, c, d] = corners(rectified, index);
     PixelRect {
@@ -196,7 +200,7 @@ fn valid_part(rectified: &Rectification, index: usize) -> PixelRect {
     }
 }
 
-/// Intrinsics on the way from one camera to another.
+/// Interpolates between the intrinsics of two cameras.
 fn between([from, to]: [Intrinsics; 2], share: f64) -> Result<Intrinsics, Error> {
     let mix = |from: f64, to: f64| from + share * (to - from);
     let (start, end) = (from.principal_point(), to.principal_point());
@@ -208,7 +212,7 @@ fn between([from, to]: [Intrinsics; 2], share: f64) -> Result<Intrinsics, Error>
     )
 }
 
-/// From where to where a picture reaches on the image plane at the distance 1, to the right of the axis.
+/// Returns the horizontal ends of a picture on the image plane at distance 1, relative to the axis.
 pub(super) fn image_ends(camera: &PosedCamera) -> [f64; 2] {
     let k = &camera.intrinsics;
     let at = |u: f64| (u - k.principal_point().x) / k.fu_px();
@@ -302,7 +306,7 @@ mod tests {
             let turned = Turned::new(-0.05, 10.0, way).unwrap();
             let (center, heading) = turned.seen_from_above(1);
             assert!((center - Point2::new(RIGHT_M, -0.05)).norm() < 1e-9);
-            // Square to the baseline in the end, turned left by 10° at first.
+            // Perpendicular to the baseline at the end, rotated left by 10° at first.
             let expected = match way == DONE {
                 true => libm::atan2(0.05, RIGHT_M),
                 false => -10.0_f64.to_radians(),

@@ -1,4 +1,4 @@
-//! Both photographs as turned cameras would have taken them, and the cameras from above.
+//! Both photographs as rotated cameras would have taken them, and the cameras from above.
 
 use super::model::{Rectify, Shown, State};
 use super::turned::image_ends;
@@ -15,9 +15,9 @@ use image::RgbImage;
 use nalgebra::{Matrix3, Point2};
 
 const MARKER: f64 = 4.5;
-/// The match that the reader follows.
+/// Color of the selected match.
 const LIT: Role = Role::Series(3);
-/// How far in front of the centers the image planes are drawn, meters.
+/// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.42;
 
 /// Draws [`Rectify`].
@@ -89,7 +89,7 @@ impl View for RectifyView {
     }
 }
 
-/// A photograph as its camera would have taken it, had it been turned.
+/// Draws a photograph as its rotated camera would have taken it.
 fn draw_picture(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -124,7 +124,7 @@ fn draw_picture(
     );
 }
 
-/// The epipolar lines with the matches on them, and in the end what the photograph fills.
+/// Draws the epipolar lines with their matches, and at the end the valid rectangle.
 fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canvas: &mut Canvas) {
     let at = |pixel: &Point2<f64>| panel.place_of(pixel);
     let chosen = model.selected().map(|(chosen, _)| chosen);
@@ -172,7 +172,7 @@ fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canva
     }
 }
 
-/// The row of p through both pictures, and how far p′ is from it.
+/// Draws the row of p through both pictures, and the distance of p′ from it.
 fn draw_row(model: &Rectify, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
     let Some((_, shown)) = model.selected() else {
         return;

@@ -1,4 +1,4 @@
-//! What `rectify` says.
+//! Readouts and description of `rectify`.
 
 use super::model::{Rectify, State};
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,4 @@
-//! `same-picture`: a mug that grows along its ray, and the photograph that never changes.
+//! `same-picture`: a mug that grows along its ray, and an unchanged photograph.
 
 mod model;
 mod view;

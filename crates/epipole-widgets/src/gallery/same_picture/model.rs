@@ -1,5 +1,5 @@
-//! A mug on the table, the camera at the table's height that cannot tell how far it is, and one from
-//! the side that can.
+//! A mug on the table, a camera at table height that cannot measure its distance, and one from the
+//! side that can.
 
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Symbol,
@@ -11,17 +11,18 @@ use nalgebra::{Point3, Vector3};
 
 pub(super) const SIZE: (u32, u32) = (640, 480);
 pub(super) const FOCALS_PX: [f64; 2] = [800.0, 600.0];
-/// Where camera 2 stands, and a place that it looks at, in the frame of camera 1, meters.
+/// Center and target of camera 2, in the frame of camera 1, meters.
 pub(super) const CENTER2_M: [f64; 3] = [2.4, -0.75, 1.5];
 const TARGET2_M: [f64; 3] = [0.05, -0.12, 1.5];
 
-/// The ray of the mug's middle goes through (RIGHT, −RISE / 2, 1): so it stands on the table.
+/// The ray through the mug's center has direction (RIGHT, −RISE / 2, 1), so the mug is on the
+/// table.
 pub(super) const RIGHT: f64 = 0.1;
 const RISE: f64 = 0.2;
-/// How near and how far the mug may be, meters.
+/// Range of the mug's distance, meters.
 pub(super) const RANGE_M: [f64; 2] = [0.5, 2.5];
 const START_M: f64 = 1.5;
-/// The height of a mug that keeps it, meters.
+/// Height of the mug that keeps its size, meters.
 const OWN_HEIGHT_M: f64 = 0.3;
 
 const GROWTH: Choice = Choice::new(
@@ -37,12 +38,12 @@ const KNOBS: &[Knob] = knobs![GROWTH];
 /// The model of `same-picture`.
 pub(crate) struct SamePicture {
     settings: Settings,
-    /// From camera 1, along its optical axis.
+    /// Distance from camera 1 along its optical axis.
     pub(super) distance_m: f64,
 }
 
 impl SamePicture {
-    /// Whether the mug grows with its distance.
+    /// Returns whether the mug grows with its distance.
     pub(super) fn grows(&self) -> bool {
         self.settings.chosen(&GROWTH) == 0
     }
@@ -54,7 +55,7 @@ impl SamePicture {
         }
     }
 
-    /// A place on the mug's axis, as a share of its height.
+    /// Returns a point on the mug's axis, at a fraction of its height.
     pub(super) fn on_axis(&self, share: f64) -> Point3<f64> {
         let y = -share * self.height_m();
         Point3::new(RIGHT * self.distance_m, y, self.distance_m)
@@ -65,7 +66,7 @@ impl SamePicture {
         Ok(Scene::studio(foot_m, self.height_m())?)
     }
 
-    /// Camera 1 at the origin, level with the table; camera 2 to the right, above it.
+    /// Returns camera 1 at the origin, level with the table, and camera 2 to the right above it.
     pub(super) fn cameras(&self) -> Result<[PosedCamera; 2], Problem> {
         let [first, second] = FOCALS_PX;
         let up = -Vector3::y();
@@ -82,14 +83,14 @@ impl SamePicture {
         ])
     }
 
-    /// How tall the mug's axis is in photograph 1.
+    /// Returns the height of the mug's axis in photograph 1, pixels.
     pub(super) fn picture_px(&self) -> Result<f64, Problem> {
         let [camera, _] = self.cameras()?;
         let row = |share: f64| Ok::<f64, Problem>(camera.project(&self.on_axis(share))?.y);
         Ok(row(0.0)? - row(1.0)?)
     }
 
-    /// The column of photograph 2 that shows the middle of the mug.
+    /// Returns the column of the mug's center in photograph 2, pixels.
     pub(super) fn column2_px(&self) -> Result<f64, Problem> {
         Ok(self.cameras()?[1].project(&self.on_axis(0.5))?.x)
     }
@@ -140,7 +141,7 @@ impl Model for SamePicture {
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
         if let Event::HandleMoved { x, y, .. } = event {
-            // The nearest place on the ray, to a centimeter.
+            // Nearest position on the ray, rounded to a centimeter.
             let along = (RIGHT * x + y) / (RIGHT * RIGHT + 1.0);
             let along = along.clamp(RANGE_M[0], RANGE_M[1]);
             self.distance_m = (along * 100.0).round() / 100.0;

@@ -14,20 +14,21 @@ use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector2};
 
 const ASPECT: f64 = grid::aspect(SIZE);
-/// The mug's radius over its height.
+/// Ratio of the mug's radius to its height.
 const ROUND: f64 = 0.41;
-/// How far in front of the centers the image planes are drawn, meters.
+/// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.3;
-/// Sizes of the mug that are drawn along its ray, meters away.
+/// Distances at which further mugs are outlined along the ray, meters.
 const ECHOES_M: [f64; 5] = [0.5, 1.0, 1.5, 2.0, 2.5];
 
 /// Draws [`SamePicture`].
 #[derive(Default)]
 pub(crate) struct SamePictureView {
     photos: [Photo; 2],
-    /// Distance and height of the mug in the photographs.
+    /// Distance and height of the mug in the photographs, meters.
     rendered: Option<[f64; 3]>,
-    /// The last sharp photograph 1, and of what. Of a mug that grows it shows every size.
+    /// Last sharp photograph 1, whether its mug grows, and its state. With a growing mug it is
+    /// valid for every distance.
     sharp: Option<(bool, [f64; 3], RgbImage)>,
 }
 
@@ -81,7 +82,7 @@ impl View for SamePictureView {
             return false;
         };
         let shown = self.shown(model);
-        // What the reader sees change comes first.
+        // Refine first what the reader sees change.
         let [first, second] = &mut self.photos;
         if second.refine(&scene, &cameras[1], shown, SIZE)
             || first.refine(&scene, &cameras[0], shown, SIZE)
@@ -98,7 +99,7 @@ impl View for SamePictureView {
 }
 
 impl SamePictureView {
-    /// What the photographs are to show; forgets those of anything else.
+    /// Returns the state that the photographs show; discards photographs of another state.
     fn shown(&mut self, model: &SamePicture) -> [f64; 3] {
         let shown = [model.distance_m, model.height_m(), 0.0];
         if self.rendered != Some(shown) {
@@ -140,7 +141,7 @@ impl SamePictureView {
     }
 }
 
-/// The pixel of the mug's middle, and how tall the mug is.
+/// Draws the pixel of the mug's center, and the mug's height.
 fn draw_height(model: &SamePicture, camera: &PosedCamera, panel: &Panel, canvas: &mut Canvas) {
     let at = |share: f64| {
         let pixel = camera.project(&model.on_axis(share)).unwrap_or_default();
@@ -160,7 +161,7 @@ fn draw_height(model: &SamePicture, camera: &PosedCamera, panel: &Panel, canvas:
     draw_pixel(canvas, &mut labels, middle, 0, "p");
 }
 
-/// The ray of that pixel as camera 2 sees it, and the mug on it.
+/// Draws the ray of that pixel in photograph 2, and the mug on it.
 fn draw_ray(model: &SamePicture, camera: &PosedCamera, panel: &Panel, canvas: &mut Canvas) {
     let along = model.on_axis(0.5).coords / model.distance_m;
     let at = |z: f64| {
@@ -218,7 +219,7 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
         let towards = Point2::new(RIGHT * z, z) - center;
         camera.draw_sight(canvas, panel, &mut labels, name, IMAGE_M, &towards);
     }
-    // Camera 2's ray to the left runs through one of them.
+    // Camera 2's ray to the left runs through one of the numbers.
     plan::draw_numbers(canvas, panel, "m");
     canvas.disk(mug, radius, Role::Candidate, 0.55);
     canvas.grip(mug, Role::Grip);
@@ -230,8 +231,8 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
     labels.draw(canvas, &beside, &text, ink);
 }
 
-/// All mugs that make the same photograph, as circles between two rays; of one that keeps its size, the
-/// circles that it can be.
+/// Draws all mugs with the same photograph, as circles between two rays; for a mug of fixed size,
+/// the possible circles.
 fn draw_cone(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
     if !model.grows() {
         for z in ECHOES_M {

@@ -1,4 +1,4 @@
-//! What `same-picture` says.
+//! Readouts and description of `same-picture`.
 
 use super::model::SamePicture;
 use crate::contract::{Readout, Words, format_number};

@@ -1,5 +1,4 @@
-//! A house and two cameras, the house enlarged about the first camera, the second camera led away along
-//! the baseline.
+//! A house scaled about the first camera, and a second camera moved along the baseline.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Space,
@@ -10,9 +9,9 @@ use crate::kit::orbit::{Orbit, SPACE};
 use epipole::camera::{PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Translation3};
 
-/// The two of the house's cameras that photograph it, by index.
+/// Indices of the two cameras of the house that photograph it.
 const PAIR: [usize; 2] = [1, 2];
-/// Photographs that differ by less are the same, pixels.
+/// Changes below this count as none, pixels.
 const SAME_PX: f64 = 1e-6;
 
 const HOUSE: Slider = Slider::new("house", "House size")
@@ -27,11 +26,11 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .unit("×");
 const KNOBS: &[Knob] = knobs![HOUSE, BASELINE];
 
-/// The house of some size, and the cameras before it.
+/// The scaled house and its cameras.
 pub(super) struct World {
     pub(super) cameras: [PosedCamera; 2],
     pub(super) points: Vec<Point3<f64>>,
-    /// Where each camera sees each point, pixels.
+    /// Projection of each point into each camera, pixels.
     pub(super) pixels: [Vec<Point2<f64>>; 2],
 }
 
@@ -47,12 +46,12 @@ impl ScaleAmbiguity {
         self.house.as_ref()
     }
 
-    /// How many times as large the house is, and as long the baseline.
+    /// Returns the scale factors of the house and of the baseline.
     pub(super) fn times(&self) -> [f64; 2] {
         [&HOUSE, &BASELINE].map(|slider| self.settings.number(slider))
     }
 
-    /// The world as it is set, or as it was before anything was enlarged.
+    /// Returns the world with these scale factors; `None` if a point is behind a camera.
     pub(super) fn world(&self, [house_times, baseline_times]: [f64; 2]) -> Option<World> {
         let house = self.house.as_ref()?;
         let [first, second] = PAIR.map(|index| house.cameras[index]);
@@ -79,8 +78,8 @@ impl ScaleAmbiguity {
         })
     }
 
-    /// How far any point moves in each photograph through the change, pixels; `None` where a point comes
-    /// to lie behind a camera.
+    /// Returns the largest displacement of a point in each photograph, pixels; `None` if a point is
+    /// behind a camera.
     pub(super) fn changes_px(&self) -> Option<[f64; 2]> {
         let (before, now) = (self.world([1.0, 1.0])?, self.world(self.times())?);
         let change = |index: usize| {
@@ -104,7 +103,7 @@ impl Declared for ScaleAmbiguity {
         Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-16.0, 30.0),
-            // The house is one of constants, which a test builds.
+            // The house is built from constants, which a test checks.
             house: House::new().ok(),
         }
     }

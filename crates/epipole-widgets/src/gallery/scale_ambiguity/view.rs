@@ -13,7 +13,7 @@ use crate::theme::Role;
 use nalgebra::Point3;
 
 const PHOTOS: [&str; 2] = ["first", "second"];
-/// The picture that a camera's frustum carries stands so far before it, in widths of the house.
+/// Distance of the picture plane from its camera in the space, in widths of the house.
 const PICTURE_DEPTH: f64 = 0.55;
 
 const BEFORE: Stroke = Stroke::solid(Role::Reference, 1.5).dashed();
@@ -80,7 +80,7 @@ fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    // Far enough away for whatever the sliders make of it, so that growing is seen to be growing.
+    // A fixed subject, large enough for all slider values, so that growth is visible.
     let subject = Subject {
         middle: Point3::new(0.7, -0.5, 1.2),
         radius: 3.4,
@@ -102,7 +102,7 @@ fn draw_space(
     }
     let [one, two] = is.cameras.map(|camera| camera.center_in_world());
     space.line(&one, &two, Stroke::solid(Role::Ink, 2.0));
-    // One ray of each, so that both houses are seen to lie on it.
+    // One ray per camera, to show that both houses lie on it.
     let ridge = house
         .wires
         .iter()

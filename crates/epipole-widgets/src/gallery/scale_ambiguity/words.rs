@@ -1,4 +1,4 @@
-//! What `scale-ambiguity` says.
+//! Readouts and description of `scale-ambiguity`.
 
 use super::model::ScaleAmbiguity;
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,4 @@
-//! The drive: where the camera really goes, and where odometry thinks that it goes.
+//! The drive: the true path of the camera, and its estimate by odometry.
 
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
@@ -7,40 +7,39 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
-/// How many steps a drive can have; an even number.
+/// Range of the number of steps of a drive; the number is even.
 pub(super) const STEPS: RangeInclusive<usize> = 40..=120;
 
-/// Steps that a corner of the block takes, at most.
+/// Maximum number of steps per corner of the block.
 const CORNER: usize = 5;
-/// How much longer the block is in one direction than in the other.
+/// Ratio of the block's longer side to its shorter side.
 const ASPECT: f64 = 1.5;
 
-/// What odometry does wrong in each step.
+/// Errors of odometry in each step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Errors {
-    /// By which share each step comes out longer than the last.
+    /// Relative growth of the scale per step.
     pub(super) rate: f64,
-    /// Standard deviation of what comes on top by chance: a share of the scale, and an angle in
-    /// radians.
+    /// Standard deviation of the random errors: relative for the scale, and an angle in radians.
     pub(super) noise: f64,
-    /// Whether each step is measured in meters, so that errors of scale do not add up.
+    /// Whether each step is measured in meters, so that scale errors do not accumulate.
     pub(super) is_metric: bool,
     pub(super) seed: u64,
 }
 
-/// A drive once around the block, in steps of the true path.
+/// A drive once around the block; lengths are in true steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drive {
-    /// `world_from_cam` of each frame, the last one where the first one was.
+    /// True `world_from_cam` of each frame; the last equals the first.
     pub(super) truth: Vec<RigidTransform>,
-    /// The same, as odometry adds it up.
+    /// Accumulated `world_from_cam` estimates of odometry.
     pub(super) believed: Vec<RigidTransform>,
-    /// How many times too large everything around each frame comes out.
+    /// Scale of the reconstruction around each frame, relative to the truth.
     pub(super) scale: Vec<f64>,
 }
 
 impl Drive {
-    /// A drive of `num_steps` steps, an even number.
+    /// Simulates a drive of `num_steps` steps, an even number.
     pub(super) fn new(num_steps: usize, errors: &Errors) -> Self {
         let mut random = Random::new(errors.seed);
         let mut truth = vec![RigidTransform::identity()];
@@ -66,13 +65,13 @@ impl Drive {
         }
     }
 
-    /// The number of the last frame.
+    /// Returns the index of the last frame.
     pub(super) fn last(&self) -> usize {
         self.truth.len() - 1
     }
 }
 
-/// Straight ahead, and then a turn to the left: y points down.
+/// Returns a step straight ahead followed by a left turn; y points down.
 fn step(length: f64, left_rad: f64) -> RigidTransform {
     RigidTransform::new(
         Vector3::new(0.0, 0.0, length),
@@ -80,13 +79,14 @@ fn step(length: f64, left_rad: f64) -> RigidTransform {
     )
 }
 
-/// By how much each step turns to the left, radians: around a block, from the middle of one of its long sides.
+/// Returns the left turn of each step, radians: around a block, from the middle of one of its long
+/// sides.
 fn turns(num_steps: usize) -> Vec<f64> {
     let half = num_steps / 2;
     let corner = (num_steps / 16).clamp(1, CORNER);
     let straight = half - 2 * corner;
     let long = (straight as f64 * ASPECT / (1.0 + ASPECT)).round() as usize;
-    // Two halves that are the same but for a half-turn lead back to the start.
+    // Two halves, equal but for a half-turn, lead back to the start.
     let mut around = vec![0.0; long];
     around.extend(vec![FRAC_PI_2 / corner as f64; corner]);
     around.extend(vec![0.0; straight - long]);
@@ -96,7 +96,7 @@ fn turns(num_steps: usize) -> Vec<f64> {
     turns
 }
 
-/// The places of cameras.
+/// Returns the centers of cameras.
 pub(super) fn centers(world_from_cam: &[RigidTransform]) -> Vec<Point3<f64>> {
     let center = |pose: &RigidTransform| Point3::from(pose.translation.vector);
     world_from_cam.iter().map(center).collect()

@@ -1,4 +1,4 @@
-//! A drive around a block: how its scale drifts, how far it has come, and how its loop is closed.
+//! A drive around a block: its scale drift, the distance traveled, and its loop closure.
 
 use super::drive::{self, Drive, Errors};
 use super::question::{Answer, Judged, Kind, Question};
@@ -40,37 +40,37 @@ const STEPS: Slider = Slider::new("steps", "Steps around")
 const SEED: Slider = Slider::seed(7.0);
 const KNOBS: &[Knob] = knobs![CLOSURE, DRIFT, STEREO, NOISE, STEPS, SEED];
 
-/// The handle that goes back and forth along the way.
+/// Handle for the distance traveled.
 const TRAVELED: &str = "traveled";
-/// The fewest steps that can be looked at.
+/// Minimum number of steps shown.
 const FEWEST: usize = 2;
 
 /// The model of `scale-drift`.
 pub(crate) struct ScaleDrift {
     settings: Settings,
-    /// Steps that the reader has gone back to; `None` all the way home, however long that is.
+    /// Number of steps that the reader has gone back to; `None` for the whole drive, however long.
     stop: Option<usize>,
-    /// All of the drive, however far the camera has come.
+    /// The whole drive, regardless of the steps traveled.
     pub(super) drive: Drive,
-    /// What odometry believes, as far as the camera has come.
+    /// Odometry's estimate of the path traveled so far.
     pub(super) before: Judged,
     pub(super) asked: Asked<Question>,
 }
 
 impl ScaleDrift {
-    /// What closing the loop made of it; while the question is out, of the last drive.
+    /// Returns the path after loop closure; while the question is pending, that of the last drive.
     pub(super) fn after(&self) -> Option<&Judged> {
         let answer = self.asked.answer().filter(|_| self.is_home())?;
         answer.closed.as_ref().filter(|_| self.kind().is_some())
     }
 
-    /// How many times as large the places at home look on the return, as measured there.
+    /// Returns the measured scale of the start seen again on return, relative to the first visit.
     pub(super) fn seen(&self) -> Option<f64> {
         let answer = self.asked.answer().filter(|_| self.is_home());
         answer.and_then(|answer| answer.seen)
     }
 
-    /// Drives anew, and asks for the path to be judged and its loop to be closed.
+    /// Simulates the drive again and requests its trajectory error and loop closure.
     fn refresh(&mut self) {
         let errors = errors_of(&self.settings);
         let (num_steps, traveled) = (self.num_steps(), self.traveled());
@@ -104,12 +104,12 @@ impl ScaleDrift {
         self.stop.is_none()
     }
 
-    /// How the loop is to be closed, if at all.
+    /// Returns the kind of loop closure, if any.
     pub(super) fn kind(&self) -> Option<Kind> {
         [None, Some(Kind::Rigid), Some(Kind::Similarity)][self.settings.chosen(&CLOSURE)]
     }
 
-    /// The trajectory error of the closed path, once it is that of this state.
+    /// Returns the trajectory error of the closed path, once it belongs to the current state.
     fn error_after(&self) -> Option<f64> {
         self.after().filter(|_| !self.asked.is_waiting())?.error
     }
@@ -120,7 +120,7 @@ impl ScaleDrift {
     }
 }
 
-/// The first `traveled` steps of what odometry believes, with the error that is known.
+/// Returns the first `traveled` steps of odometry's estimate, with the error if known.
 fn before(drive: &Drive, traveled: usize, answer: Option<&Answer>) -> Judged {
     Judged {
         poses: drive.believed[..=traveled].to_vec(),
@@ -164,7 +164,7 @@ impl Declared for ScaleDrift {
 
 impl Model for ScaleDrift {
     fn controls(&self) -> Vec<Control> {
-        // A rig that measures the scale has none that drifts.
+        // A rig that measures the scale has no scale drift.
         let drifts = !self.is_metric();
         (self.settings).controls_enabled(|id| id != DRIFT.id || drifts)
     }

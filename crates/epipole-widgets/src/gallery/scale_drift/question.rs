@@ -1,5 +1,5 @@
-//! How far is the path off, and what does closing its loop repair? Closing loops and aligning paths
-//! is too much code for the page's own module.
+//! Trajectory error and loop closure. Pose graph optimization and alignment are too much code for
+//! the page's own module, so a worker runs them.
 
 use super::drive::{Drive, Errors, STEPS, centers};
 use crate::contract::{Problem, Progress};
@@ -14,54 +14,54 @@ use epipole::sfm::{
 use nalgebra::{Point3, Similarity3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Points at home that both visits know.
+/// Number of points at the start that both visits reconstruct.
 const NUM_POINTS: usize = 100;
-/// How much the loop weighs beside one step: it is measured from many points at once.
+/// Weight of the loop edge relative to a step; it is measured from many points at once.
 const WEIGHT: f64 = 1e4;
 
-/// What a closed loop may change.
+/// Degrees of freedom of loop closure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Kind {
-    /// Place and direction of each frame.
+    /// Position and orientation of each frame.
     Rigid,
-    /// Its scale, too.
+    /// Also the scale of each frame.
     Similarity,
 }
 
-/// Everything that the answer depends on.
+/// Input of the computation.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) num_steps: usize,
     pub(super) traveled: usize,
     pub(super) errors: Errors,
-    /// How the loop is closed at home, if at all.
+    /// Kind of loop closure, if any.
     pub(super) kind: Option<Kind>,
 }
 
-/// A path, and how far it is off.
+/// A path and its trajectory error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Judged {
     /// `world_from_cam` of each frame.
     pub(super) poses: Vec<RigidTransform>,
-    /// How many times too large everything around each frame comes out.
+    /// Scale of the reconstruction around each frame, relative to the truth.
     pub(super) scale: Vec<f64>,
-    /// Trajectory error, in true steps; `None` where there is none, or it is not known yet.
+    /// Trajectory error, in true steps; `None` if undefined or not yet known.
     pub(super) error: Option<f64>,
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Answer {
-    /// Trajectory error before the loop is closed.
+    /// Trajectory error before loop closure, in true steps.
     pub(super) error: Option<f64>,
-    /// How many times as large the places at home look on the return; `None` on the way.
+    /// Measured scale of the start seen again on return; `None` before the return.
     pub(super) seen: Option<f64>,
-    /// The closed path.
+    /// Path after loop closure.
     pub(super) closed: Option<Judged>,
 }
 
 impl Judged {
-    /// From the first place to the last one, in first steps.
+    /// Returns the distance between the first and the last position, in first steps.
     pub(super) fn gap(&self) -> f64 {
         let ends = (self.poses.first(), self.poses.last());
         let (Some(first), Some(last)) = ends else {
@@ -70,12 +70,12 @@ impl Judged {
         (last.translation.vector - first.translation.vector).norm()
     }
 
-    /// The scale of the last frame.
+    /// Returns the scale of the last frame.
     pub(super) fn scale_at_end(&self) -> f64 {
         self.scale.last().copied().unwrap_or(1.0)
     }
 
-    /// The largest error of the scale, as a share.
+    /// Returns the largest relative error of the scale.
     pub(super) fn worst_scale(&self) -> f64 {
         let off = self.scale.iter().map(|scale| (scale - 1.0).abs());
         off.fold(0.0, f64::max)
@@ -139,15 +139,16 @@ impl question::Question for Question {
     }
 }
 
-/// Root mean square of the distances to the true places after the best similarity, in true steps;
-/// `None` while the path is a straight line, which no alignment can turn.
+/// Returns the root mean square distance from the true positions after the best similarity
+/// alignment, in true steps; `None` while the path is a straight line, which leaves the alignment's
+/// rotation open.
 fn trajectory_error(path: &[RigidTransform], truth: &[Point3<f64>]) -> Option<f64> {
     let judged = absolute_trajectory_error(&centers(path), truth, AlignmentKind::Similarity);
     judged.ok().map(|(statistics, _)| statistics.rmse)
 }
 
-/// What the camera sees of home when it starts and when it returns: the points of the return in
-/// the frame of the start, each visit in its own unit.
+/// Aligns the points reconstructed on return with those reconstructed at the start, each visit in
+/// its own unit.
 fn recognize(drive: &Drive, errors: &Errors) -> Result<Similarity3<f64>, Error> {
     let mut random = Random::new(errors.seed ^ 0x5eed);
     let (mut then, mut now) = (Vec::new(), Vec::new());
@@ -199,7 +200,7 @@ mod tests {
     use question::Question as _;
     use std::ops::ControlFlow;
 
-    /// The path before and after its loop is closed.
+    /// Returns the path before and after loop closure.
     fn closed(rate: f64, noise: f64, is_metric: bool, kind: Kind) -> (Judged, Judged) {
         let errors = Errors {
             rate,
@@ -226,7 +227,7 @@ mod tests {
         };
         let answer = question.answer(&mut |_| ControlFlow::Continue(())).unwrap();
         assert!(question.fits(&answer));
-        // Unit quaternions come as they went.
+        // Unit quaternions survive serialization.
         let bytes = postcard::to_allocvec(&answer).unwrap();
         assert_eq!(postcard::from_bytes::<Answer>(&bytes).unwrap(), answer);
         answer
@@ -255,7 +256,7 @@ mod tests {
         assert!(similar_error < 1e-3 * before, "{similar_error} of {before}");
         assert!(rigid_error > 0.5 * before, "{rigid_error} of {before}");
         assert!(similar.worst_scale() < 1e-3 && similar.gap() < 1e-3);
-        // The ends meet, and yet the last frame is as much too large as before.
+        // The ends meet, but the scale error of the last frame remains.
         assert!(rigid.gap() < 0.05 && rigid.worst_scale() > 1.2);
         // Rigid edges keep the lengths of their steps.
         let last_step =

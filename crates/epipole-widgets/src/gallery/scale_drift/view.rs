@@ -10,9 +10,9 @@ use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::plot::{self, Ruler, decade};
 use crate::theme::Role;
 
-/// Height of the track of the grip that says how far the camera has come.
+/// Height of the track of the handle for the distance traveled, CSS pixels.
 const TRACK: f64 = 24.0;
-/// The plot shows at least the scales from half to double.
+/// The plot shows at least scales from 1/2 to this.
 const LEAST: f64 = 2.0;
 /// Space above and below the curves, in powers of ten.
 const MARGIN: f64 = 0.06;

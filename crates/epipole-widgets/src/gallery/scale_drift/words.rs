@@ -1,4 +1,4 @@
-//! What `scale-drift` says: readouts and description.
+//! Readouts and description of `scale-drift`.
 
 use super::model::ScaleDrift;
 use super::question::{Judged, Kind, Question};
@@ -39,7 +39,7 @@ fn capital(text: &str) -> String {
 impl Words for ScaleDrift {
     fn readouts(&self) -> Vec<Readout> {
         let before = &self.before;
-        // What there is no value of keeps its place.
+        // Readouts without a value keep their place.
         let missing = self.asked.missing();
         let closed =
             |say: &dyn Fn(&Judged) -> String| self.after().map_or_else(|| missing.to_owned(), say);

@@ -1,4 +1,4 @@
-//! `scale-space`: a photograph blurred more and more, and how large the things in it are.
+//! `scale-space`: a photograph at increasing blur, and the sizes of the things in it.
 
 mod model;
 mod question;

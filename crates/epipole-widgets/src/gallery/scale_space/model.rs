@@ -1,4 +1,4 @@
-//! A place of a photograph, the blur that the reader walks through, and the answers of all blurs there.
+//! A position in a photograph, the selected blur, and the responses of all blurs there.
 
 use super::question::{Answer, Question};
 use crate::contract::{
@@ -15,17 +15,17 @@ const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .digits(1)
     .unit("px");
 const KNOBS: &[Knob] = knobs![SIGMA];
-/// At first on the shaded side of an orange.
+/// Initially on the shaded side of an orange.
 const PROBE: Probe = Probe::new("probe", "photograph", "Probe")
     .over(SIZE)
     .step(4.0)
     .at(186.0, 275.0);
 
-/// The blur at which a place answers most.
+/// The strongest local extremum over the blur.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extremum {
     pub(super) sigma_px: f64,
-    /// Gray levels: negative where something is bright.
+    /// Response in gray levels; negative for bright blobs.
     pub(super) value: f64,
 }
 
@@ -41,14 +41,15 @@ impl ScaleSpace {
         self.settings.number(&SIGMA)
     }
 
-    /// The layer whose blur is nearest to the slider's.
+    /// Returns the layer with the blur nearest to the slider's.
     pub(super) fn layer(&self, answer: &Answer) -> usize {
         let far = |index: &usize| libm::log(answer.layers[*index].sigma_px / self.sigma_px()).abs();
         let nearest = (0..answer.layers.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
         nearest.unwrap_or(0)
     }
 
-    /// The answers at the probe: blur in pixels and difference in gray levels, by growing blur.
+    /// Returns the responses at the probe, by increasing blur: blur in pixels, difference in gray
+    /// levels.
     pub(super) fn answers(&self) -> Vec<(f64, f64)> {
         let layers = self.asked.answer().map_or(&[][..], |answer| &answer.layers);
         let place = self.probe.place();
@@ -58,7 +59,7 @@ impl ScaleSpace {
             .collect()
     }
 
-    /// The answer at the slider's blur, between those of the layers.
+    /// Returns the response at the slider's blur, interpolated between layers.
     pub(super) fn now(&self) -> Option<f64> {
         let (answers, sigma) = (self.answers(), self.sigma_px());
         let above = answers.iter().position(|(blur, _)| *blur >= sigma);
@@ -68,7 +69,7 @@ impl ScaleSpace {
         Some(d0 + share * (d1 - d0))
     }
 
-    /// The strongest answer that is stronger than those of both neighbors.
+    /// Returns the strongest response that exceeds both neighbors.
     pub(super) fn extremum(&self) -> Option<Extremum> {
         let answers = self.answers();
         let three = answers.windows(3).filter_map(|three| {
@@ -77,7 +78,7 @@ impl ScaleSpace {
             if !(same && here >= left && here > right) {
                 return None;
             }
-            // A parabola through the three, over the logarithm of the blur.
+            // Fits a parabola through the three over the logarithm of the blur.
             let offset = 0.5 * (left - right) / (left - 2.0 * here + right);
             let step = libm::log(three[2].0 / three[1].0);
             let value = here - 0.25 * (left - right) * offset;
@@ -160,7 +161,7 @@ mod tests {
     use crate::kit::question::settled;
     use std::ops::ControlFlow;
 
-    /// A keypoint of SIFT is where the curve has its extremum.
+    /// Asserts that a SIFT keypoint is at the curve's extremum.
     #[test]
     fn the_extremum_is_the_scale_of_a_keypoint() {
         let mut model: ScaleSpace = settled(&[]);

@@ -1,4 +1,4 @@
-//! What is as large as each blur? The photograph and its differences of Gaussians.
+//! The photograph and its differences of Gaussians.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::SIZE;
@@ -10,38 +10,38 @@ use epipole::imaging::{BT601_WEIGHTS, Border, GrayImage32, rgb_to_gray_f32, samp
 use epipole_scenes::still_life_camera;
 use serde::{Deserialize, Serialize};
 
-/// Octaves that are shown, and layers of each in which extrema are looked for.
+/// Number of octaves shown, and of layers per octave in which extrema are searched.
 pub(super) const NUM_OCTAVES: usize = 4;
 pub(super) const NUM_LAYERS: usize = 3;
 
-/// The rendered still life, always.
+/// The rendered still life; there are no other inputs.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
 /// A difference of two blurs.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Layer {
-    /// Blur that its extrema belong to, pixels.
+    /// Blur σ of extrema in this layer, pixels.
     pub(super) sigma_px: f64,
     /// Pixels of the photograph per sample.
     pub(super) step_px: f64,
-    /// Place of the first sample, pixels.
+    /// Position of the first sample, pixels.
     origin: [f64; 2],
-    /// More blurred less less blurred, of gray values in [0, 1].
+    /// More blurred minus less blurred, for gray values in [0, 1].
     #[serde(with = "picture::floats")]
     pub(super) values: GrayImage32,
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photograph: Picture,
-    /// By growing blur.
+    /// Layers by increasing blur.
     pub(super) layers: Vec<Layer>,
 }
 
 impl Layer {
-    /// Its value at a place of the photograph, gray levels.
+    /// Returns the value at a position in the photograph, gray levels.
     pub(super) fn at(&self, (u, v): (f64, f64)) -> f64 {
         let x = (u - self.origin[0]) / self.step_px;
         let y = (v - self.origin[1]) / self.step_px;

@@ -1,4 +1,5 @@
-//! The photograph, the difference of Gaussians of the present blur, all layers small, and the curve.
+//! The photograph, the difference of Gaussians at the current blur, all layers small, and the
+//! curve.
 
 use super::model::ScaleSpace;
 use super::question::{Answer, Layer, NUM_LAYERS, NUM_OCTAVES};
@@ -13,18 +14,18 @@ use crate::theme::{Role, Theme};
 use image::{Rgb, RgbImage};
 
 const COUNT: usize = NUM_OCTAVES * NUM_LAYERS;
-/// The difference that is drawn in full color, gray levels.
+/// Difference drawn at full saturation, gray levels.
 const STRONG: f64 = 20.0;
 const LEGEND: f64 = 24.0;
-/// Small maps show one in so many samples.
+/// Subsampling of the small maps.
 const SMALLER: u32 = 3;
-/// Between two small maps.
+/// Gap between small maps, CSS pixels.
 const BETWEEN: f64 = 4.0;
 
 /// Draws [`ScaleSpace`].
 #[derive(Default)]
 pub(crate) struct ScaleSpaceView {
-    /// The present layer, and all of them small.
+    /// The current layer, and all layers small.
     large: Heat,
     small: Heat<COUNT>,
 }
@@ -122,11 +123,10 @@ impl View for ScaleSpaceView {
     }
 }
 
-/// Warm where the difference is positive, cool and striped where it is negative; one in so many
-/// samples.
+/// Colors a layer, warm where positive, cool and striped where negative, at one in `every` samples.
 fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
     let colors = Signed::of(theme);
-    // Small maps have no room for stripes.
+    // Stripes do not fit in small maps.
     let faint = if every == 1 { 0.55 } else { 1.0 };
     let (width, height) = layer.values.dimensions();
     RgbImage::from_fn(width / every, height / every, |u, v| {
@@ -136,7 +136,7 @@ fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
     })
 }
 
-/// Every layer at its own size, the present one framed.
+/// Draws every layer at its own size, the current one framed.
 fn draw_layers(canvas: &mut Canvas, rect: Rect, answer: &Answer, maps: &[RgbImage], shown: usize) {
     let height = rect.height - 2.0;
     let first = height * f64::from(SIZE.0) / f64::from(SIZE.1);
@@ -153,7 +153,7 @@ fn draw_layers(canvas: &mut Canvas, rect: Rect, answer: &Answer, maps: &[RgbImag
     }
 }
 
-/// The curve, where the reader is on it, and its extremum.
+/// Draws the curve, the current position on it, and its extremum.
 fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canvas: &mut Canvas) {
     let world = |(sigma, value): (f64, f64)| (decade(sigma), value);
     let zero = panel.canvas_from_world((0.0, 0.0)).1;
@@ -179,7 +179,7 @@ fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canva
         labels.keep_free(at, 6.0);
         let text = format!("extremum: σ = {} px", format_number(found.sigma_px, 1));
         let style = TextStyle::new(Role::Ink, SMALL).cased();
-        // The curve keeps to one side of zero there.
+        // The curve stays on one side of zero there.
         let away = if found.value < 0.0 { -12.0 } else { 12.0 };
         labels.draw(
             canvas,

@@ -1,4 +1,4 @@
-//! What `scale-space` says.
+//! Readouts and description of `scale-space`.
 
 use super::model::ScaleSpace;
 use crate::contract::{Readout, Words, format_number};

@@ -1,22 +1,22 @@
-//! Which blocks of the normal equations of a bundle adjustment are not zero.
+//! Nonzero blocks of the normal equations of a bundle adjustment.
 
-/// Unknowns of a camera and of a point.
+/// Number of unknowns of a camera and of a point.
 pub(super) const PER_CAMERA: usize = 6;
 pub(super) const PER_POINT: usize = 3;
 
-/// Cameras on a path past the points, each point seen by some that stand next to each other.
+/// Cameras on a path past the points; neighboring cameras see a point.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blocks {
     pub(super) num_cameras: usize,
-    /// For each point, the cameras that see it.
+    /// Indices of the cameras that see each point.
     pub(super) seen_by: Vec<Vec<usize>>,
 }
 
 impl Blocks {
-    /// * `num_views`: how many cameras see each point; no more than there are
+    /// * `num_views`: number of cameras that see each point, at most `num_cameras`
     pub(super) fn new(num_cameras: usize, num_points: usize, num_views: usize) -> Self {
         let num_views = num_views.min(num_cameras);
-        // The first cameras that see a point move along the path with the point.
+        // The first camera that sees a point advances along the path with the point.
         let last_first = num_cameras - num_views;
         let first = |point: usize| (point * (last_first + 1)) / num_points.max(1);
         let seen = |point: usize| (first(point)..first(point) + num_views).collect();
@@ -30,12 +30,12 @@ impl Blocks {
         self.seen_by.len()
     }
 
-    /// Unknowns of cameras and points.
+    /// Returns the number of unknowns of the cameras and of the points.
     pub(super) fn unknowns(&self) -> [usize; 2] {
         [PER_CAMERA * self.num_cameras, PER_POINT * self.num_points()]
     }
 
-    /// The share of entries of `JᵀJ` that are not zero, 0 to 1.
+    /// Returns the fraction of nonzero entries of `JᵀJ`, 0 to 1.
     pub(super) fn filled_share(&self) -> f64 {
         let observations: usize = self.seen_by.iter().map(Vec::len).sum();
         let entries = PER_CAMERA * PER_CAMERA * self.num_cameras
@@ -45,14 +45,14 @@ impl Blocks {
         entries as f64 / (all * all).max(1) as f64
     }
 
-    /// Whether two cameras are coupled once the points are eliminated: they are one, or see a point in
-    /// common.
+    /// Returns whether two cameras are coupled after elimination of the points: they are equal or
+    /// see a common point.
     pub(super) fn are_coupled(&self, one: usize, other: usize) -> bool {
         let both = |seen: &Vec<usize>| seen.contains(&one) && seen.contains(&other);
         one == other || self.seen_by.iter().any(both)
     }
 
-    /// The share of the camera blocks that are not zero once the points are eliminated, 0 to 1.
+    /// Returns the fraction of nonzero camera blocks after elimination of the points, 0 to 1.
     pub(super) fn coupled_share(&self) -> f64 {
         let cameras = 0..self.num_cameras;
         let pairs = cameras
@@ -64,13 +64,14 @@ impl Blocks {
         coupled as f64 / (self.num_cameras * self.num_cameras).max(1) as f64
     }
 
-    /// Multiplications to solve everything at once by Cholesky's factors, and with the points eliminated
-    /// first, zeros among the cameras not made use of.
+    /// Returns the number of multiplications of a dense Cholesky solver: for the whole system, and
+    /// with the points eliminated first.
     pub(super) fn multiplications(&self) -> [f64; 2] {
         let cube = |size: usize| (size as f64) * (size as f64) * (size as f64) / 6.0;
         let [cameras, points] = self.unknowns();
         let point = |seen: &Vec<usize>| {
-            // B P⁻¹ for the cameras that see it, then half of its product with Bᵀ, which is symmetric.
+            // B P⁻¹ for the cameras that see it, then half of its product with Bᵀ, which is
+            // symmetric.
             let rows = (PER_CAMERA * seen.len()) as f64;
             let inverse = (PER_POINT * PER_POINT * PER_POINT) as f64;
             inverse
@@ -81,7 +82,7 @@ impl Blocks {
         [cube(cameras + points), eliminated + cube(cameras)]
     }
 
-    /// How many times less work it is to eliminate the points first.
+    /// Returns the factor by which eliminating the points first reduces the work.
     pub(super) fn saving(&self) -> f64 {
         let [whole, eliminated] = self.multiplications();
         whole / eliminated
@@ -93,7 +94,7 @@ mod tests {
     use super::*;
     use nalgebra::DMatrix;
 
-    /// `JᵀJ` of random observations with this pattern.
+    /// Returns `JᵀJ` of random observations with this pattern.
     fn normal_matrix(blocks: &Blocks) -> DMatrix<f64> {
         let [cameras, points] = blocks.unknowns();
         let mut random = epipole::math::random::Random::new(3);

@@ -1,4 +1,4 @@
-//! `schur`: the blocks of the normal equations, and what is left once the points are eliminated.
+//! `schur`: the blocks of the normal equations, and the system after elimination of the points.
 
 mod blocks;
 mod model;

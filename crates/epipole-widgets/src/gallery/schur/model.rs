@@ -1,4 +1,4 @@
-//! How many cameras and points there are, and how many cameras see each point.
+//! Numbers of cameras, points, and views of each point.
 
 use super::blocks::Blocks;
 use crate::contract::{
@@ -23,7 +23,7 @@ pub(crate) struct Schur {
 }
 
 impl Schur {
-    /// Cameras that see each point.
+    /// Returns the number of cameras that see each point.
     pub(super) fn num_views(&self) -> usize {
         self.settings.count(&VIEWS).min(self.blocks.num_cameras)
     }

@@ -1,4 +1,4 @@
-//! Both matrices at one scale: everything at once, and what is left for the cameras.
+//! Both matrices at one scale: the whole system, and the reduced camera system.
 
 use super::blocks::{PER_CAMERA, PER_POINT};
 use super::model::Schur;
@@ -8,7 +8,7 @@ use crate::kit::grid::{self, GAP, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
 
-/// The larger matrix is no larger on the page, CSS pixels.
+/// Maximum side of the larger matrix, CSS pixels.
 const LARGEST: f64 = 420.0;
 const CAMERA: Role = Role::Series(0);
 const POINT: Role = Role::Series(1);
@@ -29,7 +29,7 @@ impl View for SchurView {
     fn layout(&self, model: &Schur, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let [cameras, points] = model.blocks.unknowns();
-        // Beside the larger one there is room for half of it.
+        // Beside the larger matrix there is room for half of its width.
         let side = ((width - GAP) / 1.55).min(LARGEST);
         let [row] = grid.shares([1.0], side);
         let large = Rect::new(row.x, row.y, side, side);
@@ -100,7 +100,7 @@ impl View for SchurView {
     }
 }
 
-/// A block from its first column and row on, so many wide and tall.
+/// Fills a block from its first column and row.
 fn fill(
     canvas: &mut Canvas,
     panel: &Panel,

@@ -1,4 +1,4 @@
-//! What `schur` says.
+//! Readouts and description of `schur`.
 
 use super::model::Schur;
 use crate::contract::{Readout, Words, format_number};

@@ -1,5 +1,5 @@
-//! A keypoint's window before and after the photograph has changed, and how far each fingerprint has come from its
-//! original.
+//! A keypoint's window before and after a change of the photograph, and the distance of each
+//! descriptor from its original.
 
 use super::prints::{Change, MIDDLE, Prints, SIGMA_PX};
 use crate::contract::{Problem, Progress};
@@ -12,48 +12,48 @@ use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
-/// Other places to be confused with: the strongest features.
+/// Number of other keypoints to compare with: the strongest features.
 const NUM_OTHERS: usize = 200;
-/// Features that share so much of the window are no others, pixels.
+/// Minimum distance of these from the keypoint, pixels; nearer windows overlap too much.
 const OTHERS_BEYOND_PX: f64 = 12.0;
-/// So much of a piece is shown around its middle, pixels.
+/// Half size of the shown window, pixels.
 pub(super) const SHOWN_PX: u32 = 48;
-/// Side of what is shown, pixels.
+/// Side of the shown window, pixels.
 const SIDE_PX: u32 = 2 * SHOWN_PX + 1;
 
-/// What is compared.
+/// Input of the comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Subject {
-    /// Where the keypoint is, pixels.
+    /// Position of the keypoint, pixels.
     pub(super) place: (f64, f64),
     pub(super) change: Change,
-    /// Whether SIFT turns its window, and whether it scales it.
+    /// Whether SIFT rotates its window, and whether it scales it.
     pub(super) turns: bool,
     pub(super) scales: bool,
 }
 
-/// A window of a photograph and SIFT's fingerprint of it.
+/// A window of a photograph and its SIFT descriptor.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Look {
     /// Gray levels around the keypoint, row by row: a square.
     levels: Vec<u8>,
-    /// The direction that SIFT gave it.
+    /// Orientation assigned by SIFT.
     pub(super) angle_rad: f64,
-    /// The blur that it was taken to have.
+    /// Scale σ that SIFT assumes, pixels.
     scale_px: f64,
-    /// Rows of cells, columns, directions.
+    /// Histogram by row of cells, column and direction.
     pub(super) histogram: Vec<f32>,
 }
 
-/// How far a fingerprint is from its original, in its own unit.
+/// Distances of a descriptor, in its own unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Distance {
     pub(super) original: f64,
-    /// From the nearest one of another place.
+    /// Distance from the nearest descriptor of another keypoint.
     pub(super) other: f64,
 }
 
-/// Both windows, and the distances of a raw patch, of a normalized one and of SIFT's descriptor.
+/// Both windows, and the distances of a raw patch, of a normalized patch and of SIFT's descriptor.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Comparison {
     /// Before and after.
@@ -61,7 +61,7 @@ pub(super) struct Comparison {
     pub(super) distances: [Distance; 3],
 }
 
-/// What never changes: the photograph in gray, and fingerprints of its other places.
+/// Cached constants: the photograph in gray, and the descriptors of the other keypoints.
 struct Known {
     gray: GrayImage32,
     places: Vec<(f64, f64)>,
@@ -69,7 +69,7 @@ struct Known {
 }
 
 impl Distance {
-    /// As in the ratio test.
+    /// Returns the ratio of both distances, as in the ratio test.
     pub(super) fn ratio(&self) -> f64 {
         self.original / self.other.max(1e-9)
     }
@@ -88,13 +88,13 @@ impl Look {
         }
     }
 
-    /// The piece around the keypoint.
+    /// Returns the window around the keypoint.
     pub(super) fn picture(&self) -> image::RgbImage {
         let level = |u: u32, v: u32| self.levels[(v * SIDE_PX + u) as usize];
         image::RgbImage::from_fn(SIDE_PX, SIDE_PX, |u, v| image::Rgb([level(u, v); 3]))
     }
 
-    /// Its window in the piece, pixels.
+    /// Returns the feature in the window, pixels.
     pub(super) fn spot(&self) -> Spot {
         Spot {
             place: [MIDDLE; 2],
@@ -113,7 +113,7 @@ impl Look {
 }
 
 impl Comparison {
-    /// Whether it can be one: of the right size, without NaN.
+    /// Returns whether it is valid: of the right size, without NaN.
     pub(super) fn is_sound(&self) -> bool {
         let is_finite = |distance: &Distance| {
             [distance.original, distance.other]
@@ -123,7 +123,7 @@ impl Comparison {
         self.looks.iter().all(Look::is_sound) && self.distances.iter().all(is_finite)
     }
 
-    /// Looks at the photograph before and after its change.
+    /// Compares the photograph before and after its change.
     ///
     /// # Errors
     /// [`Error::Canceled`] if `progress` ended it.

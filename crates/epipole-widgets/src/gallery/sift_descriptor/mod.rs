@@ -1,4 +1,4 @@
-//! `sift-descriptor`: a patch of a photograph and its fingerprint, while the photograph changes.
+//! `sift-descriptor`: a patch of a photograph and its descriptor, while the photograph changes.
 
 mod comparison;
 mod model;

@@ -1,4 +1,4 @@
-//! A keypoint, a change of the photograph, and what three fingerprints make of it.
+//! A keypoint, a change of the photograph, and the response of three descriptors.
 
 use super::comparison::{Comparison, Subject};
 use super::prints::Change;
@@ -46,10 +46,10 @@ pub(crate) struct SiftDescriptor {
 }
 
 impl SiftDescriptor {
-    /// The photograph before its change.
+    /// Returns the photograph before its change.
     ///
     /// # Errors
-    /// A sentence: why there is none, or that it is being taken.
+    /// A sentence: the problem, or that the photograph is being rendered.
     pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
         match self.photograph.answer() {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),
@@ -57,7 +57,7 @@ impl SiftDescriptor {
         }
     }
 
-    /// What is known of the change, perhaps of the one before.
+    /// Returns the last comparison, possibly of an earlier change.
     pub(super) fn compared(&self) -> Option<&Comparison> {
         match self.comparison.answer()? {
             Answer::Comparison(comparison) => Some(comparison),
@@ -65,12 +65,12 @@ impl SiftDescriptor {
         }
     }
 
-    /// Changes whenever the pieces do.
+    /// Returns a number that changes with the windows.
     pub(super) fn version(&self) -> u64 {
         self.comparison.version()
     }
 
-    /// Why nothing is compared, as a sentence.
+    /// Returns the reason for having no comparison, as a sentence.
     pub(super) fn problem(&self) -> Option<&str> {
         self.photograph.problem().or(self.comparison.problem())
     }
@@ -135,7 +135,7 @@ impl Model for SiftDescriptor {
         Ok(())
     }
 
-    /// The photograph first: it is there long before its other features are.
+    /// Requests the photograph first, since the features take much longer.
     fn asking(&mut self) -> Option<&mut dyn Asking> {
         Some(match self.photograph.is_waiting() {
             true => &mut self.photograph,
@@ -186,7 +186,7 @@ mod tests {
         let mut model: SiftDescriptor = settled(&[]);
         let [raw, normalized, sift] = model.compared().unwrap().distances;
         assert!(sift.ratio() < 0.6 && normalized.ratio() > 0.8 && raw.ratio() > 0.8);
-        // Nothing changed: nothing differs.
+        // Without a change, the distances are 0.
         for (knob, value) in [(&TURN, 0.0), (&ZOOM, 1.0), (&BRIGHTER, 0.0)] {
             model.update(&Event::set(knob, value)).unwrap();
         }
@@ -199,7 +199,7 @@ mod tests {
                 .iter()
                 .all(|d| d.original == 0.0 && d.other > 0.0)
         );
-        // A right angle moves pixels onto pixels, up to the interpolation at the middle.
+        // A right angle maps pixels to pixels, up to the interpolation at the middle.
         model.update(&Event::set(&TURN, 90.0)).unwrap();
         settle(&mut model);
         let turned = model.compared().unwrap();

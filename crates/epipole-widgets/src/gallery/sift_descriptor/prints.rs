@@ -1,4 +1,4 @@
-//! A place of a photograph described in three ways, and the photograph changed around it.
+//! Three descriptors of a position in a photograph, and changes of the photograph around it.
 
 use epipole::Error;
 use epipole::feature::{
@@ -7,33 +7,33 @@ use epipole::feature::{
 use epipole::imaging::{Border, GrayImage32, gaussian_blur, sample_bilinear};
 use serde::{Deserialize, Serialize};
 
-/// Blur of the keypoint in the photograph as it was taken, pixels.
+/// Scale σ of the keypoint in the original photograph, pixels.
 pub(super) const SIGMA_PX: f64 = 3.2;
 /// Side of a raw patch, samples.
 const SAMPLES: usize = 16;
-/// Distance of its samples, pixels, so that it is as large as the descriptor's window.
+/// Spacing of its samples, pixels, so that it covers the descriptor's window.
 const SPACING_PX: f64 = 12.0 * SIGMA_PX / SAMPLES as f64;
-/// Side of the piece of the photograph that is changed, pixels; and its middle.
+/// Side of the changed piece of the photograph, pixels; and its middle.
 const PIECE_PX: u32 = 161;
 pub(super) const MIDDLE: f64 = (PIECE_PX / 2) as f64;
-/// What a descriptor of length 1 is multiplied by.
+/// Norm of a byte descriptor.
 const UNIT: f64 = 512.0;
 
-/// The same way for every photograph here.
+/// Returns the SIFT options of all photographs here.
 fn options() -> SiftOptions {
     SiftOptions::default()
         .with_upsample(false)
         .with_max_orientations(1)
 }
 
-/// What is done to the photograph.
+/// A change of the photograph.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Change {
     pub(super) turn_rad: f64,
     pub(super) zoom: f64,
-    /// Added to each gray value, of 1.
+    /// Offset of gray values in [0, 1].
     pub(super) brighter: f64,
-    /// Multiplies differences from middle gray.
+    /// Factor on differences from middle gray.
     pub(super) contrast: f64,
 }
 
@@ -45,7 +45,7 @@ impl Change {
         contrast: 1.0,
     };
 
-    /// A piece of the changed photograph, around a place of the photograph as it was.
+    /// Returns a piece of the changed photograph around a position in the original.
     ///
     /// # Errors
     /// As [`gaussian_blur`].
@@ -55,7 +55,7 @@ impl Change {
         place: (f64, f64),
     ) -> Result<GrayImage32, Error> {
         let (sin, cos) = (libm::sin(self.turn_rad), libm::cos(self.turn_rad));
-        // Whoever makes a picture smaller has to blur it first.
+        // Downscaling needs a blur first, against aliasing.
         let blur_px = 0.5 * (1.0 / (self.zoom * self.zoom) - 1.0).max(0.0).sqrt();
         let smooth;
         let source = match blur_px > 0.1 {
@@ -76,24 +76,24 @@ impl Change {
     }
 }
 
-/// The ways to describe a place.
+/// Names of the descriptors.
 pub(super) const WAYS: [&str; 3] = ["raw patch", "normalized patch", "SIFT"];
 
-/// A place, described in each way.
+/// All descriptors of positions.
 #[derive(Clone)]
 pub(super) struct Prints {
-    /// The direction that SIFT gave it.
+    /// Orientation assigned by SIFT.
     pub(super) angle_rad: f64,
-    /// The blur that it was taken to have.
+    /// Scale σ that SIFT assumes, pixels.
     pub(super) scale_px: f64,
     pub(super) lists: [Descriptors; 3],
 }
 
 impl Prints {
-    /// Describes a place of a photograph.
+    /// Describes positions of a photograph.
     ///
-    /// * `scale_px`: the blur that SIFT takes it to have; raw patches know nothing of it
-    /// * `finds_direction`: whether SIFT turns its window to the strongest gradients
+    /// * `scale_px`: scale σ that SIFT assumes; raw patches ignore it
+    /// * `finds_direction`: whether SIFT rotates its window to the dominant gradient direction
     ///
     /// # Errors
     /// As [`describe_sift`].
@@ -128,7 +128,8 @@ impl Prints {
         })
     }
 
-    /// The distances of a way, in its own unit: gray levels a sample, or for vectors of length 1.
+    /// Converts a descriptor's distance to its own unit: gray levels per sample, or for vectors of
+    /// norm 1.
     pub(super) fn in_units(way: usize, distance: f64) -> f64 {
         match way {
             0 => distance * 255.0 / SAMPLES as f64,
@@ -137,13 +138,13 @@ impl Prints {
         }
     }
 
-    /// The SIFT histogram of the first place: rows of cells, columns, directions.
+    /// Returns the SIFT histogram of the first position: rows of cells, columns, directions.
     pub(super) fn histogram(&self) -> Vec<f32> {
         self.lists[2].get(0).unwrap_or_default()
     }
 }
 
-/// The gray values around each place, as they are.
+/// Returns the unprocessed gray values around each position.
 fn raw_patches(gray: &GrayImage32, places: &[(f64, f64)]) -> Result<Descriptors, Error> {
     let middle = (SAMPLES as f64 - 1.0) / 2.0;
     let mut values = Vec::with_capacity(places.len() * SAMPLES * SAMPLES);

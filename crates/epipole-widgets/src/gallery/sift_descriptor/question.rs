@@ -1,4 +1,4 @@
-//! The photograph, and what a change of it does to the fingerprints of a keypoint.
+//! The photograph, and the effect of a change on a keypoint's descriptors.
 
 use super::comparison::{Comparison, Subject};
 use crate::contract::{Problem, Progress};
@@ -7,16 +7,16 @@ use crate::kit::picture::Picture;
 use crate::kit::question;
 use serde::{Deserialize, Serialize};
 
-/// What is asked of the rendered still life.
+/// Requested computation on the rendered still life.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Question {
     /// The photograph itself.
     Photograph,
-    /// Its fingerprints before and after a change.
+    /// The descriptors before and after a change.
     Comparison(Subject),
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Serialize, Deserialize)]
 pub(super) enum Answer {
     Photograph(Picture),

@@ -13,10 +13,10 @@ use crate::kit::patch::{self, Spot};
 use crate::kit::question::Question as _;
 use crate::theme::Role;
 
-/// The largest ratio that a bar shows, and the one up to which a match is believed.
+/// Largest ratio that a bar shows, and the ratio up to which a match is accepted.
 const MOST: f64 = 1.25;
 const BELIEVED: f64 = 0.8;
-/// The numbers of a descriptor of length 1 are cut at 0.2, of 512.
+/// Entry drawn at full length. Entries of a descriptor of norm 512 are clamped at 0.2 · 512.
 const LONGEST: f64 = 0.25 * 512.0;
 const TITLES: [[&[&str]; 2]; 2] = [
     [&["Before"], &["Its descriptor", "Descriptor"]],
@@ -113,7 +113,7 @@ impl View for SiftDescriptorView {
     }
 }
 
-/// The window with its 4 × 4 cells and its direction.
+/// Draws the window with its 4 × 4 cells and its orientation.
 fn draw_cells(canvas: &mut Canvas, panel: &Panel, spot: &Spot) {
     canvas.clipped(panel.rect.inset(1.0), |canvas| {
         let at = |along, across| panel.canvas_from_world(spot.at(along, across));
@@ -128,7 +128,7 @@ fn draw_cells(canvas: &mut Canvas, panel: &Panel, spot: &Spot) {
     });
 }
 
-/// A star of eight rays in each cell, each as long as its direction is frequent.
+/// Draws a star of eight rays in each cell, with lengths from the histogram.
 fn draw_histogram(canvas: &mut Canvas, panel: &Panel, histogram: &[f32]) {
     let grid = Stroke::solid(Role::Grid, 1.0);
     for k in [-0.5, 0.0, 0.5] {
@@ -150,7 +150,7 @@ fn draw_histogram(canvas: &mut Canvas, panel: &Panel, histogram: &[f32]) {
     }
 }
 
-/// The three ratios as bars, and the line below which a match is believed.
+/// Draws the three ratios as bars, and the acceptance threshold.
 fn draw_ratios(canvas: &mut Canvas, rect: Rect, ratios: [f64; 3]) {
     let wordings = [
         "Distance ratio to the nearest other",

@@ -1,4 +1,4 @@
-//! What `sift-descriptor` says.
+//! Readouts and description of `sift-descriptor`.
 
 use super::model::SiftDescriptor;
 use super::prints::WAYS;
@@ -6,7 +6,7 @@ use super::question::Question;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::question::Question as _;
 
-/// Stands for a number until there is one.
+/// Text in place of a missing number.
 const WAITING: &str = "none yet";
 
 impl Words for SiftDescriptor {

@@ -1,4 +1,4 @@
-//! Where the ball is, and how the two cameras stand.
+//! Position of the ball, and the rig of two cameras.
 
 use super::rig::{Measured, Rig};
 use crate::contract::{
@@ -18,12 +18,12 @@ const FOCAL: Slider = Slider::new("focal", "Focal length")
     .unit("px");
 const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
 
-/// The smallest and largest distance of the ball from the line between the cameras, meters.
+/// Range of the ball's distance from the line between the cameras, meters.
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
-/// How far the ball can stand to either side of the left camera's axis, meters.
+/// Range of the ball's position to the side of the left camera's axis, meters.
 const SIDE_RANGE_M: [f64; 2] = [-0.8, 0.8];
-/// Along the row of cameras and away from it, meters. With the default rig it is at first seen in columns
-/// 410 and 380.
+/// Position along the row of cameras and away from it, meters. With the default rig the ball is
+/// initially in columns 410 and 380.
 const BALL: Probe = Probe::new("object", "top", "Ball")
     .on_plan([SIDE_RANGE_M, DEPTH_RANGE_M])
     .digits(3)
@@ -46,7 +46,7 @@ impl StereoSlider {
         }
     }
 
-    /// Puts the ball, without changing its depth, where a camera sees it in column `u_px`.
+    /// Moves the ball sideways, at constant depth, to column `u_px` of a camera.
     fn move_to_column(&mut self, camera_x_m: f64, u_px: f64) {
         let center_px = (f64::from(PHOTO_WIDTH) - 1.0) / 2.0;
         let z_m = self.ball.place().1;
@@ -54,7 +54,7 @@ impl StereoSlider {
         self.ball.put(x_m, z_m);
     }
 
-    /// Whether the sliders are where they were, and the pair measures something of this kind.
+    /// Returns whether the sliders are untouched and the measurement passes `check`.
     fn with_the_rig_as_it_is(&self, check: impl Fn(Measured) -> bool) -> bool {
         let rig = self.rig();
         rig.baseline_m == BASELINE.default

@@ -1,4 +1,4 @@
-//! A rectified pair of cameras before the long table, and what it measures of the ball.
+//! A rectified pair of cameras before the long table, and its measurement of the ball.
 
 use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
@@ -6,11 +6,11 @@ use epipole::camera::{Intrinsics, PosedCamera};
 use epipole::stereo::{DepthInterval, depth_from_disparity, depth_interval};
 use nalgebra::{Isometry3, Point2, Point3};
 
-/// The error of a disparity that the figure asks about, pixels.
+/// Disparity error that the figure illustrates, pixels.
 pub(super) const ERROR_PX: f64 = 1.0;
 
-/// Two cameras that look the same way, side by side, and where the ball is: to the right of the left
-/// camera, and away from it.
+/// Two parallel cameras side by side, and the ball's position to the right of the left camera and
+/// away from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rig {
     pub(super) baseline_m: f64,
@@ -19,7 +19,7 @@ pub(super) struct Rig {
     pub(super) z_m: f64,
 }
 
-/// What the two photographs measure.
+/// Measurement from the two photographs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measured {
     pub(super) disparity_px: f64,
@@ -27,24 +27,24 @@ pub(super) struct Measured {
     pub(super) interval: DepthInterval,
 }
 
-/// How a photograph shows the middle of the ball.
+/// Visibility of the ball's center in a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sight {
-    /// Nothing is in the way.
+    /// Visible.
     Clear,
-    /// This is in the way.
+    /// Hidden by this.
     Hidden(&'static str),
-    /// It is beyond the picture's edge.
+    /// Outside of the picture.
     Outside,
 }
 
 impl Rig {
-    /// The middle of the ball in the frame of the left camera, which is the world's.
+    /// Returns the ball's center in the frame of the left camera, which is the world frame.
     pub(super) fn ball_in_world(&self) -> Point3<f64> {
         Point3::new(self.x_m, scenes::BALL_Y_M, self.z_m)
     }
 
-    /// The left and the right camera.
+    /// Returns the left and the right camera.
     pub(super) fn cameras(&self) -> Result<[PosedCamera; 2], Error> {
         let intrinsics = Intrinsics::centered(self.focal_px, PHOTO_WIDTH, PHOTO_HEIGHT)?;
         Ok([0.0, self.baseline_m].map(|x_m| PosedCamera {
@@ -53,14 +53,14 @@ impl Rig {
         }))
     }
 
-    /// Where the left and the right camera see the middle of the ball.
+    /// Returns the pixels of the ball's center in the left and the right photograph.
     pub(super) fn pixels(&self) -> Result<[Point2<f64>; 2], Error> {
         let [left, right] = self.cameras()?;
         let ball = self.ball_in_world();
         Ok([left.project(&ball)?, right.project(&ball)?])
     }
 
-    /// Disparity and depth, computed from the two pixels alone; `None` without a baseline.
+    /// Computes disparity and depth from the two pixels alone; `None` without a baseline.
     pub(super) fn measured(&self) -> Option<Measured> {
         let [left, right] = self.pixels().ok()?;
         let disparity_px = left.x - right.x;
@@ -72,7 +72,7 @@ impl Rig {
         })
     }
 
-    /// How each photograph shows the middle of the ball.
+    /// Returns the visibility of the ball's center in each photograph.
     pub(super) fn sights(&self) -> Result<[Sight; 2], Error> {
         let scene = scenes::long_table((self.x_m, self.z_m))?;
         let (cameras, pixels) = (self.cameras()?, self.pixels()?);

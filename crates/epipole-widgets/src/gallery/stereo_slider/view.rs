@@ -1,4 +1,5 @@
-//! Both photographs, the match magnified in a corner, depth over disparity below them, and the view from above beside.
+//! Both photographs with the match magnified in a corner, depth over disparity below them, and the
+//! view from above beside them.
 
 mod from_above;
 mod magnifier;
@@ -19,7 +20,7 @@ use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
-/// What an uncertain pixel leaves open.
+/// Color of the uncertainty of a pixel.
 pub(super) const UNCERTAIN: Role = Role::Series(3);
 /// Height of the view from above on a phone, CSS pixels.
 const LOW: f64 = 186.0;
@@ -178,7 +179,7 @@ impl StereoSliderView {
     }
 }
 
-/// What stands above a photograph.
+/// Returns the title of a photograph.
 fn title(index: usize, sight: Sight, column_px: f64, width: f64) -> String {
     let name = match width < 220.0 {
         true => ["Left: ", "Right: "][index],
@@ -191,7 +192,7 @@ fn title(index: usize, sight: Sight, column_px: f64, width: f64) -> String {
     }
 }
 
-/// Why there are no photographs, in their place.
+/// Draws the error in place of the photographs.
 fn refuse(canvas: &mut Canvas, panels: [&Panel; 2], error: &epipole::Error) {
     for panel in panels {
         canvas.panel(panel.rect);
@@ -199,7 +200,7 @@ fn refuse(canvas: &mut Canvas, panels: [&Panel; 2], error: &epipole::Error) {
     }
 }
 
-/// In the right photograph: where the left one has the ball, and how far it moved.
+/// Draws, in the right photograph, the ball's column in the left one and the disparity.
 fn draw_disparity(
     canvas: &mut Canvas,
     rect: Rect,
@@ -222,7 +223,7 @@ fn draw_disparity(
     Labels::new(rect.inset(2.0)).draw(canvas, &[below], &text, style);
 }
 
-/// Depth over disparity for this rig, and what a pixel more or less means here.
+/// Draws depth over disparity for this rig, and the effect of a pixel of error.
 fn draw_curve(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
     let (x, y) = rulers();
     grid::title(canvas, panel.rect, "Depth Z over disparity d: Z = f B / d");

@@ -1,15 +1,15 @@
-//! What `stereo-slider` says.
+//! Readouts and description of `stereo-slider`.
 
 use super::model::StereoSlider;
 use super::rig::Sight;
 use crate::contract::{Readout, Words, format_number};
 use epipole::stereo::DepthInterval;
 
-/// What the figure says when both cameras stand at one place.
+/// Description of a rig without a baseline.
 pub(super) const NO_BASELINE: &str = "The baseline is 0, so both cameras stand at the same place: \
     the photographs are equal, every disparity is 0, and depth cannot be measured.";
 
-/// What stands where there is no number.
+/// Text in place of a missing number.
 const UNKNOWN: &str = "unknown";
 
 impl Words for StereoSlider {
@@ -63,7 +63,7 @@ impl Words for StereoSlider {
     }
 }
 
-/// What keeps a real pair from measuring the ball, as a sentence.
+/// Returns the reason why a real pair could not measure the ball, as a sentence.
 fn trouble(sights: Result<[Sight; 2], epipole::Error>) -> Option<String> {
     let Ok(sights) = sights else {
         return Some("It is not on the table.".to_owned());
@@ -89,7 +89,7 @@ fn trouble(sights: Result<[Sight; 2], epipole::Error>) -> Option<String> {
     }
 }
 
-/// An interval of depths in words, such as "2.71 to 2.90 m".
+/// Formats an interval of depths, such as "2.71 to 2.90 m".
 pub(super) fn reach(interval: &DepthInterval) -> String {
     let near_m = interval.near_m;
     match interval.far_m {
@@ -102,7 +102,7 @@ pub(super) fn reach(interval: &DepthInterval) -> String {
     }
 }
 
-/// Digits that tell the ends of an interval apart.
+/// Returns the number of digits that distinguishes the ends of an interval.
 fn depth_digits(interval: &DepthInterval) -> usize {
     match interval.far_m {
         Some(far_m) if far_m - interval.near_m < 0.1 => 3,

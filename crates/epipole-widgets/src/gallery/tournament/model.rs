@@ -1,4 +1,4 @@
-//! How often each rival succeeds, as the runs come in.
+//! Success rates of the rivals, updated as runs come in.
 
 use super::question::{NUM_BATCHES, Question, RUNS_AT_ONCE, Subject, Wins, outlier_ratio};
 use crate::contract::{
@@ -34,7 +34,7 @@ pub(crate) struct Tournament {
 }
 
 impl Tournament {
-    /// Runs so far, at each ratio.
+    /// Returns the number of runs so far at each ratio.
     pub(super) fn num_runs(&self) -> usize {
         self.num_batches * RUNS_AT_ONCE
     }
@@ -50,13 +50,13 @@ impl Tournament {
         }
     }
 
-    /// The ratio that the numbers are about, and its index.
+    /// Returns the index and the value of the outlier ratio that the readouts are for.
     pub(super) fn ratio(&self) -> (usize, f64) {
         let index = (10.0 * self.settings.number(&RATIO)).round() as usize;
         (index, outlier_ratio(index))
     }
 
-    /// The share of runs in which a rival succeeds, 0 to 1; `None` before the first runs.
+    /// Returns a rival's success rate, 0 to 1; `None` before the first runs.
     pub(super) fn share(&self, rival: usize, ratio: usize) -> Option<f64> {
         let runs = self.num_runs();
         (runs > 0).then(|| self.wins.0[ratio][rival] as f64 / runs as f64)
@@ -77,7 +77,7 @@ impl Tournament {
         self.asked.ask(self.question());
     }
 
-    /// The shares of two rivals at the ratio that the numbers are about, once all runs are in.
+    /// Returns the success rates of two rivals at the selected ratio, once all runs are in.
     fn final_shares(&self, rivals: [usize; 2]) -> Option<[f64; 2]> {
         let (ratio, _) = self.ratio();
         let [one, other] = rivals.map(|rival| self.share(rival, ratio));

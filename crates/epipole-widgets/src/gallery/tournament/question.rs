@@ -1,20 +1,20 @@
-//! Some runs of all rivals at every outlier ratio.
+//! A batch of runs of all rivals at every outlier ratio.
 
 use super::rivals::{NUM_RIVALS, Pair, fit_lines};
 use crate::contract::{Problem, Progress};
 use crate::kit::question::{self, tell};
 use serde::{Deserialize, Serialize};
 
-/// Outlier ratios, in tenths: from none on.
+/// Number of outlier ratios: 0, 0.1, 0.2 …
 pub(super) const NUM_RATIOS: usize = 9;
-/// Runs that are answered at once, so that curves grow and a reader who stops keeps what there is.
+/// Number of runs per batch, so that curves grow and an interrupted tournament keeps its results.
 pub(super) const RUNS_AT_ONCE: usize = 20;
-/// So many times.
+/// Number of batches.
 pub(super) const NUM_BATCHES: usize = 10;
-/// No two seeds of the reader share a run.
+/// Distance between the run seeds of two reader seeds, so that they share no run.
 const APART: u64 = 10_000;
 
-/// What is fitted.
+/// Estimated model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Subject {
     /// A line to points.
@@ -23,23 +23,23 @@ pub(super) enum Subject {
     Fundamental,
 }
 
-/// How often does each rival succeed in the next few runs?
+/// Input of a batch.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) subject: Subject,
-    /// Of those that vote, in standard deviations of the noise.
+    /// Threshold of the voting rivals, in standard deviations of the noise.
     pub(super) threshold: f64,
     pub(super) seed: u64,
-    /// Which runs, from 0.
+    /// Index of the batch, from 0.
     pub(super) batch: usize,
 }
 
-/// Successes of each rival at each outlier ratio.
+/// Number of successes of each rival at each outlier ratio.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Wins(pub(super) Vec<[usize; NUM_RIVALS]>);
 
 impl Wins {
-    /// None yet.
+    /// Creates counts of zero.
     pub(super) fn none() -> Self {
         Self(vec![[0; NUM_RIVALS]; NUM_RATIOS])
     }
@@ -52,7 +52,7 @@ impl Wins {
     }
 }
 
-/// Outliers among all data, 0 to 1.
+/// Returns the outlier ratio of an index, 0 to 1.
 pub(super) fn outlier_ratio(index: usize) -> f64 {
     index as f64 / 10.0
 }

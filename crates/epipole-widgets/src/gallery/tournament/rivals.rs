@@ -1,4 +1,4 @@
-//! The rivals, on a line and on F: from the same data, how far off is each?
+//! The rivals on a line and on F: the error of each on the same data.
 
 use crate::kit::line_points::{angle_between_deg, scatter};
 use crate::kit::matches::{MAX_USED, Match, Matches, distance_px};
@@ -15,9 +15,9 @@ use epipole::robust::{
 use nalgebra::{Matrix3, Point2};
 use std::rc::Rc;
 
-/// How many rivals there are.
+/// Number of rivals.
 pub(super) const NUM_RIVALS: usize = 6;
-/// Their names, for permalinks and for readers, and whether their numbers are always there.
+/// Names for permalinks and for readers, and whether their readouts are always shown.
 pub(super) const RIVALS: [(&str, &str, bool); NUM_RIVALS] = [
     ("least-squares", "Least squares", true),
     ("huber", "Huber", false),
@@ -26,24 +26,24 @@ pub(super) const RIVALS: [(&str, &str, bool); NUM_RIVALS] = [
     ("msac", "MSAC", false),
     ("msac-lo", "MSAC + LO", true),
 ];
-/// A line within so many degrees of the hidden one is a success.
+/// Largest angle from the hidden line that counts as a success, degrees.
 pub(super) const WITHIN_DEG: f64 = 2.0;
-/// An F whose lines are, on average, within so many pixels of matches that it never saw is one, too.
+/// Largest mean epipolar distance of held-out matches that counts as a success for F, pixels.
 pub(super) const WITHIN_PX: f64 = 2.0;
-/// Standard deviations of the points' distance from the line, and of a match's coordinates.
+/// Standard deviations of the points' distance from the line, and of a match's coordinates, pixels.
 const LINE_SIGMA_PX: f64 = 4.0;
 const MATCH_SIGMA_PX: f64 = 0.5;
-/// Points on the plane.
+/// Number of points.
 const NUM_POINTS: usize = 60;
-/// Samples that a rival draws at most.
+/// Maximum number of samples per rival.
 const MAX_SAMPLES: usize = 500;
-/// Where Huber's loss stops being a square: 5 % of the efficiency is lost.
+/// Tuning constant of Huber's loss, in standard deviations, for 95 % efficiency.
 const HUBER: f64 = 1.345;
 
-/// Which rivals are near enough to the truth.
+/// Success of each rival.
 pub(super) type Successes = [bool; NUM_RIVALS];
 
-/// The model by those that draw samples: the least median, and the three that vote.
+/// Returns the models of the sampling rivals: least median and the three voting ones.
 fn sampled<E: Estimator>(
     estimator: impl Fn() -> Result<E, Error>,
     refit: impl Fn(&[bool]) -> Result<E::Model, Error>,
@@ -73,9 +73,9 @@ fn sampled<E: Estimator>(
     ]
 }
 
-/// A hidden line with points and outliers of this seed, fitted by all.
+/// Fits all rivals to a hidden line with points and outliers of this seed.
 ///
-/// * `threshold`: of those that vote, in standard deviations of the noise
+/// * `threshold`: threshold of the voting rivals, in standard deviations of the noise
 pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Successes {
     let scattered = scatter(seed, NUM_POINTS, outlier_ratio);
     let points = &scattered.points;
@@ -88,7 +88,7 @@ pub(super) fn fit_lines(seed: u64, outlier_ratio: f64, threshold: f64) -> Succes
     [squares, huber, median, plain, msac, local].map(|line| line.is_ok_and(is_near))
 }
 
-/// Matches of the still life's pair, some of them sent anywhere, and F by all.
+/// Matches of the still life's pair with outliers, and F by all rivals.
 pub(super) struct Pair {
     matches: Rc<Matches>,
     seed: u64,
@@ -116,7 +116,7 @@ impl Pair {
         matches.into_iter().enumerate().map(placed).unzip()
     }
 
-    /// As [`fit_lines`].
+    /// Fits all rivals, as [`fit_lines`] does.
     pub(super) fn fit(&self, outlier_ratio: f64, threshold: f64) -> Successes {
         let (first, second) = self.disturbed(outlier_ratio);
         let estimator = || FundamentalEstimator::new(MatchSet::new(&first, &second)?);
@@ -132,7 +132,7 @@ impl Pair {
         found.map(|f| f.is_ok_and(|f| self.mean_px(&f) <= WITHIN_PX))
     }
 
-    /// How far exact matches that no rival saw are from their lines, on average.
+    /// Returns the mean distance of held-out exact matches from their epipolar lines, pixels.
     fn mean_px(&self, fundamental: &Matrix3<f64>) -> f64 {
         let held_out = &self.matches.held_out;
         let distance = |found| distance_px(fundamental, found).unwrap_or(f64::INFINITY);
@@ -160,13 +160,13 @@ mod tests {
                 *count += usize::from(success);
             }
         }
-        // Least squares is lost; every vote finds it in at least 95 % of the runs.
+        // Least squares fails; every voting rival succeeds in at least 95 % of the runs.
         assert!(wins[0] < 50, "{wins:?}");
         assert!(wins[3..].iter().all(|&count| count >= 950), "{wins:?}");
     }
 
-    /// Successes in NumPy's own runs, by `tests/peers/tournament.py`, which knows nothing of the code here: shares
-    /// of the same methods on other points of the same kind are the same, up to chance.
+    /// Compares with the success rates of `tests/peers/tournament.py`, an independent NumPy
+    /// implementation on other points of the same distribution; they agree up to chance.
     #[test]
     fn shares_are_those_of_an_independent_tournament_in_numpy() {
         const NUM_RUNS: u32 = 200;

@@ -1,4 +1,4 @@
-//! The share of successes of each rival over the outlier ratio.
+//! The success rate of each rival over the outlier ratio.
 
 use super::model::Tournament;
 use super::question::{NUM_RATIOS, outlier_ratio};
@@ -25,7 +25,7 @@ fn rulers() -> [Ruler; 2] {
     [ratio.named("outliers among the data"), share]
 }
 
-/// Rivals differ in hue, in shape and in dash.
+/// Returns a rival's color, shape and stroke, which all differ between rivals.
 fn look(rival: usize) -> (Role, Shape, Stroke) {
     let (role, shape) = series(rival);
     (role, shape, Stroke::of_series(rival, 2.25))
@@ -44,7 +44,7 @@ impl View for TournamentView {
 
     fn layout(&self, _: &Tournament, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        // Above the plot: below it the progress of the runs would cover it, while the curves grow.
+        // The legend is above the plot, since the progress of the runs would cover it below.
         grid.strip(legend::height(&entries(), width, plot::LEFT));
         let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
         let [x, y] = rulers();

@@ -1,4 +1,4 @@
-//! What `tournament` says.
+//! Readouts and description of `tournament`.
 
 use super::model::Tournament;
 use super::question::Subject;
@@ -6,7 +6,7 @@ use super::rivals::{NUM_RIVALS, RIVALS, WITHIN_DEG, WITHIN_PX};
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::words::after;
 
-/// What counts as a success.
+/// Returns the criterion for a success, in words.
 pub(super) fn success(subject: Subject) -> String {
     match subject {
         Subject::Line => format!("within {WITHIN_DEG}° of the hidden line"),

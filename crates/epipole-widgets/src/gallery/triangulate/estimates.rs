@@ -1,4 +1,4 @@
-//! One point from two noisy pixels, by every method of the core, and many times over.
+//! One point from two noisy pixels by every method of the core, with repetitions.
 
 use super::uncertainty::Curves;
 use epipole::Error;
@@ -12,25 +12,25 @@ use epipole::triangulation::{
 };
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
 
-/// So many times is the point photographed anew.
+/// Number of repetitions with new noise.
 const NUM_REPEATS: usize = 200;
-/// The methods, as the core names them.
+/// Names of the methods, as in the core.
 pub(super) const METHODS: [&str; 4] = ["midpoint", "DLT", "angular", "optimal"];
 
-/// Two cameras, a point, and what noise makes of it.
+/// Two cameras, a point, and its estimates from noisy pixels.
 pub(super) struct Estimates {
     pub(super) cameras: [PosedCamera; 2],
     pub(super) truth: Point3<f64>,
-    /// Where the point is seen, with noise, pixels.
+    /// Noisy projections of the point, pixels.
     pub(super) pixels: [Point2<f64>; 2],
-    /// The point by each of [`METHODS`], or why there is none.
+    /// Estimate by each of [`METHODS`], or why there is none.
     pub(super) points: [Result<Point3<f64>, Error>; 4],
-    /// The optimal point of other photographs with as much noise.
+    /// Optimal estimates from repetitions with the same noise level.
     pub(super) repeats: Vec<Point3<f64>>,
-    /// Half axes of the region of one standard deviation, longest first, in the world.
+    /// Half axes of the one-sigma ellipsoid, longest first, in the world.
     pub(super) axes: Option<[Vector3<f64>; 3]>,
     pub(super) angle_deg: f64,
-    /// In each photograph the line that the pixel of the other one leaves there.
+    /// Epipolar line in each photograph of the pixel in the other one.
     pub(super) lines: Option<[Line2; 2]>,
     pub(super) curves: Curves,
 }
@@ -67,26 +67,26 @@ impl Estimates {
         })
     }
 
-    /// How far the point by one of [`METHODS`] lies from the pixel in one of the photographs, pixels.
+    /// Returns the reprojection residual of one of [`METHODS`] in a photograph, pixels.
     pub(super) fn miss_px(&self, method: usize, camera: usize) -> Option<Vector2<f64>> {
         let point = self.points[method].as_ref().ok()?;
         Some(self.cameras[camera].project(point).ok()? - self.pixels[camera])
     }
 
-    /// The reprojection error of one of [`METHODS`]: the root mean square of both, pixels.
+    /// Returns the root mean square reprojection error of one of [`METHODS`], pixels.
     pub(super) fn reprojection_px(&self, method: usize) -> Option<f64> {
         let [one, two] = [0, 1].map(|camera| self.miss_px(method, camera));
         Some(((one?.norm_squared() + two?.norm_squared()) / 2.0).sqrt())
     }
 
-    /// Root mean square distance of the repeated points from the truth, meters.
+    /// Returns the root mean square distance of the repeated estimates from the truth, meters.
     pub(super) fn scatter_m(&self) -> Option<f64> {
         let squares = (self.repeats.iter()).map(|point| (point - self.truth).norm_squared());
         let count = self.repeats.len();
         (count > 0).then(|| (squares.sum::<f64>() / count as f64).sqrt())
     }
 
-    /// The longest half axis of the region of one standard deviation, meters.
+    /// Returns the longest half axis of the one-sigma ellipsoid, meters.
     pub(super) fn uncertainty_m(&self) -> Option<f64> {
         self.axes.map(|axes| axes[0].norm())
     }
@@ -121,14 +121,14 @@ fn lines(cameras: &[PosedCamera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2
     Some([in_first, epipolar_line2(&fundamental, &pixels[0]).ok()?])
 }
 
-/// Half axes of the region of one standard deviation about a point, longest first, in the world.
+/// Returns the half axes of the one-sigma ellipsoid about a point, longest first, in the world.
 pub(super) fn axes_of(
     cameras: &[PosedCamera; 2],
     truth: &Point3<f64>,
     sigma_px: f64,
 ) -> Option<[Vector3<f64>; 3]> {
     let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
-    // Of a symmetric matrix without negative eigenvalues these are its axes.
+    // The singular vectors of a symmetric positive semidefinite matrix are its axes.
     let Svd3 {
         u, singular_values, ..
     } = svd3(&covariance);

@@ -1,4 +1,4 @@
-//! `triangulate`: the place where two noisy rays all but meet, by four methods, and how far it is off.
+//! `triangulate`: a point from two noisy rays, by four methods, and its error.
 
 mod estimates;
 mod model;

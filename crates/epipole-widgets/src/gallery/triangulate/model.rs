@@ -1,4 +1,4 @@
-//! A point, two cameras that look at it, and the noise of its two pixels.
+//! A point, two cameras that see it, and the noise of its two pixels.
 
 use super::estimates::{Estimates, METHODS};
 use crate::contract::{
@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 480);
-/// How far to the left and to the right things may be, meters.
+/// Horizontal range of the point and the cameras, meters.
 pub(super) const ASIDE_M: [f64; 2] = [-1.2, 1.4];
 
 pub(super) const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
@@ -40,14 +40,14 @@ const SECOND: Probe = Probe::new("second", "top", "Camera 2")
     .at(0.5, 1.5);
 const AGAIN: Button = Button::new("again", "Photograph again", ButtonRole::Step);
 
-/// What stands beside the region about the point.
+/// Content beside the uncertainty region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Show {
-    /// Where each method's point appears in the two photographs, beside the pixel.
+    /// Reprojections of each method's estimate in both photographs, relative to the pixel.
     Misses,
-    /// One standard deviation along the rays over the angle.
+    /// Standard deviation along the rays over the triangulation angle.
     Angle,
-    /// The same over the distance.
+    /// Standard deviation along the rays over the distance.
     Distance,
 }
 
@@ -69,12 +69,13 @@ impl Triangulate {
         self.settings.number(&NOISE)
     }
 
-    /// The point and the second camera, (x, z) meters; the first camera is at the origin.
+    /// Returns the positions (x, z) of the point and the second camera, meters; the first camera is
+    /// at the origin.
     pub(super) fn pins(&self) -> [(f64, f64); 2] {
         [self.point.place(), self.second.place()]
     }
 
-    /// What the methods find, or why there is nothing to find.
+    /// Returns the estimates, or why there are none.
     pub(super) fn estimates(&self) -> Result<&Estimates, &str> {
         let estimates = self.estimates.get_or_init(|| self.compute());
         estimates.as_ref().map_err(String::as_str)
@@ -113,7 +114,7 @@ impl Declared for Triangulate {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            // From here the handle to turn by lies beside the region, not on it.
+            // This viewpoint puts the orbit handle beside the region, not on it.
             orbit: Orbit::new(-62.0, 32.0),
             point: POINT,
             second: SECOND,
@@ -245,7 +246,7 @@ mod tests {
             };
             for method in 0..3 {
                 if let Some(other) = estimates.reprojection_px(method) {
-                    // Two steps of Lindström's iteration end so near to the minimum.
+                    // Two steps of Lindström's iteration end this near to the minimum.
                     assert!(optimal <= other * (1.0 + 1e-8), "{optimal} and {other}");
                     num_compared += 1;
                 }
@@ -275,7 +276,7 @@ mod tests {
         let found = model.estimates().unwrap();
         assert!(found.points.iter().all(Result::is_err) && found.axes.is_none());
         assert!(model.describe().contains("There is no point, since "));
-        // And on the point itself there is no camera to speak of: the readouts stay, without numbers.
+        // A camera on the point itself has no pose: the readouts stay, without numbers.
         let usual: Vec<_> = Triangulate::new()
             .readouts()
             .into_iter()

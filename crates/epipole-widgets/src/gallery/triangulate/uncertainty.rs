@@ -1,27 +1,27 @@
-//! How far the point may be off along its rays, over the angle and over the distance.
+//! Uncertainty of the point along its rays, over the angle and over the distance.
 
 use super::estimates::axes_of;
 use epipole::camera::{PosedCamera, look_at};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-/// The angles that are tried, degrees.
+/// Range of the angle, degrees.
 pub(super) const ANGLES_DEG: [f64; 2] = [0.0, 90.0];
-/// The distances, powers of ten of a meter.
+/// Range of the distance, powers of ten of a meter.
 pub(super) const DISTANCES: [f64; 2] = [-0.3, 2.0];
 const NUM_STEPS: usize = 120;
 
 /// One standard deviation along the rays, meters, over …
 pub(super) struct Curves {
-    /// … the angle at which the rays meet, degrees, as camera 2 is led about the point.
+    /// … the angle between the rays, degrees, with camera 2 moved around the point.
     pub(super) angle: Vec<(f64, f64)>,
-    /// … the distance of the point from camera 1, meters, as it is led along the ray of camera 1.
+    /// … the distance of the point from camera 1, meters, with the point moved along that ray.
     pub(super) distance: Vec<(f64, f64)>,
-    /// What grows with the square of that distance, and is the same far away.
+    /// … the same distance, as a multiple of its square that agrees at the far end.
     pub(super) square: Vec<(f64, f64)>,
 }
 
 impl Curves {
-    /// Nothing where the cameras stand in one place.
+    /// Computes the curves; empty if both cameras have the same center.
     pub(super) fn new(cameras: &[PosedCamera; 2], truth: &Point3<f64>, sigma_px: f64) -> Self {
         let [center1, center2] = cameras.map(|camera| camera.center_in_world());
         let (ray1, ray2) = (truth - center1, truth - center2);

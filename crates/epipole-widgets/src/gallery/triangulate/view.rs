@@ -17,7 +17,7 @@ use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::Point2;
 
-/// How far in front of the centers the image planes are drawn, meters.
+/// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.35;
 const REGION: Role = Role::Series(3);
 const SHAPES: [Shape; 4] = [Shape::Cross, Shape::Plus, Shape::Triangle, Shape::Diamond];

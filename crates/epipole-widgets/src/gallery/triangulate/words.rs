@@ -1,4 +1,4 @@
-//! What `triangulate` says.
+//! Readouts and description of `triangulate`.
 
 use super::estimates::{Estimates, METHODS};
 use super::model::{Show, Triangulate};
@@ -6,13 +6,13 @@ use crate::contract::{Readout, Words, format_number};
 
 const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
 
-/// A length of any size in centimeters.
+/// Creates a readout of a length in centimeters; lengths from 99.99 m read "no limit".
 fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Readout {
     let cm = meters.map(|meters| 100.0 * meters);
     Readout::number(id, label, cm.filter(|cm| *cm < 9_999.0), 1, "cm").or("no limit")
 }
 
-/// What stands beside the region, in words.
+/// Describes the content beside the region.
 fn beside(show: Show, estimates: &Estimates) -> String {
     let px = |method| {
         let missed = estimates.reprojection_px(method);
@@ -46,7 +46,7 @@ fn beside(show: Show, estimates: &Estimates) -> String {
 
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
-        // Without any the readouts stay where they are, and tell no number.
+        // Without estimates the readouts keep their place, without numbers.
         let estimates = self.estimates().ok();
         let angle_deg = estimates.map(|estimates| estimates.angle_deg);
         let predicted = estimates.and_then(Estimates::uncertainty_m);

@@ -1,4 +1,4 @@
-//! `two-cameras`: two photographs of one point from above, and what a wrong match does.
+//! `two-cameras`: two photographs of one point, seen from above, and the effect of a wrong match.
 
 mod model;
 mod view;

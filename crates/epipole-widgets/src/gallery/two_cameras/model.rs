@@ -1,4 +1,4 @@
-//! Two equal cameras side by side, two balls that look alike, and the place where two rays meet.
+//! Two equal cameras side by side, two balls of equal appearance, and the intersection of two rays.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
@@ -10,11 +10,11 @@ use nalgebra::{Point2, Point3};
 
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 320);
-/// The principal point: round numbers, for readers who compute along.
+/// Principal point, pixels: round numbers, for readers who compute along.
 pub(super) const MIDDLE_PX: (f64, f64) = (320.0, 160.0);
-/// How far the balls' centers are below the cameras, meters.
+/// Height of the balls' centers below the cameras, meters.
 const BELOW_M: f64 = 0.12;
-/// Pixels that differ by less belong to rays that meet nowhere near.
+/// Disparity below which rays count as parallel, pixels.
 const PARALLEL_PX: f64 = 1.0;
 
 const BASELINE: Slider = Slider::new("baseline", "Baseline B")
@@ -24,7 +24,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline B")
     .unit("m");
 const WRONG: Toggle = Toggle::new("wrong", "Take Q for P");
 const KNOBS: &[Knob] = knobs![BASELINE, WRONG];
-/// Where the balls may be, meters to the right and meters away.
+/// Range of the balls' positions, meters to the right and meters away.
 const RANGES_M: [[f64; 2]; 2] = [[-1.2, 1.6], [0.7, 3.2]];
 
 /// P and Q.
@@ -37,12 +37,12 @@ const BALLS: [Probe; 2] = [
         .at(-0.2, 2.6),
 ];
 
-/// Where the rays through two pixels meet.
+/// Intersection of the rays through two pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meeting {
     /// In front of the cameras, (x, z) meters.
     Ahead(Point2<f64>),
-    /// Behind them, where no camera sees anything.
+    /// Behind the cameras, (x, z) meters.
     Behind(Point2<f64>),
     /// Nowhere: the rays are parallel.
     Nowhere,
@@ -67,7 +67,7 @@ impl TwoCameras {
         self.balls.map(|ball| ball.place())
     }
 
-    /// Where a camera, 0 on the left and 1 on the right, sees a ball, pixels.
+    /// Returns the pixel of a ball in a camera, 0 on the left and 1 on the right.
     pub(super) fn pixel(&self, camera: usize, ball: usize) -> Result<Point2<f64>, Problem> {
         let right_m = camera as f64 * self.baseline_m();
         let camera = PosedCamera {
@@ -78,18 +78,19 @@ impl TwoCameras {
         Ok(camera.project(&Point3::new(x, BELOW_M, z))?)
     }
 
-    /// The columns that are taken for images of P, left and right.
+    /// Returns the columns taken for images of P, left and right.
     pub(super) fn columns(&self) -> Result<[f64; 2], Problem> {
         let taken = usize::from(self.is_wrong());
         Ok([self.pixel(0, 0)?.x, self.pixel(1, taken)?.x])
     }
 
-    /// Column on the left minus column on the right, pixels.
+    /// Returns the column on the left minus the column on the right, pixels.
     pub(super) fn disparity_px(&self) -> f64 {
         self.columns().map_or(0.0, |[left, right]| left - right)
     }
 
-    /// By similar triangles, `Z = f B / d`; a negative disparity puts it behind.
+    /// Intersects the rays by similar triangles, `Z = f B / d`; a negative disparity gives a point
+    /// behind.
     pub(super) fn meeting(&self) -> Meeting {
         let disparity_px = self.disparity_px();
         if disparity_px.abs() < PARALLEL_PX {
@@ -213,7 +214,7 @@ mod tests {
         let mut model = TwoCameras::new();
         model.update(&Event::set(&WRONG, true)).unwrap();
         assert!(matches!(model.meeting(), Meeting::Ahead(found) if found.y < 1.5));
-        // The ray through P from the left, and one parallel to it from the right.
+        // The ray through P from the left, and a parallel one from the right.
         model.update(&Event::moved("other", 0.7, 2.0)).unwrap();
         assert_eq!(model.meeting(), Meeting::Nowhere);
         model.update(&Event::moved("other", 1.2, 2.0)).unwrap();

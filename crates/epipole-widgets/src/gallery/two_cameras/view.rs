@@ -1,4 +1,4 @@
-//! The cameras and the balls from above, with both image planes; beside it, what each camera sees.
+//! The cameras and the balls from above, with both image planes; beside it, both photographs.
 
 use super::model::{FOCAL_PX, MIDDLE_PX, Meeting, SIZE, TwoCameras};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
@@ -10,7 +10,7 @@ use crate::kit::plan::{self, PlanCamera};
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2};
 
-/// How far in front of the centers the image planes are drawn, and how large a ball is, meters.
+/// Distance of the drawn image planes from the centers, and radius of a ball, meters.
 const IMAGE_M: f64 = 0.45;
 const RADIUS_M: f64 = 0.09;
 const PHANTOM: Role = Role::Outlier;
@@ -84,7 +84,7 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     );
     let text = format!("B = {} m", format_number(model.baseline_m(), 2));
     labels.keep_rect_free(span_rect((left.0, right.0), y));
-    // Below it, or beside it where the plan ends.
+    // Below it, or beside it at the end of the plan.
     let places = [
         (((left.0 + right.0) / 2.0, y + 15.0), Align::Middle),
         ((right.0 + 9.0, y), Align::Start),
@@ -108,8 +108,8 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     }
 }
 
-/// Where the phantom is marked, and what is written there: one that is off the plan, on the left ray at the plan's
-/// edge, with its distance.
+/// Returns the position and the label of the phantom. If it is off the plan, it is marked on the
+/// left ray at the plan's edge, with its distance.
 fn phantom(found: Point2<f64>, panel: &Panel) -> (Point2<f64>, String) {
     let room = 12.0 / panel.scale_x();
     let (nearest, farthest) = (panel.y_axis.end + room, panel.y_axis.start - room);
@@ -124,10 +124,10 @@ fn phantom(found: Point2<f64>, panel: &Panel) -> (Point2<f64>, String) {
     (found * (depth / found.y), text)
 }
 
-/// Both balls, the column that is taken for P's and, on the right, how far it is from the left one.
+/// Draws both balls, the column taken for P's and, on the right, its distance from the left one.
 fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mut Canvas) {
     let mut balls = [0, 1].map(|ball: usize| (model.balls()[ball].1, ball));
-    // The nearer one covers the other.
+    // The nearer ball covers the other.
     balls.sort_by(|a, b| b.0.total_cmp(&a.0));
     for (depth_m, ball) in balls {
         let Ok(pixel) = model.pixel(camera, ball) else {
@@ -189,7 +189,7 @@ fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mu
     }
 }
 
-/// What a level span with its ends covers.
+/// Returns the rectangle of a horizontal span with its ends.
 fn span_rect((left, right): (f64, f64), y: f64) -> Rect {
     Rect::new(left, y - 4.0, right - left, 8.0)
 }
@@ -217,7 +217,7 @@ mod tests {
             assert_eq!(told, text);
             let (x, y) = plan.place_of(&shown);
             assert!((1.0..399.0).contains(&x) && (1.0..399.0).contains(&y));
-            // Still on the ray from the left camera.
+            // Still on the ray of the left camera.
             assert!((shown.x / shown.y - found.x / found.y).abs() < 1e-12);
         }
     }

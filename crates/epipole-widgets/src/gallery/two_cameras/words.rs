@@ -1,4 +1,4 @@
-//! What `two-cameras` says.
+//! Readouts and description of `two-cameras`.
 
 use super::model::{Meeting, TwoCameras};
 use crate::contract::{Readout, Words, format_number};

@@ -1,4 +1,4 @@
-//! A pair of photographs, the stage of the pipeline that is shown, and where its cloud is seen from.
+//! A pair of photographs, the shown stage of the pipeline, and the viewpoint of its cloud.
 
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, FileOffer,
@@ -59,12 +59,12 @@ const KNOCK: Slider = Slider::new("knock", "Knock camera 2")
     .at(2.0)
     .digits(1)
     .unit("°");
-/// What most telephones' main cameras have: 27 mm, in units of 36 mm.
+/// Usual focal length of a phone's main camera: 27 mm, in units of 36 mm.
 const USUAL_FOCAL: f64 = 0.75;
 const KNOBS: &[Knob] = knobs![STAGE, PAIR, RATIO, THRESHOLD, KNOCK, FOCAL];
 
 const SLOTS: &[PhotoSlot] = &pair_slots(800);
-/// Smaller pictures have no room for features.
+/// Minimum side of a photograph, pixels; smaller ones have no room for features.
 const MIN_SIDE_PX: u32 = 64;
 
 const STAGES: [Stage; 7] = [
@@ -80,13 +80,13 @@ const STAGES: [Stage; 7] = [
 /// Source of the focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FocalFrom {
-    /// The photographs are rendered with it.
+    /// Exact: the photographs are rendered with it.
     Known,
-    /// The reader has set it.
+    /// Set by the reader.
     Reader,
-    /// The file of a photograph.
+    /// Metadata of a photograph.
     File,
-    /// Nobody: it is what most telephones have.
+    /// Unknown: assumed to be the usual one of a phone.
     Guess,
 }
 
@@ -124,13 +124,13 @@ impl TwoViewSfm {
         self.settings.chosen(&PAIR) == OWN
     }
 
-    /// A photograph, perhaps before anything is computed.
+    /// Returns a photograph, also before the computation.
     pub(super) fn picture(&self, index: usize) -> Option<&Picture> {
         let answered = self.answer().map(|answer| &answer.pictures[index]);
         answered.or_else(|| self.own.get(index).filter(|_| self.is_own()))
     }
 
-    /// Where the photographs come from; `None` while the reader has not chosen both.
+    /// Returns the source of the photographs; `None` while the reader has not chosen both.
     fn source(&self) -> Option<Source> {
         match self.settings.chosen(&PAIR) {
             0 => Some(Source::Step),
@@ -139,19 +139,19 @@ impl TwoViewSfm {
         }
     }
 
-    /// How far camera 2 is turned against camera 1 as the stage has it, degrees.
+    /// Returns the rotation of camera 2 relative to camera 1 at the stage, degrees.
     pub(super) fn turn_deg(&self) -> Option<f64> {
         let (question, answer) = self.asked.answered()?;
         let motion = question.motion(answer, self.stage())?;
         Some(motion.rotation.angle().to_degrees())
     }
 
-    /// The true angle between the cameras of a rendered pair, degrees.
+    /// Returns the true angle between the cameras of a rendered pair, degrees.
     pub(super) fn true_turn_deg(&self) -> Option<f64> {
         self.source()?.true_turn_deg()
     }
 
-    /// The points that the stage shows, in the frame of camera 1 and in units of the baseline.
+    /// Returns the points of the stage, in the frame of camera 1 and in units of the baseline.
     fn cloud(&self) -> Option<PointCloud> {
         let motion = self.answer()?.motion.as_ref()?;
         let (points, colors) = match (self.stage(), &motion.surface) {
@@ -170,7 +170,7 @@ impl TwoViewSfm {
         Some(PointCloud { points, colors })
     }
 
-    /// States the computation that the present settings need.
+    /// Requests the computation for the current settings.
     fn ask(&mut self) {
         let Some(source) = self.source() else {
             return self.asked.refuse(self.own.wanted());
@@ -184,7 +184,7 @@ impl TwoViewSfm {
         });
     }
 
-    /// Other photographs: nothing that is known is of them.
+    /// Discards all results, since the photographs are different.
     fn begin(&mut self) {
         self.asked.forget();
         self.ask();
@@ -195,7 +195,7 @@ impl TwoViewSfm {
     }
 }
 
-/// A focal length in units of the longer side, and the lens that a full-frame camera would have.
+/// Formats a focal length in units of the longer side, with its full-frame equivalent.
 pub(super) fn focal_text(value: f64) -> String {
     let mm = format_number(36.0 * value, 0);
     format!("{} ({mm} mm)", format_number(value, 2))
@@ -241,7 +241,7 @@ impl Model for TwoViewSfm {
         self.orbit.handles().into()
     }
 
-    /// Those of one of the inliers, once matches are there to be seen.
+    /// Returns the symbols of one of the inliers, once matches are shown.
     fn symbols(&self) -> Vec<Symbol> {
         let shown = (self.stage() > Stage::Detect).then(|| self.answer());
         let (Some(answer), Some(picture)) = (shown.flatten(), self.picture(0)) else {
@@ -291,7 +291,7 @@ impl Model for TwoViewSfm {
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         if !self.is_own() {
-            // The rendered photographs' focal length is known; that of others is only guessed.
+            // The focal length of rendered photographs is known; that of others is only guessed.
             self.settings.slide(&FOCAL, USUAL_FOCAL);
             self.focal_from = FocalFrom::Guess;
             self.settings.choose(&PAIR, OWN);
@@ -385,7 +385,7 @@ mod tests {
             assert!((model.turn_deg().unwrap() - truth).abs() < 0.1, "{knock}");
             motion.error_px
         });
-        // RANSAC has fitted its pose to all inliers, so nothing is left to adjust.
+        // RANSAC has refitted its pose to all inliers, so nothing is left to adjust.
         assert!((errors[0][0] - errors[0][1]).abs() < 0.002, "{errors:?}");
         assert!(errors[1][0] > 5.0 && errors[2][0] > 25.0, "{errors:?}");
         assert!(errors.iter().all(|error| error[1] < 0.2), "{errors:?}");
@@ -407,7 +407,7 @@ mod tests {
                 .split_whitespace()
                 .next()?;
             let number: usize = number.parse().ok()?;
-            // Three numbers of four bytes and a color.
+            // Three floats and a color.
             let header = text.find("end_header\n")? + "end_header\n".len();
             assert_eq!(bytes.len(), header + 15 * number);
             Some(number)

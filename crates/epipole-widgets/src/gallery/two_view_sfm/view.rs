@@ -1,4 +1,4 @@
-//! The two photographs with what each stage finds, and beside them cameras and points in space.
+//! The two photographs with the results of each stage, and beside them cameras and points in space.
 
 use super::model::TwoViewSfm;
 use super::words;
@@ -14,16 +14,16 @@ use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3};
 
-/// More lines than this hide the photographs.
+/// Maximum number of match lines, so that the photographs stay visible.
 const MOST_LINES: usize = 32;
-/// Rays of more points than this hide the points.
+/// Maximum number of points with rays, so that the points stay visible.
 const MOST_RAYS: usize = 24;
 const PHOTOS: [&str; 2] = ["first", "second"];
 
 /// Draws [`TwoViewSfm`].
 #[derive(Default)]
 pub(crate) struct TwoViewSfmView {
-    /// What the reader looks at, of a version of the answer.
+    /// Cached frame of a version of the answer.
     framed: Option<(u64, Frame)>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct TwoViewSfmView {
 #[derive(Clone, Copy)]
 struct Frame {
     subject: Subject,
-    /// The height of the grid: below nearly all points, y being down.
+    /// y of the ground grid, below nearly all points; y is down.
     floor: f64,
 }
 
@@ -95,7 +95,7 @@ impl View for TwoViewSfmView {
     }
 }
 
-/// What is above the panels; lines between the photographs run below it.
+/// Draws the titles above the panels, clear of the lines between the photographs.
 fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
     for (index, id) in PHOTOS.into_iter().enumerate() {
         let Rect { x, y, .. } = layout.panel(id).rect;
@@ -125,14 +125,14 @@ fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
     grid::title(canvas, layout.panel("space").rect, title);
 }
 
-/// The size of a photograph, also before it is there.
+/// Returns the size of a photograph, also before it is there.
 fn size(model: &TwoViewSfm, index: usize) -> (u32, u32) {
     model
         .picture(index)
         .map_or(PHOTO_SIZE, |picture| picture.size())
 }
 
-/// Features, matches or points in both photographs.
+/// Draws features, matches or points in both photographs.
 fn draw_features(stage: Stage, answer: &Answer, layout: &Layout, canvas: &mut Canvas) {
     let panels = PHOTOS.map(|id| layout.panel(id));
     let radius = (panels[0].rect.width / 230.0).clamp(0.7, 1.6);
@@ -195,7 +195,7 @@ fn legend(canvas: &mut Canvas, rect: Rect, num_outliers: usize, num_inliers: usi
     }
 }
 
-/// The cameras and most of the points; without points, the space before camera 1.
+/// Returns a frame of the cameras and most of the points, or of the space before camera 1.
 fn frame(answer: &Answer) -> Frame {
     let Some(motion) = &answer.motion else {
         return Frame {
@@ -231,9 +231,9 @@ fn frame(answer: &Answer) -> Frame {
     }
 }
 
-/// Where in the box around all that is there the reader looks: what is near looks larger.
+/// Position of the subject's center in the bounding box, as a fraction; near parts look larger.
 const MIDDLE: f64 = 0.48;
-/// The radius of what is shown in a broad panel, as a share of the diagonal of that box.
+/// Radius of the subject in a broad panel, as a fraction of the box's diagonal.
 const FILL: f64 = 0.33;
 
 fn draw_space(
@@ -243,7 +243,7 @@ fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    // A narrow panel shows all of it from farther off.
+    // A narrow panel shows all of it from farther away.
     let breadth = panel.rect.width / panel.rect.height.max(1.0);
     let radius = subject.radius * (1.7 / breadth).clamp(1.0, 1.4);
     let subject = Subject { radius, ..subject };
@@ -254,7 +254,7 @@ fn draw_space(
     let Some((first, second)) = question.cameras(answer, stage) else {
         return;
     };
-    // A picture by itself is put up where the scene will be.
+    // A single picture is drawn where the scene will be.
     let depth = subject.radius * if second.is_none() { 0.9 } else { 0.24 };
     space.ground(&subject.middle, floor, 0.35 * subject.radius, 8);
     for (index, camera) in [Some(&first), second.as_ref()].into_iter().enumerate() {
@@ -312,7 +312,7 @@ fn draw_space(
     space.draw(canvas, panel);
 }
 
-/// What a feature is at a stage.
+/// Returns the color role of features at a stage.
 fn role_of(stage: Stage) -> Role {
     match stage {
         Stage::Detect | Stage::Match => Role::Candidate,
@@ -320,7 +320,7 @@ fn role_of(stage: Stage) -> Role {
     }
 }
 
-/// The features that a stage is about, in the photograph of camera 1.
+/// Returns the features of a stage in photograph 1.
 fn features_of_camera_1(stage: Stage, answer: &Answer) -> Vec<Point2<f64>> {
     let first = |pair: (u32, u32)| answer.pixels(pair)[0];
     match stage {
@@ -330,7 +330,7 @@ fn features_of_camera_1(stage: Stage, answer: &Answer) -> Vec<Point2<f64>> {
     }
 }
 
-/// The value that a share of all values, 0 to 1, is below.
+/// Returns the quantile of the values at `share`, 0 to 1.
 fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
     let place = (share * values.len().checked_sub(1)? as f64) as usize;
     values.sort_by(f64::total_cmp);

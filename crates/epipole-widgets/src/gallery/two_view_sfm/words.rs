@@ -1,4 +1,4 @@
-//! What `two-view-sfm` says: readouts, description, sentences.
+//! Readouts, description and sentences of `two-view-sfm`.
 
 use super::model::{FocalFrom, TwoViewSfm, focal_text};
 use crate::contract::{Readout, Words, format_number};
@@ -9,7 +9,7 @@ fn degrees(value: f64) -> String {
     format!("{}°", format_number(value, 1))
 }
 
-/// What went wrong, if there is no cloud.
+/// Returns the reason for having no cloud, if there is none.
 pub(super) fn failure((question, answer): (&Question, &Answer)) -> Option<String> {
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     Some(match answer.verdict {
@@ -55,7 +55,7 @@ pub(super) fn failure((question, answer): (&Question, &Answer)) -> Option<String
     })
 }
 
-/// What the reader should know of a cloud that is there.
+/// Returns a warning about the cloud, if any.
 fn caution(answer: &Answer) -> &'static str {
     match answer.verdict {
         Verdict::Plane => {
@@ -67,7 +67,7 @@ fn caution(answer: &Answer) -> &'static str {
     }
 }
 
-/// What camera 2 has been through before the adjustment, and after it.
+/// Describes the displacement of camera 2, before and after bundle adjustment.
 fn knocks(knock_deg: f64) -> (String, String) {
     let knock = format_number(knock_deg, 1);
     match knock_deg > 0.0 {
@@ -82,7 +82,7 @@ fn knocks(knock_deg: f64) -> (String, String) {
     }
 }
 
-/// Why not every pixel has a depth, where the cameras are known.
+/// Returns the reason for having no dense points although the cameras are known.
 pub(super) fn no_surface(answer: &Answer) -> Option<String> {
     let motion = answer.motion.as_ref()?;
     let error = motion.surface.as_ref().err()?;
@@ -101,8 +101,8 @@ pub(super) fn no_surface(answer: &Answer) -> Option<String> {
 }
 
 impl Words for TwoViewSfm {
-    /// What each stage up to the present one has found. What it does not know yet is a dash, so that
-    /// every number keeps its place.
+    /// Reports every stage up to the current one. Later stages show a dash, so that every number
+    /// keeps its place.
     fn readouts(&self) -> Vec<Readout> {
         let (stage, answer) = (self.stage(), self.answer());
         let unknown = if answer.is_some() || self.asked.problem().is_some() {

@@ -1,5 +1,5 @@
-//! The picture, and what is found at a place of the window: the change under every shift, and the
-//! structure tensor.
+//! The picture, and the measurements of a window: the change under every shift, and the structure
+//! tensor.
 
 use crate::kit::picture::gray_levels;
 use crate::kit::scenes::square_picture;
@@ -8,19 +8,19 @@ use epipole::imaging::{Border, GrayImage32};
 use image::RgbImage;
 use nalgebra::Vector2;
 
-/// Shifts of so many pixels to each side are tried.
+/// Maximum shift along each axis, pixels.
 pub(super) const REACH: usize = 8;
-/// The part of the picture that is shown: left, top, width and height, pixels. Windows shifted as far as
-/// possible see pixels around it.
+/// The shown part of the picture: left, top, width and height, pixels. Shifted windows also use
+/// pixels around it.
 pub(super) const SHOWN: (u32, u32, u32, u32) = (100, 75, 120, 90);
-/// Half of the largest window, pixels.
+/// Half size of the largest window, pixels.
 pub(super) const LARGEST_HALF: u32 = 10;
-/// What counts as a change, gray levels: the ellipse is where Taylor expects this root mean square.
+/// Root mean square change on the ellipse of Taylor's estimate, gray levels.
 pub(super) const CHANGE: f64 = 60.0;
-/// Sobel's 3×3 filter answers 8 times the slope.
+/// Squared gain of Sobel's 3×3 filter, which is 8 times the slope.
 const SOBEL_GAIN_SQ: f64 = 64.0;
 
-/// What the window lies on.
+/// Classification of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
     Flat,
@@ -28,7 +28,7 @@ pub(super) enum Verdict {
     Corner,
 }
 
-/// Everything that follows from the place of the window. Sums are by pixel of the window.
+/// Measurements of a window. Sums are divided by the number of its pixels.
 pub(super) struct Found {
     tensor: WindowTensor,
     surface: ShiftSurface,
@@ -36,25 +36,25 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The squared change under a shift by whole pixels; none beyond the reach.
+    /// Returns the squared change under a shift by whole pixels; 0 beyond the reach.
     pub(super) fn change(&self, (du, dv): (f64, f64)) -> f64 {
         self.surface.at(du as i32, dv as i32).unwrap_or(0.0) / self.pixels
     }
 
-    /// Taylor's estimate of the squared change under a shift.
+    /// Returns Taylor's estimate of the squared change under a shift.
     pub(super) fn estimate(&self, (du, dv): (f64, f64)) -> f64 {
         self.tensor.change(&Vector2::new(du, dv)) / self.pixels
     }
 
-    /// The eigenvalues of the structure tensor, the larger first.
+    /// Returns the eigenvalues of the structure tensor, larger first.
     pub(super) fn eigenvalues(&self) -> (f64, f64) {
         let (large, small) = self.tensor.eigenvalues();
         (large / self.pixels, small / self.pixels)
     }
 
-    /// The shifts under which Taylor expects the change [`CHANGE`]: the half axes of the ellipse,
-    /// pixels, the shorter first, and the direction of that one. An axis that the picture leaves
-    /// open is a thousand pixels long.
+    /// Returns the ellipse of shifts with an estimated change of [`CHANGE`]: the half axes in
+    /// pixels, shorter first, and the direction of the shorter one. An undetermined axis is a
+    /// thousand pixels long.
     pub(super) fn ellipse(&self) -> (f64, f64, f64) {
         let (large, small) = self.eigenvalues();
         let half_axis = |lambda: f64| (CHANGE / lambda.sqrt().max(1e-9)).min(1000.0);
@@ -62,7 +62,7 @@ impl Found {
         (half_axis(large), half_axis(small), angle)
     }
 
-    /// What the window lies on, if eigenvalues count as large from `threshold`.
+    /// Classifies the window; eigenvalues count as large from `threshold`.
     pub(super) fn verdict(&self, threshold: f64) -> Verdict {
         let (large, small) = self.eigenvalues();
         match (large >= threshold, small >= threshold) {
@@ -73,7 +73,7 @@ impl Found {
     }
 }
 
-/// The part of the picture that is shown, and all of it in gray levels.
+/// Returns the shown part of the picture, and the whole picture in gray levels.
 pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
     let whole = square_picture(noise);
     let (left, top, width, height) = SHOWN;
@@ -81,10 +81,10 @@ pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
     (shown, gray_levels(&whole))
 }
 
-/// Measures the window of so many pixels with its middle at column u and row v.
+/// Measures a window of this size, pixels, centered at column u and row v.
 ///
 /// # Errors
-/// As the core's functions; places within the handle's range are never refused.
+/// As the core's functions; positions within the handle's range never fail.
 pub(super) fn find(
     gray: &GrayImage32,
     (u, v): (u32, u32),

@@ -1,5 +1,4 @@
-//! `window-shift`: how much a window changes when it is shifted, and what the structure tensor
-//! says about it.
+//! `window-shift`: the change of a window under a shift, and its estimate by the structure tensor.
 
 mod measure;
 mod model;

@@ -22,12 +22,12 @@ const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .at(100.0);
 const KNOBS: &[Knob] = knobs![WINDOW, NOISE, THRESHOLD];
 
-/// At first on a corner of the square. The largest window stays within what is shown.
+/// Initially on a corner of the square. The largest window stays within the shown part.
 const PLACE: Probe = Probe::new("place", "picture", "Window")
     .within([room(SHOWN.0, SHOWN.2), room(SHOWN.1, SHOWN.3)])
     .step(2.0)
     .at(151.0, 143.0);
-/// The shift to try: columns to the right and rows down, whole pixels.
+/// The tested shift: columns to the right and rows down, whole pixels.
 const SHIFT: Probe = Probe::new("shift", "map", "Shift")
     .within([[-(REACH as f64), REACH as f64]; 2])
     .told(|(du, dv)| {
@@ -39,7 +39,7 @@ const fn room(from: u32, size: u32) -> [f64; 2] {
     let half = LARGEST_HALF;
     [(from + half) as f64, (from + size - 1 - half) as f64]
 }
-/// Right of here the square does not reach into any window.
+/// Column from which no window includes the square.
 const PLAIN_FROM: f64 = 190.0;
 
 /// The model of `window-shift`.
@@ -47,12 +47,12 @@ pub struct WindowShift {
     settings: Settings,
     pub(super) window: Probe,
     pub(super) shift: Probe,
-    /// What is shown.
+    /// Shown part of the picture.
     pub(super) picture: RgbImage,
     /// Gray levels of the whole picture.
     gray: GrayImage32,
     found: Result<Found, epipole::Error>,
-    /// Counts pictures and places, so that the view knows when to color the map anew.
+    /// Counter of pictures and positions, for the cache of the view's map.
     pub(super) version: u64,
 }
 
@@ -61,7 +61,7 @@ impl WindowShift {
         self.settings.count(&WINDOW)
     }
 
-    /// What is found there.
+    /// Returns the measurements of the window.
     pub(super) fn found(&self) -> Result<&Found, String> {
         let found = self.found.as_ref();
         found.map_err(|error| format!("{error}."))

@@ -13,7 +13,7 @@ use image::RgbImage;
 const LEGEND: f64 = 26.0;
 /// Root mean square change from one level line to the next, gray levels.
 const LEVEL: f64 = 15.0;
-/// The one that has full color.
+/// Root mean square change drawn at full saturation, gray levels.
 const STRONG: f64 = 150.0;
 /// Squared change at the top of the surface.
 const TOP: f64 = 11_000.0;
@@ -81,7 +81,7 @@ impl View for WindowShiftView {
     }
 }
 
-/// The window where it is, and where the shift takes it.
+/// Draws the window at its position and at the shifted one.
 fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     let side = model.window_px() as f64 * panel.scale_x();
     let ((u, v), (du, dv)) = (model.window.place(), model.shift.place());
@@ -93,7 +93,7 @@ fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     canvas.grip(still, Role::Grip);
 }
 
-/// Where Taylor expects the change of the legend, its half axes, and the shift to try.
+/// Draws the ellipse of Taylor's estimate, its half axes, and the tested shift.
 fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Found) {
     let (short, long, angle) = found.ellipse();
     let across = (libm::cos(angle), libm::sin(angle));
@@ -128,7 +128,7 @@ fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Foun
     canvas.grip(shift, Role::Grip);
 }
 
-/// Level lines of the root mean square change; pale where it is less than [`CHANGE`].
+/// Colors the map with level lines of the root mean square change, pale below [`CHANGE`].
 fn colored(terrain: &Terrain, theme: Theme) -> RgbImage {
     let [pale, strong, line] =
         [Role::Surface, Role::Candidate, Role::Ink].map(|role| theme.color(role));
@@ -156,7 +156,7 @@ fn draw_surface(canvas: &mut Canvas, rect: Rect, terrain: &Terrain, model: &Wind
     });
 }
 
-/// What the window is on, and what the marks of the map mean.
+/// Draws the window's class and the legend of the map.
 fn draw_legend(canvas: &mut Canvas, layout: &Layout, model: &WindowShift, found: &Found) {
     let [picture, map] = ["picture", "map"].map(|id| layout.panel(id).rect);
     let y = picture.bottom().max(map.bottom()) + LEGEND / 2.0 + 2.0;

@@ -1,11 +1,11 @@
-//! What `window-shift` says.
+//! Readouts and description of `window-shift`.
 
 use super::measure::Verdict;
 use super::model::WindowShift;
 use crate::contract::{Readout, Words, format_number};
 
 impl Verdict {
-    /// One word, the same in the picture and beside it.
+    /// Returns the class in one word, as in the picture and beside it.
     pub(super) fn word(self) -> &'static str {
         match self {
             Verdict::Flat => "flat",

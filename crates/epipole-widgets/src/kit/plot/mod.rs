@@ -1,7 +1,7 @@
-//! Plots: axes with ticks, linear or in decades, curves on them, and a line that says where one is.
+//! Plots: axes with ticks, linear or logarithmic, curves, and a line at the current value.
 //!
-//! A panel's world is linear, so an axis in [`Ruler::decades`] has the logarithm to base 10 as its
-//! world; [`decade`] takes values there.
+//! A panel's world is linear, so the world of an axis in [`Ruler::decades`] is the logarithm to
+//! base 10; [`decade`] converts values.
 
 mod ruler;
 
@@ -12,21 +12,21 @@ use crate::kit::grid::{SMALL, fitting_title};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
 
-/// Room for the numbers of the vertical axis.
+/// Room for the numbers of the vertical axis, CSS pixels.
 pub(crate) const LEFT: f64 = 42.0;
-/// Room for those of the horizontal one.
+/// Room for the numbers of the horizontal axis, CSS pixels.
 const BELOW: f64 = 22.0;
 /// Room to the right of a plot.
 const RIGHT: f64 = 6.0;
 /// Room for the name of the horizontal axis.
 const NAME: f64 = 17.0;
-/// Size of raised letters.
+/// Font size of exponents, CSS pixels.
 const RAISED: f64 = 9.0;
-/// Least distance of ticks along the horizontal and the vertical axis.
+/// Minimum spacing of ticks along the horizontal and the vertical axis, CSS pixels.
 const ACROSS: f64 = 58.0;
 const DOWN: f64 = 30.0;
 
-/// The number of a tick; what follows a "^" is raised. The font has no raised minus.
+/// Draws the number of a tick; what follows a "^" is raised, since the font has no raised minus.
 fn draw_number(canvas: &mut Canvas, (x, y): Place, text: &str, style: TextStyle) {
     let (base, raised) = text.split_once('^').unwrap_or((text, ""));
     if raised.is_empty() {
@@ -56,7 +56,7 @@ fn number_width(text: &str) -> f64 {
     text_width(base, SMALL) + text_width(raised, RAISED) + 1.0
 }
 
-/// A plot's panel within a cell, with room for the numbers of its axes.
+/// Creates a plot's panel within a cell, with room for the numbers of its axes.
 pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel {
     let below = if x.name.is_empty() {
         BELOW
@@ -72,7 +72,7 @@ pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel
     Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
 }
 
-/// A plot's panel with its title, in the first wording that fits, and its axes.
+/// Draws a plot's title, in the first wording that fits, and its axes.
 pub(crate) fn open<'a>(
     canvas: &mut Canvas,
     layout: &'a Layout,
@@ -86,7 +86,8 @@ pub(crate) fn open<'a>(
     panel
 }
 
-/// The title of a plot, in the first wording that fits, from where the numbers of its vertical axis begin.
+/// Draws the title of a plot, in the first wording that fits, aligned with the numbers of the
+/// vertical axis.
 pub(crate) fn title_from_left(canvas: &mut Canvas, panel: &Panel, titles: &[&str]) {
     let Rect { x, width, .. } = panel.rect;
     let above = Rect {
@@ -97,7 +98,7 @@ pub(crate) fn title_from_left(canvas: &mut Canvas, panel: &Panel, titles: &[&str
     fitting_title(canvas, above, titles);
 }
 
-/// The surface, the ticks and their numbers.
+/// Draws the background, the ticks and their numbers.
 pub(crate) fn draw_axes(canvas: &mut Canvas, panel: &Panel, x: &Ruler, y: &Ruler) {
     let rect = panel.rect;
     canvas.panel(rect);
@@ -106,14 +107,14 @@ pub(crate) fn draw_axes(canvas: &mut Canvas, panel: &Panel, x: &Ruler, y: &Ruler
     for (at, text) in y.ticks(rect.height, DOWN) {
         let v = panel.canvas_from_world((x.from, at)).1;
         canvas.line((rect.x + 1.0, v), (rect.right() - 1.0, v), grid);
-        // Half of a number at the very end would run into the title.
+        // At the very top, half of a number would run into the title.
         let beside = v.max(rect.y + 4.0);
         draw_number(canvas, (rect.x - 6.0, beside), &text, style.end());
     }
     for (at, text) in x.ticks(rect.width, ACROSS) {
         let u = panel.canvas_from_world((at, y.from)).0;
         canvas.line((u, rect.y + 1.0), (u, rect.bottom() - 1.0), grid);
-        // The last number may stand at the very end, where half of it has no room.
+        // At the very right, half of a number has no room.
         let middle = u.min(rect.right() + RIGHT - number_width(&text) / 2.0);
         draw_number(
             canvas,
@@ -128,7 +129,7 @@ pub(crate) fn draw_axes(canvas: &mut Canvas, panel: &Panel, x: &Ruler, y: &Ruler
     }
 }
 
-/// A curve through places of the panel's world; what is outside is cut off.
+/// Draws a curve in the panel's world, clipped to the panel.
 pub(crate) fn draw_curve(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -143,17 +144,17 @@ pub(crate) fn draw_curve(
     });
 }
 
-/// Values of an axis that counts things, in decades: a curve with a mark for each.
+/// A curve with marks over an axis of named items, in decades.
 pub(crate) struct List<'a> {
     pub(crate) values: &'a [f64],
     pub(crate) stroke: Stroke,
-    /// Shape and radius of its marks.
+    /// Shape and radius of the marks, CSS pixels.
     pub(crate) mark: (Shape, f64),
-    /// Its name, and the index of the value beside which it stands.
+    /// Name, and the index of the value beside which it is drawn.
     pub(crate) name: (&'a str, usize),
 }
 
-/// Draws lists, and then their names beside them. A value beyond the axis is drawn at its edge.
+/// Draws lists, and then their names beside them. Values beyond the axis are drawn at its edge.
 pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
     let mut labels = Labels::new(panel.rect.inset(2.0));
     let world = |(k, value): (usize, &f64)| {
@@ -178,7 +179,7 @@ pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
     }
 }
 
-/// The line that says where along the horizontal axis the figure is now.
+/// Draws the line at the current value of the horizontal axis.
 pub(crate) fn draw_now(canvas: &mut Canvas, panel: &Panel, x: f64) {
     let u = panel.canvas_from_world((x, 0.0)).0;
     let rect = panel.rect;

@@ -1,40 +1,40 @@
-//! An axis of a plot: what it spans, and where its numbers stand.
+//! An axis of a plot: its range, ticks and numbers.
 
 use crate::contract::format_number;
 
-/// Least distance of names along an axis that counts things.
+/// Minimum spacing of names along an axis of named items, CSS pixels.
 const NAMES: f64 = 20.0;
 
 /// The names of nine singular values.
 pub(crate) const SIGMAS: &[&str] = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
 
-/// How values are spread along an axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
     Linear,
-    /// Each power of ten takes as much room as the next.
+    /// Logarithmic: each power of ten has the same length.
     Decades,
 }
 
 /// An axis of a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ruler {
-    /// From where to where, in the panel's world.
+    /// Start of the range, in the panel's world.
     pub(super) from: f64,
     pub(super) to: f64,
     scale: Scale,
-    /// What stands below a horizontal axis; a vertical axis is named by the plot's title.
+    /// Name below a horizontal axis; the plot's title names a vertical axis.
     pub(super) name: &'static str,
-    /// What stands behind each number.
+    /// Unit after each number.
     unit: &'static str,
-    /// By how much numbers are multiplied before they are shown.
+    /// Factor applied to numbers before they are shown.
     times: f64,
-    /// What stands at 1, 2, 3 … instead of numbers.
+    /// Names at 1, 2, 3 …, instead of numbers.
     names: &'static [&'static str],
 }
 
 impl Ruler {
-    /// From `from` to `to`, evenly.
+    /// Creates a linear axis from `from` to `to`.
     pub(crate) fn linear(from: f64, to: f64) -> Self {
         Self {
             from,
@@ -47,7 +47,7 @@ impl Ruler {
         }
     }
 
-    /// Things that are counted from 1, with their names.
+    /// Creates an axis of items that are counted from 1, with their names.
     pub(crate) fn things(names: &'static [&'static str]) -> Self {
         Self {
             names,
@@ -55,7 +55,7 @@ impl Ruler {
         }
     }
 
-    /// From `10^from` to `10^to`.
+    /// Creates a logarithmic axis from `10^from` to `10^to`.
     pub(crate) fn decades(from: f64, to: f64) -> Self {
         Self {
             scale: Scale::Decades,
@@ -63,12 +63,12 @@ impl Ruler {
         }
     }
 
-    /// The same axis with a name below it.
+    /// Sets the name below the axis.
     pub(crate) fn named(self, name: &'static str) -> Self {
         Self { name, ..self }
     }
 
-    /// The same axis with numbers in a unit, such as shares in percent.
+    /// Sets the unit of the numbers and their factor, such as percent.
     pub(crate) fn shown(self, times: f64, unit: &'static str) -> Self {
         Self {
             times,
@@ -77,9 +77,9 @@ impl Ruler {
         }
     }
 
-    /// Where the ticks are, and what they say, so that the axis of this length has room for them.
+    /// Returns positions and labels of the ticks that fit an axis of this length, CSS pixels.
     ///
-    /// * `apart`: least distance of numbers
+    /// * `apart`: minimum spacing of the numbers, CSS pixels
     pub(super) fn ticks(&self, length: f64, apart: f64) -> Vec<(f64, String)> {
         if !self.names.is_empty() {
             let every = (self.names.len() as f64 * NAMES / length.max(1.0)).ceil();
@@ -105,7 +105,7 @@ impl Ruler {
                 let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 6.0) as usize;
                 format!("{}{}", format_number(at * self.times, digits), self.unit)
             }
-            // One notation for all numbers of an axis.
+            // Use one notation for all numbers of an axis.
             Scale::Decades if first as f64 * step < -3.0 || last as f64 * step > 3.0 => {
                 format!("10^{}", format_number(at, 0))
             }
@@ -120,7 +120,7 @@ impl Ruler {
     }
 }
 
-/// The next larger of 1, 2, 5, 10, 20 …
+/// Rounds up to 1, 2, 5, 10, 20 …
 fn round_step(step: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(step.max(1e-300))));
     let times = [1.0, 2.0, 5.0]
@@ -129,12 +129,12 @@ fn round_step(step: f64) -> f64 {
     times.unwrap_or(10.0) * power
 }
 
-/// A power of ten in full.
+/// Writes a power of ten in full.
 fn power_of_ten(power: i32) -> String {
     format_number(libm::exp10(f64::from(power)), (-power).max(0) as usize)
 }
 
-/// Ticks at 1, 2, 5, 10, 20 … where an axis spans hardly a decade.
+/// Returns ticks at 1, 2, 5, 10, 20 … for an axis of about one decade or less.
 fn within_decades(low: f64, high: f64) -> Vec<(f64, String)> {
     let powers = libm::floor(low) as i32..=libm::floor(high) as i32;
     let ticks = powers.flat_map(|power| {
@@ -150,7 +150,7 @@ fn within_decades(low: f64, high: f64) -> Vec<(f64, String)> {
     ticks.filter(is_inside).collect()
 }
 
-/// Where a value is on an axis in decades; zero and less are far below.
+/// Converts a value to the world of a logarithmic axis; zero and negative values are far below.
 pub(crate) fn decade(value: f64) -> f64 {
     libm::log10(value.max(1e-300))
 }

@@ -1,4 +1,4 @@
-//! What do two photographs tell? Every stage, from their pixels to points in space, as one question.
+//! Two-view reconstruction as one question: every stage from pixels to points in space.
 
 mod stages;
 mod surface;
@@ -16,12 +16,12 @@ use epipole_scenes::still_life_camera;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Where the cameras of the rendered pairs are, and where they look.
+/// Center and target of the cameras of the rendered pairs, meters.
 const FIRST: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.02, -0.16, 0.05]];
 const STEP: [[f64; 3]; 2] = [[0.22, -0.47, -1.20], [0.02, -0.16, 0.05]];
 const TURN: [[f64; 3]; 2] = [[-0.12, -0.45, -1.24], [0.30, -0.20, 0.0]];
 
-/// How far the pipeline has come; later stages know what earlier ones do.
+/// Stage of the pipeline; later stages include earlier results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Stage {
     Detect,
@@ -33,77 +33,76 @@ pub(crate) enum Stage {
     Surface,
 }
 
-/// Where the two photographs come from.
+/// Source of the two photographs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Source {
     /// The rendered still life, from two places.
     Step,
     /// The rendered still life, from one place in two directions.
     Turn,
-    /// The reader's own.
+    /// The reader's own photographs.
     Own([Picture; 2]),
 }
 
-/// Everything that the answer depends on.
+/// Input of the computation.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Question {
     pub(crate) source: Source,
     /// Focal length, in units of a photograph's longer side.
     pub(crate) focal: f64,
-    /// Of Lowe's test.
+    /// Maximum ratio of Lowe's test.
     pub(crate) max_ratio: f32,
     /// Largest distance of an inlier from its epipolar line, pixels.
     pub(crate) max_error_px: f64,
-    /// How far camera 2 is turned away from its pose before points are triangulated, degrees.
+    /// Rotation that displaces camera 2 from its pose before triangulation, degrees.
     pub(crate) knock_deg: f64,
 }
 
 /// A point of the cloud.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CloudPoint {
-    /// Where it is in the frame of camera 1; the baseline has length 1.
+    /// Position in the frame of camera 1; the baseline has length 1.
     pub(crate) place: Point3<f64>,
-    /// Where it was before the adjustment.
+    /// Position before bundle adjustment.
     pub(crate) triangulated: Point3<f64>,
     pub(crate) color: [u8; 3],
 }
 
 impl CloudPoint {
-    /// Where it was before the adjustment, and its color.
+    /// Returns its position before bundle adjustment, and its color.
     pub(crate) fn before(&self) -> (Point3<f64>, [u8; 3]) {
         (self.triangulated, self.color)
     }
 }
 
-/// A motion and what follows from it.
+/// A relative pose and the reconstruction from it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Motion {
-    /// Camera 2 in the frame of camera 1, as RANSAC found it.
+    /// Pose of camera 2 relative to camera 1, from RANSAC.
     pub(crate) found: RigidTransform,
-    /// The same, adjusted.
+    /// The same after bundle adjustment.
     pub(crate) cam2_from_cam1: RigidTransform,
-    /// How many inliers each of the four poses of E puts in front of both cameras, most first.
+    /// Number of inliers in front of both cameras for each of the four poses of E, most first.
     pub(crate) num_in_front: [usize; 4],
-    /// Root mean square of the distances of projections from their features, pixels, before and
-    /// after the adjustment of all.
+    /// Root mean square reprojection error before and after bundle adjustment, pixels.
     pub(crate) error_px: [f64; 2],
     pub(crate) points: Vec<CloudPoint>,
-    /// Every pixel that has a partner in its row; or why there is none.
+    /// Every pixel with a match in its row, or the reason for having none.
     pub(crate) surface: Result<Surface, String>,
 }
 
-/// What the computation finds.
+/// Result of the computation.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Answer {
     pub(crate) pictures: [Picture; 2],
-    /// Places of all features, pixels.
+    /// Positions of all features, pixels.
     pub(crate) keypoints: [Vec<Point2<f64>>; 2],
-    /// The features of each match.
+    /// Feature indices of each match.
     pub(crate) matches: Vec<(u32, u32)>,
-    /// For each match, whether it agrees with what was found.
+    /// Inlier mask over the matches.
     pub(crate) inliers: Vec<bool>,
     pub(crate) verdict: Verdict,
-    /// There for the verdicts that have a cloud.
+    /// Present for the verdicts that have a cloud.
     pub(crate) motion: Option<Motion>,
 }
 
@@ -120,7 +119,7 @@ impl Motion {
         let numbers = places.flat_map(|place| place.iter()).chain(&self.error_px);
         let surface = self.surface.iter().flat_map(|surface| &surface.points);
         let surface = surface.flat_map(|(place, _)| place);
-        // NaN is not less than anything.
+        // Written so that NaN fails.
         is_motion(&self.found)
             && is_motion(&self.cam2_from_cam1)
             && numbers.into_iter().all(|x| x.abs() < 1e12)
@@ -129,12 +128,12 @@ impl Motion {
 }
 
 impl Answer {
-    /// Where the two features of a match are, pixels.
+    /// Returns the positions of a match's two features, pixels.
     pub(crate) fn pixels(&self, (i, j): (u32, u32)) -> [Point2<f64>; 2] {
         [self.keypoints[0][i as usize], self.keypoints[1][j as usize]]
     }
 
-    /// The matches that agree with what was found, or those that do not.
+    /// Returns the inlier matches, or the outlier matches.
     pub(crate) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
         let matches = self.matches.iter().zip(&self.inliers);
         matches.filter_map(move |(pair, is_inlier)| (*is_inlier == agree).then_some(*pair))
@@ -150,7 +149,7 @@ impl Question {
         Intrinsics::centered(self.focal * f64::from(width.max(height)), width, height)
     }
 
-    /// Camera 2 in the frame of camera 1, as a stage has it.
+    /// Returns the pose of camera 2 relative to camera 1 at a stage.
     pub(crate) fn motion(&self, answer: &Answer, stage: Stage) -> Option<RigidTransform> {
         let motion = answer.motion.as_ref()?;
         match stage {
@@ -161,7 +160,7 @@ impl Question {
         }
     }
 
-    /// Camera 1 of the answer, and camera 2 once a stage knows its motion.
+    /// Returns camera 1, and camera 2 once a stage knows its pose.
     pub(crate) fn cameras(
         &self,
         answer: &Answer,
@@ -180,7 +179,7 @@ impl Question {
         Some((camera(0, RigidTransform::identity())?, second))
     }
 
-    /// Camera 2 turned on the spot, up and aside.
+    /// Rotates camera 2 about its center, up and sideways.
     fn knocked(&self, cam2_from_cam1: &RigidTransform) -> RigidTransform {
         let axis = Vector3::new(0.8, 0.6, 0.0) * self.knock_deg.to_radians();
         UnitQuaternion::from_scaled_axis(axis) * cam2_from_cam1
@@ -199,7 +198,7 @@ impl question::Question for Question {
     fn fits(&self, answer: &Answer) -> bool {
         let nums = answer.keypoints.each_ref().map(Vec::len);
         let is_there = |(i, j): &(u32, u32)| (*i as usize) < nums[0] && (*j as usize) < nums[1];
-        // NaN is not within any bounds.
+        // Written so that NaN fails.
         let is_place = |pixel: &Point2<f64>| pixel.iter().all(|x| x.abs() < 1e6);
         answer.keypoints.iter().flatten().all(is_place)
             && answer.matches.iter().all(is_there)
@@ -209,7 +208,7 @@ impl question::Question for Question {
 }
 
 impl Source {
-    /// The true cameras of a rendered pair.
+    /// Returns the true cameras of a rendered pair.
     fn cameras(&self) -> Result<[PosedCamera; 2], Error> {
         let second = match self {
             Self::Turn => TURN,
@@ -225,7 +224,7 @@ impl Source {
         Ok([camera(FIRST)?, camera(second)?])
     }
 
-    /// How far camera 2 of a rendered pair is really turned, degrees.
+    /// Returns the true rotation of camera 2 of a rendered pair, degrees.
     pub(crate) fn true_turn_deg(&self) -> Option<f64> {
         if matches!(self, Self::Own(_)) {
             return None;

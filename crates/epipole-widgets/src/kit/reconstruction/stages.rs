@@ -1,4 +1,4 @@
-//! How the question is answered: stage after stage.
+//! The stages of the reconstruction.
 
 use super::surface::surface;
 use super::verdict::{Judged, Verdict, judge};
@@ -16,11 +16,11 @@ use epipole::progress::Status;
 use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 use nalgebra::Point2;
 
-/// More features than this cost time and show nothing new.
+/// Maximum number of features per photograph; more cost time and show nothing new.
 const MAX_FEATURES: usize = 3000;
 
 impl Question {
-    /// Every stage, one after the other.
+    /// Runs every stage in order.
     ///
     /// # Errors
     /// As the stages, and [`Error::Canceled`] if `progress` ended it.
@@ -77,7 +77,7 @@ impl Question {
         Ok([first.into(), second.into()])
     }
 
-    /// Features of the first photograph and what they match in the second.
+    /// Matches the features of the first photograph with those of the second.
     fn matches(&self, first: &Features, second: &Features) -> Result<Vec<(u32, u32)>, Error> {
         let options = MatchOptions::default().with_max_ratio(Some(self.max_ratio));
         let found = match_descriptors(&first.descriptors, &second.descriptors, &options, &mut ())?;
@@ -85,7 +85,7 @@ impl Question {
         Ok(pairs.collect())
     }
 
-    /// What the inliers of a pair with depth give; `None` if hardly any point can be had.
+    /// Reconstructs a pair with depth from its inliers; `None` if hardly any point is found.
     fn reconstruct(
         &self,
         judged: &Judged,
@@ -114,7 +114,7 @@ impl Question {
             &mut (),
         );
         let found = match found {
-            // The rays of all but a few meet at a narrow angle.
+            // All but a few points have too small a triangulation angle.
             Err(Error::TooFew { .. }) => return Ok(None),
             found => found?,
         };
@@ -136,7 +136,7 @@ impl Question {
         }))
     }
 
-    /// Every pixel as a point, where the pair can be rectified.
+    /// Adds a point for every pixel, if the pair can be rectified.
     fn look_everywhere(
         motion: &mut Motion,
         pictures: &[Picture; 2],
@@ -154,7 +154,7 @@ impl Question {
     }
 }
 
-/// What the core looks for in photographs by default, and no other kind: a worker would download those for nothing.
+/// Detects the core's default features; any other kind would enlarge the worker's download.
 fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error> {
     let options = FeatureOptions::default().with_max_features(MAX_FEATURES);
     let (width, height) = picture.size();

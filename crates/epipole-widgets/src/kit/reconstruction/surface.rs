@@ -1,5 +1,5 @@
-//! Every pixel of the first photograph as a point: the pair is rectified with the cameras that were found,
-//! and each pixel looks for its partner in its row.
+//! Dense points: the pair is rectified with the estimated cameras, and stereo matching finds a
+//! point for each pixel of the first photograph.
 
 use crate::contract::{Panel, Progress};
 use crate::kit::space::Space;
@@ -14,29 +14,29 @@ use image::RgbImage;
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-/// The longer side of the rectified pictures: more pixels show nothing new in a figure.
+/// Longer side of the rectified images, pixels; more show nothing new in a figure.
 const LONGEST_PX: u32 = 480;
-/// More candidates than this take too long; the farthest are left out.
+/// Maximum number of disparities, for speed; the farthest are left out.
 const MOST_DISPARITIES: u32 = 192;
-/// A surface of fewer pixels than this is an error that agrees with itself.
+/// Smallest consistent region, pixels; smaller ones are matching errors.
 const SPECKLE_PX: u32 = 150;
 
-/// The pixels of camera 1 whose depth is known.
+/// The pixels of camera 1 with known depth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
-    /// Where they are in the frame of camera 1, in units of the baseline, and their colors: first, row by row,
-    /// a quarter of them that is spread over all.
+    /// Positions in the frame of camera 1, in units of the baseline, and colors. The first quarter
+    /// is an even subsample; both parts are in row order.
     pub(crate) points: Vec<([f32; 3], [u8; 3])>,
     num_coarse: u32,
 }
 
 impl Surface {
-    /// As many of them as the eye can tell apart in a figure, row by row.
+    /// Returns the even subsample, as dense as a figure can show.
     pub(crate) fn coarse(&self) -> &[([f32; 3], [u8; 3])] {
         &self.points[..(self.num_coarse as usize).min(self.points.len())]
     }
 
-    /// Draws the first `share` of these.
+    /// Draws the first `share` of the points, 0 to 1.
     pub(crate) fn draw(&self, space: &mut Space<'_>, share: f64, panel: &Panel) {
         let side = (panel.rect.height / 130.0).clamp(1.6, 3.4);
         let all = self.coarse();
@@ -47,11 +47,11 @@ impl Surface {
     }
 }
 
-/// Looks for the partner of each pixel.
+/// Computes the surface by stereo matching.
 ///
 /// * `photographs`, `lenses`: the pair and its cameras, without distortion; equal sizes
 /// * `cam2_from_cam1`: the motion, in units of the baseline
-/// * `places`: points that both cameras see, in the frame of camera 1
+/// * `places`: points seen by both cameras, in the frame of camera 1
 ///
 /// # Errors
 /// As [`rectify_calibrated`], `disparity_range` of the rig, [`RectifiedPair::new`] and
@@ -68,7 +68,7 @@ pub(super) fn surface(
     let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
     let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
     let options = RectifyOptions::default()
-        // All that a camera saw, not only the rectangle that both share.
+        // Keep everything that a camera saw, not only the common rectangle.
         .with_alpha(1.0)
         .with_size(Some((side(width), side(height))));
     let rig = rectify_calibrated(&cameras, cam2_from_cam1, &options)?;
@@ -83,7 +83,7 @@ pub(super) fn surface(
             progress(f64::from(status.share))
         })
     })?;
-    // Every other pixel of every other row, and then those between.
+    // Every other pixel of every other row first, then the rest.
     let part = |is_coarse: bool| -> Result<PointCloud, Error> {
         let value = |index: u32| {
             let (u, v) = (index % found.width(), index / found.width());
@@ -107,7 +107,8 @@ pub(super) fn surface(
     })
 }
 
-/// The smallest disparity to look for, and how many: of too many those of what is near, which are far from 0.
+/// Returns the smallest disparity and the number of disparities to search. If there are too many,
+/// keeps those of near points, far from 0.
 fn searched([first, last]: [i32; 2]) -> (i32, u32) {
     let count = last.abs_diff(first).saturating_add(1).min(MOST_DISPARITIES);
     match last.unsigned_abs() >= first.unsigned_abs() {
@@ -127,7 +128,7 @@ mod tests {
 
     const SIZE: (u32, u32) = (320, 240);
 
-    /// Photographs of the still life from the book's own place and from one beside it, meters.
+    /// Renders the still life from the book's own camera and from one shifted by `aside`, meters.
     fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
         let first = still_life_camera(SIZE.0, SIZE.1);
         let center = first.center_in_world() + aside;
@@ -147,7 +148,7 @@ mod tests {
         (cameras, photographs)
     }
 
-    /// What is found for a pair with known cameras, and some true points.
+    /// Computes the surface of a pair with known cameras and some true points.
     fn found(cameras: &[PosedCamera; 2], photographs: &[Photograph; 2]) -> Result<Surface, Error> {
         let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
         let places: Vec<_> = (0..SIZE.1)

@@ -1,4 +1,4 @@
-//! What the matches of two photographs say about how the camera moved.
+//! Configuration of a pair, judged from its matches.
 
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -10,58 +10,58 @@ use epipole::two_view::{
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-/// Fewer matches than this tell nothing.
+/// Minimum number of matches for a verdict.
 pub(crate) const MIN_NUM_MATCHES: usize = 15;
-/// Half of the inliers should have rays that meet at a larger angle.
+/// Smallest accepted median triangulation angle of the inliers, degrees.
 const MIN_MEDIAN_ANGLE_DEG: f64 = 0.75;
-/// Another focal length is worth telling if a turn then explains so many times the matches.
+/// Inlier gain of a rotation-only model from which another focal length is reported.
 const MIN_GAIN: f64 = 1.05;
 
-/// What the pair turned out to be.
+/// Configuration of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Verdict {
     /// A motion and a scene with depth.
     Good,
     /// A motion, but a plane explains most matches.
     Plane,
-    /// A motion, but without the focal length more matches could be explained.
+    /// A motion, but an uncalibrated model explains more matches.
     Lens,
-    /// Fewer matches than anything can be told from.
+    /// Too few matches to estimate anything.
     TooFew,
-    /// Matches that agree on nothing.
+    /// No model is supported by enough matches.
     NoConsensus,
-    /// The camera only turned, by this angle in degrees.
+    /// Rotation only, by this angle in degrees.
     Turned(f64),
-    /// The camera only turned, if its focal length is another one.
+    /// Rotation only, if the focal length is a different one.
     TurnedOtherwise {
-        /// By this angle, degrees.
+        /// Rotation angle, degrees.
         angle_deg: f64,
-        /// The focal length is so many times the one given.
+        /// Factor on the given focal length.
         focal_factor: f64,
     },
-    /// The camera moved, but so little that rays meet at this angle in degrees.
+    /// A motion too small: rays meet at this median angle in degrees.
     Narrow(f64),
 }
 
-/// A verdict with what it rests on.
+/// A verdict with its evidence.
 pub(super) struct Judged {
     pub(super) verdict: Verdict,
-    /// For each match, whether it agrees with what was found.
+    /// Inlier mask over the matches.
     pub(super) inliers: Vec<bool>,
-    /// There if points can be triangulated.
+    /// Present if points can be triangulated.
     pub(super) cam2_from_cam1: Option<RigidTransform>,
     pub(super) median_angle_deg: f64,
 }
 
-/// Cameras of any image size, which no estimator asks for.
+/// Creates cameras without an image size, which the estimators do not need.
 fn pinholes(intrinsics: &[Intrinsics; 2]) -> [Camera; 2] {
     intrinsics.map(|k| Camera::pinhole(k, 0, 0))
 }
 
-/// Judges matches, of which inliers are at most `max_error_px` from their epipolar lines.
+/// Judges matches; inliers are at most `max_error_px` from their epipolar lines.
 ///
 /// # Errors
-/// For numbers that are no numbers; matches that agree on nothing have a verdict.
+/// For values that are not finite; matches without consensus are a verdict.
 pub(super) fn judge(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     lenses: &[Intrinsics; 2],
@@ -88,7 +88,7 @@ pub(super) fn judge(
         &mut (),
     ) {
         Ok(report) => report,
-        // Wrong matches agree on nothing, and matches at one place determine nothing.
+        // Wrong matches have no consensus, and matches at one place determine nothing.
         Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
             return Ok(nothing(Verdict::NoConsensus));
         }
@@ -99,7 +99,7 @@ pub(super) fn judge(
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
     let fundamental_won = matches!(report.model, TwoViewModel::Fundamental(_));
     let seen = match report.configuration {
-        // A model that next to nobody supports has no inliers worth showing.
+        // A degenerate model's inliers are not worth showing.
         Configuration::Degenerate => return Ok(nothing(Verdict::NoConsensus)),
         Configuration::Panoramic => Verdict::Turned(turn_deg),
         _ if median_angle_deg < MIN_MEDIAN_ANGLE_DEG => Verdict::Narrow(median_angle_deg),
@@ -118,8 +118,9 @@ pub(super) fn judge(
     })
 }
 
-/// What is said of a camera that only turned, with the inliers, if that goes better with another focal length: under
-/// a wrong one a turn passes for a plane, or for another turn that explains less.
+/// Returns the verdict of a rotation with another focal length and its inliers, if that explains
+/// more: with a wrong focal length, a rotation looks like a plane or like another rotation with
+/// fewer inliers.
 fn turned_otherwise(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     lenses: &[Intrinsics; 2],

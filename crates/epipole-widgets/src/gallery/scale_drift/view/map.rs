@@ -13,11 +13,11 @@ use crate::theme::Role;
 use epipole::camera::RigidTransform;
 use nalgebra::{Point3, Vector3};
 
-/// Around all paths, as a share of their extent.
+/// Margin around all paths, as a fraction of their extent.
 const MARGIN: f64 = 0.05;
-/// About how many cameras are drawn on a path.
+/// Approximate number of cameras drawn on a path.
 const NUM_CAMERAS: usize = 10;
-/// How large the arrowhead of a camera of the right scale is, in true steps.
+/// Size of a camera's arrowhead at scale 1, in true steps.
 const ARROW: f64 = 1.6;
 /// Height below the paths that the rule takes, CSS pixels.
 const RULE_ROOM: f64 = 22.0;

@@ -16,15 +16,15 @@ use crate::theme::Role;
 
 /// The table: left, right, near and far edge, meters.
 const TABLE_M: [f64; 4] = [-0.95, 0.95, 0.35, 11.35];
-/// What the panel shows to each side of the left camera, and beyond the farthest ball, meters.
+/// Visible range to each side of the left camera, and beyond the farthest ball, meters.
 const SIDE_M: f64 = 1.0;
 const BEYOND_M: f64 = 0.8;
 /// Room below the cameras for the baseline and its length, CSS pixels.
 const BELOW: f64 = 36.0;
-/// How far before the cameras an image plane stands at a focal length of 1000 pixels, meters: in true
-/// proportion it could not be seen.
+/// Distance of a drawn image plane at a focal length of 1000 pixels, meters; at true scale it would
+/// be too close to see.
 const PLANE_M: f64 = 1.9;
-/// It always stands nearer than the ball: at most so far along the way.
+/// Maximum distance of the image plane, as a fraction of the ball's depth.
 const NEARER: f64 = 0.6;
 /// Narrower than this there is room for the shortest labels only.
 const SMALL: f64 = 300.0;
@@ -101,7 +101,8 @@ fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, rig: &Rig, measured: Mea
             canvas.line((rect.x, y), (rect.right(), y), stroke);
         }
     }
-    // All places that the right camera allows: between the rays through the columns one pixel
+    // The region that the right camera allows: between the rays of the columns one pixel to either
+    // side.
     // to either side.
     let right = panel.canvas_from_world((rig.baseline_m, 0.0));
     canvas.polygon(&[right, near, far], UNCERTAIN, 0.35);
@@ -180,7 +181,7 @@ fn draw_triangles(
     let ball = at(rig.x_m, rig.z_m);
     let (left, right) = (at(0.0, 0.0), at(b, 0.0));
     canvas.polygon(&[left, right, ball], Role::Ink, 0.10);
-    // Where the right ray and the moved left ray cross the image plane, and where they end.
+    // Intersections of the right ray and the shifted left ray with the image plane, and their ends.
     let on_plane = [b + (rig.x_m - b) * share, b + rig.x_m * share].map(|x| at(x, plane_m));
     canvas.polygon(&[right, on_plane[0], on_plane[1]], Role::Grip, 0.45);
     let stroke = Stroke::solid(CAMERAS[0].0, 1.5).dashed();

@@ -1,4 +1,4 @@
-//! The match through a magnifying glass, in a corner of the right photograph: there a pixel more or less can be seen.
+//! The match magnified in a corner of the right photograph, so that single pixels can be seen.
 
 use super::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
@@ -11,27 +11,28 @@ use crate::theme::Role;
 use image::RgbImage;
 use nalgebra::Point2;
 
-/// What is magnified, pixels of the photograph.
+/// Size of the magnified region, pixels of the photograph.
 const COLUMNS: u32 = 17;
 const ROWS: u32 = 11;
-/// Each of them becomes a square of so many, with sharp borders.
+/// Side of the square that each pixel is enlarged to, pixels.
 const SQUARE: u32 = 12;
 /// Width of the glass over the width of the photograph.
 const SHARE: f64 = 0.36;
-/// From the borders of the photograph, CSS pixels.
+/// Margin to the borders of the photograph, CSS pixels.
 const MARGIN: f64 = 6.0;
-/// What the line leaves free around the match, CSS pixels.
+/// Gap between the leader line and the match, CSS pixels.
 const CLEAR: f64 = 8.0;
 
 /// The surroundings of a pixel.
 pub(super) struct Magnifier {
     squares: RgbImage,
-    /// Where the match is in them, pixels of the photograph.
+    /// Position of the match in the region, pixels of the photograph.
     at: Point2<f64>,
 }
 
 impl Magnifier {
-    /// What is around `pixel`, moved inward at the borders; `None` outside of the photograph.
+    /// Copies the region around `pixel`, shifted inward at the borders; `None` outside of the
+    /// photograph.
     pub(super) fn over(photograph: &RgbImage, pixel: &Point2<f64>) -> Option<Self> {
         let first = |at: f64, shown: u32, all: u32| {
             let is_inside = (-0.5..f64::from(all) - 0.5).contains(&at) && all >= shown;

@@ -14,11 +14,11 @@ use crate::theme::Role;
 
 const PATCHES: [&str; 2] = ["first", "second"];
 const RAYS: [&str; 2] = ["ray of camera 1", "ray of camera 2"];
-/// Of the marks of the methods, CSS pixels.
+/// Radii of the methods' marks, CSS pixels.
 const RADII: [f64; 4] = [5.5, 5.5, 8.5, 4.0];
-/// A patch is never smaller than this, pixels.
+/// Minimum half size of a patch without its margin, pixels.
 const LEAST_PX: f64 = 0.5;
-/// Nothing farther away is looked for, pixels.
+/// Maximum half size of a patch without its margin, pixels.
 const FARTHEST_PX: f64 = 500.0;
 /// Narrower patches do not name the other ray, CSS pixels.
 const WORDY: f64 = 180.0;
@@ -189,7 +189,7 @@ fn draw_scale(panel: &Panel, is_above: bool, canvas: &mut Canvas) {
     );
 }
 
-/// How the uncertainty grows, and where we are.
+/// Draws the growth of the uncertainty, and the current position.
 fn draw_curves(show: Show, estimates: &Estimates, panel: &Panel, canvas: &mut Canvas) {
     let curves = &estimates.curves;
     let in_panel = |&(x, long_m): &(f64, f64)| {

@@ -1,4 +1,4 @@
-//! What lies around the point, enlarged: both rays, all estimates, and the region of the others.
+//! The surroundings of the point, enlarged: both rays, all estimates, and the repeated estimates.
 
 use super::{METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Canvas, Shape, Stroke};
