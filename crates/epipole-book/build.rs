@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-/// What a poster depends on beside its figure's settings.
+/// Inputs of a poster besides its figure's settings.
 const SOURCES: [&str; 7] = [
     "../epipole/src",
     "../epipole-canvas/assets",

@@ -33,14 +33,14 @@ pub fn slug(text: &str) -> String {
     }
 }
 
-/// The way from the page at `page` (such as `part/page.html`) up to the folder of the book:
-/// empty or `../`s.
+/// Relative path from the page at `page` (such as `part/page.html`) to the root of the book: empty
+/// or `../`s.
 pub fn path_to_root(page: &str) -> String {
     "../".repeat(page.matches('/').count())
 }
 
-/// What makes a page's Content-Security-Policy fail: inline scripts, inline handlers, inline styles.
-/// Returns the first offence.
+/// Returns the first violation of a page's Content-Security-Policy: an inline script, handler or
+/// style.
 pub fn forbidden_inline(html: &str) -> Option<String> {
     let mut rest = html;
     while let Some(open) = rest.find('<') {
@@ -77,7 +77,8 @@ pub fn forbidden_inline(html: &str) -> Option<String> {
     None
 }
 
-/// The attributes of a tag, in lower case with their values as written, and what follows the tag.
+/// The attributes of a tag, in lower case with their values as written, and the rest behind the
+/// tag.
 pub fn attributes(tag: &str) -> (Vec<(String, String)>, &str) {
     let mut found = Vec::new();
     let mut rest = tag;

@@ -30,7 +30,7 @@ struct Cli {
 enum Command {
     /// Make the site.
     Build {
-        /// Where it goes; target/book if not given.
+        /// Output folder; target/book if not given.
         #[arg(long)]
         out: Option<PathBuf>,
         /// As for `serve`: faster, larger, pages that reload.
@@ -42,13 +42,13 @@ enum Command {
         /// The port at localhost.
         #[arg(long, default_value_t = 8000)]
         port: u16,
-        /// Serve what is in target/book as it is, built by `build`, and watch nothing.
+        /// Serve the site in target/book unchanged, as written by `build`, and watch nothing.
         #[arg(long)]
         no_watch: bool,
     },
     /// Make the Lab, in the folder lab/ of the site.
     Lab {
-        /// Where the site is; target/book if not given.
+        /// Folder of the site; target/book if not given.
         #[arg(long)]
         out: Option<PathBuf>,
     },
@@ -56,12 +56,12 @@ enum Command {
     Check,
     /// Write the notebooks of the chapters only.
     Notebooks {
-        /// Where they go.
+        /// Output folder.
         folder: PathBuf,
     },
-    /// Write a small picture of each figure, and its words, for pages that show no widgets.
+    /// Write a small picture of each figure, and its words, for pages without widgets.
     Stills {
-        /// Where they go.
+        /// Output folder.
         folder: PathBuf,
     },
 }
@@ -149,7 +149,7 @@ fn run(cli: &Cli) -> Result<bool> {
     }
 }
 
-/// Builds once and says how it went. False if the content has problems.
+/// Builds once and prints the outcome. False if the content has problems.
 fn once(options: &Options, timings: bool) -> Result<bool> {
     let start = Instant::now();
     let phases = Phases::on_stderr();

@@ -1,4 +1,4 @@
-//! What is wrong with the content, and where. A build collects every problem before it fails.
+//! Problems of the content, with their places. A build collects all of them before it fails.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -32,9 +32,9 @@ impl fmt::Display for Place {
 /// One thing that an author has to repair.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
-    /// Where the author wrote it.
+    /// Location in the author's file.
     pub place: Place,
-    /// What is wrong, and what would be right.
+    /// Description of the problem and its remedy.
     pub message: String,
 }
 
@@ -49,7 +49,7 @@ impl fmt::Display for Problem {
 pub struct Problems(Mutex<Vec<Problem>>);
 
 impl Problems {
-    /// Notes a problem and goes on.
+    /// Adds a problem to the list.
     pub fn report(&self, place: Place, message: impl Into<String>) {
         let mut list = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         list.push(Problem {

@@ -1,6 +1,6 @@
-//! A server for the reader's and the writer's own machine. It sends what a good static host would
-//! (types, compressed copies, the content policy, open access for embedding sites), watches the
-//! sources, and tells open pages to reload.
+//! A local server for readers and authors. It sends what a good static host would (types,
+//! compressed copies, the content policy, open access for embedding sites), watches the sources,
+//! and reloads open pages.
 
 use crate::html::escape;
 use crate::phases::Phases;
@@ -29,11 +29,11 @@ use tokio_stream::StreamExt;
 use tokio_stream::wrappers::BroadcastStream;
 use tower_http::services::{ServeDir, ServeFile};
 
-/// Reloads an open page when the server says so.
+/// Reloads an open page on a message from the server.
 const RELOAD_SCRIPT: &str = "new EventSource(document.currentScript.dataset.events)\
     .addEventListener('reload', () => location.reload());\n";
 
-/// What is watched, below the project.
+/// Watched paths, below the project.
 const WATCHED: &[&str] = &[
     "content",
     "web/src",
@@ -106,7 +106,7 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
         .layer(from_fn(headers))
 }
 
-/// What the page at this path may load and do.
+/// Content policy of the page at this path.
 fn policy_of(path: &str) -> &'static str {
     let is_in = |folder: &str| path.contains(&format!("/{folder}/"));
     // The pages of single figures are there for the frames of others.
@@ -189,7 +189,7 @@ fn watch_sources(options: &Options, reload: &broadcast::Sender<()>) -> Result<()
             .any(|path| path.starts_with(options.project.join("crates")));
         match rebuild(options, own_code_changed) {
             Ok(true) => {
-                // Nobody may be listening.
+                // There may be no open page.
                 let _ = reload.send(());
             }
             Ok(false) => {}
@@ -239,7 +239,7 @@ fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
     }
 }
 
-/// What the browser shows while there is no site to show.
+/// Page shown while there is no site.
 fn problem_page(problems: &[Problem]) -> String {
     let lines: Vec<String> = problems
         .iter()

@@ -26,25 +26,25 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::thread::ScopedJoinHandle;
 
-/// What to build, and how.
+/// Options of a build.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The folder with `content/`, `web/` and `crates/`.
     pub project: PathBuf,
-    /// Where the site goes.
+    /// Output folder of the site.
     pub out: PathBuf,
-    /// Whether to make what the browser downloads beside the pages: styles, fonts, scripts,
-    /// WebAssembly. A check of the content needs none of it.
+    /// Whether to make the files besides the pages: styles, fonts, scripts, WebAssembly. A check of
+    /// the content needs none.
     pub assets: bool,
     /// Look for problems only: write nothing but `notebooks`.
     pub check: bool,
-    /// Where the notebooks of the chapters go as well.
+    /// Additional output folder for the notebooks of the chapters.
     pub notebooks: Option<PathBuf>,
     /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
     pub live: bool,
 }
 
-/// How a build ended.
+/// Outcome of a build.
 #[derive(Debug)]
 pub enum Outcome {
     /// The site is in place.
@@ -64,7 +64,7 @@ type Files = BTreeMap<String, Vec<u8>>;
 /// Builds the book.
 ///
 /// # Errors
-/// A missing tool or an unreadable folder. What is wrong in the content is not an error but
+/// A missing tool or an unreadable folder. Problems of the content are not an error but
 /// [`Outcome::Problems`].
 pub fn build(options: &Options, gallery: &dyn Gallery, phases: &Phases) -> Result<Outcome> {
     std::thread::scope(|scope| {
@@ -164,7 +164,7 @@ fn build_beside(
     Ok(report)
 }
 
-/// Where posters are kept; none in a check, which draws none.
+/// Cache of posters; none in a check, which draws none.
 fn cache(options: &Options) -> Result<Option<Cache>> {
     if options.check {
         return Ok(None);
@@ -197,7 +197,7 @@ fn pages(chapters: Vec<Chapter>, content: &Content, book: &Book, phases: &Phases
     })
 }
 
-/// The pages with what is around them.
+/// The pages with their surroundings.
 struct Bound<'a> {
     config: &'a mdbook_driver::config::Config,
     contents: &'a [book::Entry],
@@ -206,7 +206,7 @@ struct Bound<'a> {
 }
 
 impl Bound<'_> {
-    /// Adds all pages in their templates, and what searches and servers want to know.
+    /// Adds all pages in their templates, and the files for search and servers.
     fn add(self, options: &Options, assets: &Assets, files: &mut Files) -> Result<()> {
         let Bound {
             config,

@@ -7,7 +7,7 @@ use std::process::Command;
 /// Folders of the project that tools need.
 pub(crate) struct Tools {
     pub(crate) project: PathBuf,
-    /// What npm installed.
+    /// Folder of the installed npm modules.
     pub(crate) modules: PathBuf,
     /// Intermediate files, kept between builds.
     pub(crate) work: PathBuf,
@@ -29,7 +29,7 @@ impl Tools {
         })
     }
 
-    /// Runs a command and returns its standard output; what it says on failure is the error.
+    /// Runs a command and returns its standard output; on failure its output is the error.
     pub(crate) fn run(&self, command: &mut Command) -> Result<String> {
         let name = command.get_program().to_string_lossy().into_owned();
         let output = command
@@ -46,7 +46,7 @@ impl Tools {
     }
 }
 
-/// Cargo's folder for what it builds.
+/// Cargo's target folder.
 pub(crate) fn target_folder(project: &Path) -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| project.join("target"), PathBuf::from)
 }

@@ -1,5 +1,6 @@
-//! Whatever stands in a file that people write or edit: an answer or a sentence, never a panic, and nothing in the
-//! answer that is no number. As the formats of the core: a thousand cases each, or `EPIPOLE_FUZZ_CASES`.
+//! Any file that people write or edit gives an answer or an error, never a panic, and every number
+//! in the answer is finite. As for the formats of the core: a thousand cases each, or
+//! `EPIPOLE_FUZZ_CASES`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -23,7 +24,7 @@ const CAMERA: &str = r#"{ "image": { "width": 640, "height": 480 },
 const MATCHES: &str = "# u1 v1 u2 v2\n1 2 3 4\n1e2, -2.5, 3 , 4 # and more\n\n10 20 30.25 40 7\n";
 const POSITIONS: &str = "# name\na.jpg 1 2 3\nb c.jpg -1.5 2e2 3 0.5\n17 1 2 3\n";
 
-/// A sentence says something, and of which file.
+/// Whether a failure has a message that names the file.
 fn is_told(failure: &Failure) -> bool {
     let text = failure.to_string();
     text.contains("file") && text.len() > "file: ".len()

@@ -1,4 +1,4 @@
-//! Cameras that only turned, or hardly moved: E and F mean nothing then, though they fit.
+//! Cameras that only rotated, or hardly moved: E and F fit then, but are meaningless.
 
 use crate::failure::Failure;
 use epipole::camera::{Camera, Intrinsics};
@@ -9,9 +9,9 @@ use epipole::two_view::{
 };
 use nalgebra::Point2;
 
-/// The turn that explains the inliers of another model as well, if there is one.
+/// Finds a rotation that explains the inliers of another model equally well, if there is one.
 ///
-/// * `ransac`: those that the model was found with
+/// * `ransac`: options of the search for that model
 pub(crate) fn find_turn(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -22,7 +22,7 @@ pub(crate) fn find_turn(
     find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging(ransac))
 }
 
-/// Warning about a turn that explains the inliers.
+/// Warning about a rotation that explains the inliers.
 pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     format!(
         "a camera that only turned explains {} of the {} inliers: whether and in which direction it \
@@ -31,7 +31,8 @@ pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     )
 }
 
-/// What there is to warn of where a homography was found, if a turn by another focal length explains it as well.
+/// Warning about a homography whose inliers fit a rotation with another focal length equally well,
+/// if there is one.
 ///
 /// * `intrinsics`: known or guessed
 /// * `inliers`: those of the homography
@@ -55,7 +56,7 @@ pub(crate) fn sentence_of_other_focal(
     }))
 }
 
-/// Warning about inliers that do not determine F: neither a plane nor a turn determines it.
+/// Warning about inliers that do not determine F, such as those of a plane or a rotation.
 pub(crate) fn left_open(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -66,7 +67,7 @@ pub(crate) fn left_open(
     Ok(found.map(|found| sentence_of_degeneracy(&found)))
 }
 
-/// The same of a homography, which planes and turns determine, and lines do not.
+/// The same for a homography, which is not determined by a line.
 pub(crate) fn left_open_by_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -90,17 +91,17 @@ pub(crate) fn left_open_by_homography(
     Ok(None)
 }
 
-/// How many pixels lie on one line, if those beside it are too few to tell what happens there: a homography fits any two of
-/// them, whatever happens on the line.
+/// Number of pixels on one line, if those beside it are too few to constrain the model there: a
+/// homography fits any two of them, with any mapping on the line.
 fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
     const OTHERS: usize = 2;
     /// Fewer lie on some line in any case.
     const LEAST: usize = 5;
-    // Where all but two lie on a line, nearly every sample finds it.
+    // If all but two lie on a line, nearly every sample finds it.
     let options = ransac
         .within(2.0 * ransac.max_error_px)
         .with_max_iterations(ransac.max_iterations.min(1000));
-    // Where all are the same there is no line, and nothing to say that was not said.
+    // Identical pixels have no line, and need no further warning.
     let lines = LineEstimator::new(pixels).ok()?;
     let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
     let are_alone = found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();

@@ -1,8 +1,8 @@
-//! Ctrl-C: the work ends with what it has, and that is valid.
+//! Ctrl-C: the work ends with a valid partial result.
 //!
-//! No test here depends on how fast the machine is. The program reads its last input from a pipe
-//! that stays open: what it took from the pipe proves that it listens for the signal, and its
-//! sentence on standard error that it heard it.
+//! No test here depends on the speed of the machine. The program reads its last input from a pipe
+//! that stays open: bytes taken from the pipe prove that its signal handler is installed, and its
+//! message on standard error that the handler ran.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
@@ -74,8 +74,7 @@ fn bundle_adjustment_ends_with_the_best_that_it_has() {
     assert_eq!(folder.listing().len(), 1, "no part is left behind");
 }
 
-/// More than a pipe holds: matches that have nothing to do with each other, or else are turned,
-/// scaled and shifted.
+/// More data than a pipe holds: unrelated matches, or matches of a similarity.
 fn matches_text(wrong: bool) -> String {
     let mut random = Random::new(3);
     let mut text = String::new();
@@ -153,7 +152,7 @@ fn two_views_are_canceled() {
         folder.photograph(name, &moved(size, &motion), size);
     }
     let mut second = std::fs::read(folder.file("2.png")).unwrap();
-    // What follows the end of a PNG is not looked at.
+    // Data behind the end of a PNG are ignored.
     second.resize(second.len().max(1 << 21), 0);
     let camera = k(&moved(size, &RigidTransform::identity()));
     for given in [&["--k", &camera][..], &[]] {
@@ -162,7 +161,7 @@ fn two_views_are_canceled() {
         let output = interrupted_while_reading(&[&photos, given].concat(), &second);
         let told = String::from_utf8_lossy(&output.stderr);
         let result = parse(&output);
-        // A choice among models needs all of them.
+        // The choice among models needs all of them.
         assert_eq!(output.status.code(), Some(1), "{told}");
         assert_eq!(result["error"]["kind"], "canceled", "{told}");
     }
@@ -227,8 +226,8 @@ fn structure_from_motion_is_valid_whenever_it_ends() {
         (&whole["num_registered"], &whole["complete"]),
         (&6.into(), &true.into())
     );
-    // Wherever the signal falls, one of four things holds. Halving the span in which a part of
-    // the photographs may have been added leads to such a part on most machines; none is demanded.
+    // One of four outcomes holds for any time of the signal. Bisection towards an interrupt with
+    // part of the photographs registered finds one on most machines; the test does not require it.
     let (mut early, mut late) = (Duration::ZERO, total);
     for attempt in 0..8 {
         let after = (early + late) / 2;

@@ -1,6 +1,6 @@
-//! The window, on a display that nobody sees: it opens, draws with OpenGL, is clicked, and writes files.
+//! The window, on a virtual display: it opens, draws with OpenGL, is clicked, and writes files.
 //!
-//! Needs `Xvfb`, `xdotool` and an OpenGL that draws on the processor; where they are missing it says that it skips.
+//! Needs `Xvfb`, `xdotool` and a software OpenGL; without them it prints that it skips.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(feature = "window")]
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(420);
 struct Ended(Child);
 
 impl Ended {
-    /// Its resident memory, as the system tells.
+    /// Its resident memory in MB, from the system.
     fn memory_mb(&self) -> u32 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.0.id())).unwrap();
         let line = status.lines().find(|line| line.starts_with("VmRSS:"));
@@ -45,7 +45,7 @@ impl Drop for Ended {
     }
 }
 
-/// A display of its own, and a folder for what is written.
+/// A virtual display, and a folder for output files.
 struct Display {
     _server: Ended,
     name: String,
@@ -85,7 +85,7 @@ impl Display {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // It says which number it took once it answers.
+        // The display prints its number when it is ready.
         let mut number = String::new();
         let mut output = BufReader::new(server.stdout.take().unwrap());
         output.read_line(&mut number).unwrap();
@@ -125,7 +125,7 @@ impl Display {
         assert!(done.unwrap().success());
     }
 
-    /// What is to be seen, from the memory of the display: an XWD file, whose header is numbers of four bytes.
+    /// Screenshot, from the memory of the display: an XWD file, with a header of four-byte numbers.
     fn screen(&self) -> RgbImage {
         let bytes = std::fs::read(self.folder.join("screen/Xvfb_screen0")).unwrap();
         let number =
@@ -141,8 +141,8 @@ impl Display {
         })
     }
 
-    /// Clicks these places, one after the other, until a file is there that can be read; a window that is not there yet
-    /// hears nothing.
+    /// Clicks these places in turn until a file can be read; a window that has not opened yet
+    /// receives nothing.
     fn click_until(&self, lab: &mut Ended, places: &[egui::Pos2], name: &str) -> Vec<String> {
         let begun = Instant::now();
         loop {
@@ -169,7 +169,7 @@ fn names_in(path: &Path) -> Option<Vec<String>> {
     Some(archive.file_names().map(str::to_owned).collect())
 }
 
-/// Where a control is in a window of this size: panels are laid out alike everywhere.
+/// Center of a control in a window of this size: the layout is the same everywhere.
 fn middle(bench: &Bench<'_>, name: &str) -> egui::Pos2 {
     bench.get_all_by_label(name).next().unwrap().rect().center()
 }
@@ -225,7 +225,7 @@ fn two_photographs(display: &Display) -> [PathBuf; 2] {
     files
 }
 
-/// Where "Project" and its "Save" are, once these files are open.
+/// Positions of "Project" and its "Save" with these files open.
 fn save_places(files: &[PathBuf]) -> [egui::Pos2; 2] {
     let mut bench = bench();
     let photographs = files.iter().map(|path| {
@@ -263,7 +263,7 @@ fn files_are_chosen_in_the_dialog_of_the_desktop() {
         return;
     };
     let files = two_photographs(&display);
-    // A dialog in which somebody has chosen these at once.
+    // A dialog program that returns these files at once.
     let programs = display.folder.join("programs");
     std::fs::create_dir(&programs).unwrap();
     let [one, two] = files.each_ref().map(|path| path.display().to_string());

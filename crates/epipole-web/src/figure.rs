@@ -22,19 +22,19 @@ pub fn figures() -> String {
 
 /// A figure in some state, with its last drawn frame.
 ///
-/// What goes in is plain arguments, so that the module carries no JSON parser; what comes out is
-/// JSON, which browsers parse faster than they cross the border for each value.
+/// Input is plain arguments, so that the module carries no JSON parser; output is JSON, which
+/// browsers parse faster than many calls across the border.
 ///
-/// Widths are CSS pixels; places are CSS pixels from the picture's top left corner, of the picture
-/// laid out for the width given. Methods that change the state return a sentence for the reader
-/// where the figure refuses, and nothing where it obeys.
+/// Widths are CSS pixels; places are CSS pixels from the top left corner of the picture laid out
+/// for the given width. Methods that change the state return a message for the reader if the figure
+/// refuses, otherwise nothing.
 #[wasm_bindgen]
 pub struct Figure {
     figure: Model,
     frame: Frame,
 }
 
-/// Where the last frame lies in memory.
+/// Memory location and size of the last frame.
 struct Frame {
     address: *const u8,
     width: u32,
@@ -80,13 +80,13 @@ impl Figure {
         self.figure.title().to_owned()
     }
 
-    /// What a reader can do with it.
+    /// Help for the reader.
     pub fn help(&self) -> String {
         self.figure.help().to_owned()
     }
 
-    /// Puts parameters, keys and values in turn, on top of the state. Returns those that could not
-    /// be used, JSON `[{"unknown", "message"}]`.
+    /// Applies parameters, keys and values in turn, to the state. Returns the invalid ones, JSON
+    /// `[{"unknown", "message"}]`.
     pub fn apply(&mut self, parameters: Vec<String>) -> String {
         let pairs: Vec<(String, String)> = parameters
             .chunks_exact(2)
@@ -96,7 +96,7 @@ impl Figure {
         json(&problems.iter().map(Refused::from).collect::<Vec<_>>())
     }
 
-    /// What differs from the default state, JSON `[[key, value]]`.
+    /// Differences from the default state, JSON `[[key, value]]`.
     pub fn state(&self) -> String {
         json(&self.figure.state())
     }
@@ -184,7 +184,7 @@ impl Figure {
         self.send(&event)
     }
 
-    /// Moves a handle as far as it goes.
+    /// Moves a handle to the end of its range.
     pub fn move_to_end(&mut self, id: &str, width: f64, towards: &str) -> Option<String> {
         let layout = self.figure.layout(width);
         let event = pointing::to_the_end(&self.handle(id)?, &layout, direction(towards)?);
@@ -216,22 +216,22 @@ impl Figure {
         refused.map(|problem| problem.to_string())
     }
 
-    /// What the reader can save besides the picture, as the snapshot offers it.
+    /// File that the reader can save besides the picture, as the snapshot offers it.
     pub fn file(&self) -> Vec<u8> {
         self.figure.file_bytes()
     }
 
-    /// Tells the focal length of the photograph in a slot, in units of its longer side.
+    /// Sets the focal length of the photograph in a slot, in units of its longer side.
     pub fn take_focal(&mut self, slot: &str, focal: f64) {
         self.figure.take_focal(slot, focal);
     }
 
-    /// The long computation that the figure waits for: a name that tells it from others.
+    /// Unique name of the long computation that the figure waits for.
     pub fn job_key(&mut self) -> Option<String> {
         self.figure.job().map(|job| format!("{:016x}", job.key()))
     }
 
-    /// What that computation needs: the second argument of `compute`.
+    /// Input of that computation: the second argument of `compute`.
     pub fn job_request(&mut self) -> Vec<u8> {
         self.figure.job().map_or_else(Vec::new, |job| job.request())
     }
@@ -241,12 +241,12 @@ impl Figure {
         self.end_job(key, Ok(result))
     }
 
-    /// Tells that a computation has failed, with the sentence that it ended with.
+    /// Reports a failed computation, with its error message.
     pub fn job_failed(&mut self, key: &str, sentence: String) -> bool {
         self.end_job(key, Err(Problem::Elsewhere { sentence }))
     }
 
-    /// Does a few milliseconds of what the first frame would do all at once; false when done.
+    /// Does a few milliseconds of the first frame's preparation; false when done.
     pub fn prepare(&mut self) -> bool {
         self.figure.prepare()
     }
@@ -275,8 +275,8 @@ impl Figure {
         self.keep(drawn.map_err(|problem| problem.to_string()))
     }
 
-    /// Where the last frame begins: rows of opaque red, green, blue, alpha. It stays there until
-    /// the next call of any method.
+    /// Address of the last frame: rows of opaque red, green, blue, alpha. It is valid until the
+    /// next call of any method.
     pub fn pixels(&self) -> *const u8 {
         self.frame.address
     }
@@ -320,8 +320,8 @@ impl Figure {
         u64::from_str_radix(key, 16).is_ok_and(|key| self.figure.job_done(key, result))
     }
 
-    /// Changes the state by any event: the natural call natively, kept out of the module because
-    /// each event has a method of its own there.
+    /// Changes the state by any event: for native callers, kept out of the module because each
+    /// event has a method of its own there.
     pub fn send(&mut self, event: &Event) -> Option<String> {
         let refused = self.figure.update(event).err();
         refused.map(|problem| problem.to_string())

@@ -1,4 +1,4 @@
-//! Long computations, for a worker that knows no figure.
+//! Long computations, for a worker without figures.
 
 use epipole_widgets::gallery;
 use std::ops::ControlFlow;
@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
-    /// Whoever wants to know how far a computation is.
+    /// Receiver of a computation's progress.
     pub type Listener;
 
     /// Called with the share that is done, 0 to 1.

@@ -1,4 +1,4 @@
-//! What leaves the module as JSON.
+//! JSON output of the module.
 
 use epipole_widgets::contract::Problem;
 use serde::Serialize;
@@ -16,7 +16,8 @@ pub(crate) struct Listed {
 /// A parameter that could not be used.
 #[derive(Serialize)]
 pub(crate) struct Refused {
-    /// True if the figure has no such parameter: in a page's address it may be someone else's.
+    /// True if the figure has no such parameter: one in the page's address may belong to another
+    /// script.
     unknown: bool,
     message: String,
 }

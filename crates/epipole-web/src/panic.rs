@@ -1,4 +1,4 @@
-//! What a panic leaves behind: its message, for the page to show and log.
+//! The message of a panic, for the page to show and log.
 
 use std::cell::RefCell;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -21,7 +21,7 @@ pub fn start() {
     }));
 }
 
-/// The message of the last panic, once: a page asks for it after a call has ended in a trap.
+/// Returns and clears the message of the last panic: a page reads it after a call ended in a trap.
 #[wasm_bindgen]
 pub fn take_panic() -> Option<String> {
     LAST.with(|last| last.try_borrow_mut().ok().and_then(|mut last| last.take()))

@@ -1,4 +1,5 @@
-//! What the figures call while a slider moves: photographs, RANSAC for a line, F from two cameras.
+//! Benchmarks of the functions that the figures call while a slider moves: image processing, RANSAC
+//! for a line, F from two cameras.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use epipole::camera::PosedCamera;

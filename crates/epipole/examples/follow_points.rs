@@ -22,7 +22,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let mut errors = Vec::new();
     for (corner, track) in corners.iter().zip(&tracks) {
         let Some(track) = track else { continue };
-        // Where the point really is, by the depth of its pixel.
+        // Ground truth, from the depth of the pixel.
         let depth_m = truth
             .depth_m
             .get_pixel(corner.x.round() as u32, corner.y.round() as u32)

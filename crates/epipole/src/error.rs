@@ -1,17 +1,17 @@
-//! The one error of the core: every failure is a sentence for a person.
+//! The error type of the core: every failure is a sentence for the user.
 
 use std::ops::RangeInclusive;
 
-/// Why an operation could not give a result.
+/// Reason why an operation has no result.
 ///
-/// Bad data is never a panic and never a NaN: it is one of these.
+/// Bad data never causes a panic or a NaN, but one of these errors.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// Fewer data than the computation needs.
     #[error("{what} needs at least {needed}, but {}", only(*.got))]
     TooFew {
-        /// What was asked for, with its unit of counting, such as "a fundamental matrix from matches".
+        /// The computation, with its unit of counting, such as "a fundamental matrix from matches".
         what: &'static str,
         /// The smallest sufficient number.
         needed: usize,
@@ -37,12 +37,12 @@ pub enum Error {
     /// The data do not determine the result.
     #[error("{what} is not determined: {why}")]
     Degenerate {
-        /// What was asked for.
+        /// The quantity asked for.
         what: &'static str,
-        /// Why these data leave it open, such as "all points lie on one line".
+        /// Reason why these data do not determine it, such as "all points lie on one line".
         why: &'static str,
     },
-    /// Two inputs whose sizes must agree do not.
+    /// Two inputs differ in size but must agree.
     #[error("{what} must have the same size, but one has {first} and the other {second}")]
     SizeMismatch {
         /// The two inputs, such as "the two lists of points".
@@ -84,13 +84,13 @@ pub enum Error {
         /// The limit, which the caller may raise.
         limit: u64,
     },
-    /// The caller asked to stop.
+    /// Canceled by the caller.
     #[error("the work was canceled")]
     Canceled,
     /// A text that breaks the rules of its format.
     #[error("{what} is malformed in line {line}: {why}")]
     Malformed {
-        /// What was read, such as "the bundle adjustment problem".
+        /// The input, such as "the bundle adjustment problem".
         what: &'static str,
         /// The line, counted from 1.
         line: usize,
@@ -151,7 +151,7 @@ impl Error {
     }
 }
 
-/// That there are so few, in words.
+/// The count in words, for [`Error::TooFew`].
 fn only(count: usize) -> String {
     match count {
         0 => "there are none".to_owned(),

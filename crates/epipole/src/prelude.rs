@@ -1,4 +1,4 @@
-//! What most programs need, in one line: `use epipole::prelude::*;`.
+//! The items that most programs need, in one line: `use epipole::prelude::*;`.
 //!
 //! ```
 //! # fn main() -> Result<(), epipole::Error> {

@@ -1,5 +1,6 @@
-//! `{{#gallery}}`: every figure with what can be set, read and pressed, told by the figures themselves, and words to
-//! copy for other pages. A script keeps those at the state that the reader has set.
+//! `{{#gallery}}`: every figure with its settings, readouts and actions, as reported by the figure
+//! itself, and a snippet for other pages. A script keeps the snippets at the state set by the
+//! reader.
 
 use crate::html::{escape, path_to_root};
 use crate::parse::text::Request;
@@ -129,7 +130,7 @@ impl Exhibit {
     }
 }
 
-/// What a page of someone else says; the script of this page knows more kinds of pages.
+/// The code that embeds a figure in another site; the page's script knows further kinds of pages.
 fn snippet(name: &str) -> String {
     let code = format!("<epipole-figure name=\"{name}\"></epipole-figure>");
     format!(
@@ -248,7 +249,7 @@ fn buttons(snapshot: &Value) -> String {
     table("What can be pressed", &["Name", "Label"], &rows)
 }
 
-/// What the keys do on what this figure has, as `web/src/picture.ts` takes them.
+/// Keyboard help for the items of this figure, matching `web/src/picture.ts`.
 fn keys(snapshot: &Value) -> String {
     let has = |list: &str, what: &dyn Fn(&Value) -> bool| entries(snapshot, list).any(what);
     let points = has("handles", &|_| true);

@@ -1,9 +1,9 @@
-//! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, what it prints, and cells of
-//! the chapter's notebook.
+//! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, its
+//! output, and cells of the chapter's notebook.
 //!
-//! The fences are `python numpy`, `python opencv` and `rust`, in this order, those that there are. What a tab prints is
-//! recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run it. A listing with
-//! `picture="what it shows"` makes `result.png`, which is recorded as `<chapter>.<name>.png`.
+//! The fences are any of `python numpy`, `python opencv` and `rust`, in this order. The output of a
+//! tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run it. A listing
+//! with `picture="what it shows"` makes `result.png`, which is recorded as `<chapter>.<name>.png`.
 
 use crate::html::{escape, path_to_root};
 use crate::parse::source::Source;
@@ -35,11 +35,11 @@ pub(super) struct Listing<T> {
     recorded: Recorded,
 }
 
-/// What the tests have seen a listing do.
+/// Output of a listing, recorded by the tests.
 struct Recorded {
-    /// `<chapter>.<name>`, as its files are called.
+    /// `<chapter>.<name>`, the stem of its file names.
     stem: String,
-    /// What each of the tabs prints.
+    /// Output of each tab.
     prints: [Option<Source>; 3],
     picture: Option<Vec<u8>>,
 }
@@ -94,7 +94,7 @@ impl Directive for Listing<ParsedText> {
     }
 }
 
-/// A listing whose words and fences follow.
+/// A listing before its words and fences.
 struct Opened {
     heading: Heading,
     picture: Option<String>,
@@ -192,7 +192,7 @@ impl Opened {
         }
     }
 
-    /// The picture that the tests have seen the listing make.
+    /// The picture of the listing, recorded by the tests.
     fn picture(&self, page: &mut Writer, alternative: &str) -> Result<String, String> {
         let file = format!("listings/{}.png", self.recorded.stem);
         let bytes = self.recorded.picture.clone().ok_or_else(|| {
@@ -231,7 +231,7 @@ impl Opened {
 }
 
 impl Recorded {
-    /// What the tests have seen a tab print; lines that are too long are reported.
+    /// Returns the recorded output of a tab; reports lines that are too long.
     fn prints(&self, page: &Writer, tab: usize) -> Result<String, String> {
         let Some(text) = &self.prints[tab] else {
             return Err(format!(
@@ -252,11 +252,11 @@ impl Recorded {
     }
 }
 
-/// One of `count` tabs: the code and what it prints.
+/// One of `count` tabs: the code and its output.
 fn part(page: &Writer, name: &str, tab: &Tab, count: usize) -> String {
     let code = pre(&shown(tab.fence, page), &tab.fence.language);
     let key = tab.key;
-    // Where there is one part only, the bar names it.
+    // The bar already names a single part.
     let own_name = match count {
         1 => String::new(),
         _ => format!("<p class=\"listing-name\">{}</p>\n", tab.label),
@@ -275,7 +275,7 @@ fn part(page: &Writer, name: &str, tab: &Tab, count: usize) -> String {
     )
 }
 
-/// What switches between the tabs.
+/// Buttons that switch between the tabs.
 fn chooser(name: &str, tabs: &[Tab]) -> String {
     if let [only] = tabs {
         return format!("<p class=\"listing-only\">{}</p>", only.label);
@@ -297,7 +297,7 @@ fn chooser(name: &str, tabs: &[Tab]) -> String {
     )
 }
 
-/// Lines such as `depth: 2.00 m` that two tabs print with the same words and different values.
+/// Lines such as `depth: 2.00 m` that two tabs print with different values.
 fn contradictions(tabs: &[Tab]) -> Vec<String> {
     let mut known: Vec<(&str, &str, &str)> = Vec::new();
     let mut found = Vec::new();

@@ -1,4 +1,5 @@
-//! `{{#live ransac-race.best}}`: a number of a figure, which follows it; as it is when the page comes.
+//! `{{#live ransac-race.best}}`: a number of a figure, kept up to date; initially its value at page
+//! load.
 
 use crate::html::escape;
 use crate::parse::outline::Instance;
@@ -14,7 +15,7 @@ pub(super) struct Live {
     shows: String,
 }
 
-/// What the figure shows at first.
+/// A readout in the figure's initial state.
 pub(super) struct Quoted {
     /// Anchor of the figure.
     id: String,

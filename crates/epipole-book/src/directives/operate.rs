@@ -1,5 +1,5 @@
-//! `{{#do ransac-race outliers=0.7 | words}}`: words of a sentence that set the nearest figure of that name. A script of
-//! the page (`web/book/operate.ts`) brings them to life.
+//! `{{#do ransac-race outliers=0.7 | words}}`: words of a sentence that set the nearest figure of
+//! that name, by a script of the page (`web/book/operate.ts`).
 
 use crate::html::escape;
 use crate::parse::outline::{Instance, own_settings, with_wishes};
@@ -10,7 +10,7 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 use crate::resolve::claims;
 
-/// The words, and what they set. `T` is the stage of the words.
+/// The words, and their settings. `T` is the stage of the words.
 pub(super) struct Do<T> {
     figure: Instance,
     wishes: Vec<(String, String)>,
@@ -20,7 +20,7 @@ pub(super) struct Do<T> {
     words: T,
 }
 
-/// What is left to say once the claim was checked.
+/// The directive after its claim was checked.
 pub(super) struct Checked {
     /// Anchor of the figure.
     id: String,
@@ -58,7 +58,7 @@ impl Directive for Do<ParsedText> {
         let facts = book.facts(name, &settings)?;
         if let Some(claim) = &self.claim {
             claims::check(claim, &facts)?;
-            // What the words say holds for whoever has clicked other words before.
+            // The claim must also hold after a click on other words.
             for settings in &self.after_others {
                 let facts = book.facts(name, settings)?;
                 claims::check(claim, &facts)

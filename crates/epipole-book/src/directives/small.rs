@@ -1,8 +1,8 @@
 //! `{{#small figure key=value … page=sfm.md | words}}`: a small picture of a figure in that state, with words below it.
 //!
-//! With `moves="key=value …"` the picture comes to life where a reader looks at it: the figure goes there and back
-//! (`web/book/small.ts`). It leads to the page, once there is such a page: chapters can name those that are still to
-//! come. If the page has a quiz, the script of the page says how much of it the reader has solved.
+//! With `moves="key=value …"` the picture comes to life in view: the figure moves there and back
+//! (`web/book/small.ts`). It links to the page as soon as there is one: chapters may name pages
+//! still to come. If the page has a quiz, the page's script shows the number of questions solved.
 
 use crate::html::escape;
 use crate::parse::outline::{own_settings, with_wishes};
@@ -18,7 +18,7 @@ use crate::resolve::book::Book;
 use crate::resolve::figures::Room;
 use crate::resolve::posters::Posters;
 
-/// A figure in a state, and the page that it stands for. `T` is the stage of its words.
+/// A figure in a state, and its page. `T` is the stage of its words.
 pub(super) struct Small<T> {
     name: String,
     settings: Vec<(String, String)>,
@@ -65,7 +65,7 @@ impl Directive for Small<ParsedText> {
         let life = match &self.moves {
             Some(moves) => {
                 let moves = moves_of(moves, settings)?;
-                // What the page would ask of it can be asked.
+                // The figure must accept all settings that the page will apply.
                 let there = with_wishes(settings.clone(), &moves);
                 book.gallery.open(name, &there).map_err(problem)?;
                 life(name, settings, &moves)
@@ -94,7 +94,7 @@ impl Directive for Small<ParsedText> {
         } = drawn;
         let pictures = pictures::add(page, &small.name, posters);
         let words = small.words.inline(page);
-        // What the picture shows, the words say.
+        // The words describe the picture, so its alternative text is empty.
         let inside = format!(
             "<picture>{}<img src=\"{}\" alt=\"\" loading=\"lazy\" decoding=\"async\"></picture>\
              <span>{words}</span>",
@@ -117,7 +117,7 @@ fn file_of(page: &str) -> &str {
     page.split('#').next().unwrap_or(page)
 }
 
-/// Where the figure goes: each setting with a place to come back to.
+/// Settings that the figure moves to, each with an initial value to return to.
 fn moves_of(moves: &str, settings: &[(String, String)]) -> Result<Vec<(String, String)>, String> {
     let one = |word: &str| {
         let (key, value) = word

@@ -11,7 +11,7 @@ use mdbook_driver::config::Config;
 use pulldown_cmark::{Event, Parser, Tag};
 use std::path::Path;
 
-/// What `book.toml` and `SUMMARY.md` say, and the chapters.
+/// The parsed `book.toml` and `SUMMARY.md`, and the chapters.
 pub(crate) struct Manuscript {
     pub(crate) config: Config,
     pub(crate) contents: Vec<Entry>,

@@ -4,7 +4,7 @@ use pulldown_cmark::{CowStr, Event, HeadingLevel, Tag};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// An event and the bytes that it stands for.
+/// An event and its byte range.
 pub(crate) type Located<'a> = (Event<'a>, Range<usize>);
 
 /// The index after the end of the element that starts at `start`.
@@ -25,7 +25,7 @@ pub(crate) fn end_of(events: &[Located], start: usize) -> usize {
     events.len()
 }
 
-/// Where the sections of a text start, each with a heading of the second level, and the text's end.
+/// Byte offsets of the sections, each starting with a second-level heading, and of the text's end.
 pub(crate) fn section_starts(events: &[Located]) -> Vec<usize> {
     let mut starts = Vec::new();
     let mut at = 0;

@@ -22,7 +22,7 @@ pub(crate) struct Instance {
 pub(crate) struct Outline {
     figures: Vec<Instance>,
     acts: Vec<Act>,
-    /// Letters of the chapter that its figures draw as well.
+    /// Letters of the chapter that its figures also draw.
     pub(crate) symbols: Vec<String>,
 }
 
@@ -49,8 +49,8 @@ impl Outline {
         nearest(wanted, place, &self.figures)
     }
 
-    /// States of `figure` after the words at `place`, for a reader who clicked other words before: everything above
-    /// them, and everything below them.
+    /// States of `figure` after a click on the words at `place`, for a reader who clicked other
+    /// words before: all above, or all below.
     pub(crate) fn after_others(
         &self,
         figure: &Instance,
@@ -80,7 +80,7 @@ fn symbols(source: &Source) -> Vec<String> {
     names
 }
 
-/// What a figure's tag says to the builder and to the page; everything else is the figure's state.
+/// Attributes of a figure's tag for the builder and the page; all others are the figure's state.
 const WORDS_OF_THE_PAGE: [&str; 8] = [
     "id", "controls", "readouts", "goals", "claim", "page", "play", "moves",
 ];
@@ -92,8 +92,8 @@ pub(crate) fn own_settings(directive: &Call) -> Vec<(String, String)> {
     settings
 }
 
-/// All figures of a chapter in their order. Those that nobody named are `fig-name`, and from the second
-/// of their kind on `fig-name-2`.
+/// All figures of a chapter in order. Figures without a given id are `fig-name`, then `fig-name-2`
+/// and so on.
 fn instances(source: &Source) -> Vec<Instance> {
     let mut found: Vec<Instance> = Vec::new();
     for piece in split(source) {
@@ -151,8 +151,8 @@ fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
     split(source).into_iter().filter_map(act).collect()
 }
 
-/// What a reader may have clicked for `figure` before the words at `place`: everything above them from the top
-/// down, and everything below them from the bottom up.
+/// Other words that a reader may have clicked for `figure` before the words at `place`: those above
+/// from the top down, and those below from the bottom up.
 fn clicked_before<'a>(
     figure: &Instance,
     (place, wishes): (&Place, &[(String, String)]),
@@ -168,7 +168,7 @@ fn clicked_before<'a>(
     [above, below]
 }
 
-/// Settings with wishes put on top of them.
+/// Settings overridden by `wishes`.
 pub(crate) fn with_wishes(
     mut settings: Vec<(String, String)>,
     wishes: &[(String, String)],
@@ -191,8 +191,8 @@ fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance> {
     all.iter().find(|figure| figure.first == *place)
 }
 
-/// The figure that a sentence at `place` means by `name` or `name#id`: of several the nearest, and of two
-/// equally near the one before.
+/// The figure for `name` or `name#id` in a sentence at `place`: the nearest of several, and the
+/// earlier of two equally near.
 ///
 /// # Errors
 /// A sentence with the figures of the page.

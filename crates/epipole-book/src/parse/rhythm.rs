@@ -1,4 +1,4 @@
-//! How long a chapter goes on without anything to look at.
+//! Lengths of the stretches of a chapter without anything to look at.
 
 use super::source::Source;
 use super::syntax::{Call, Piece, markdown_options, split};
@@ -8,14 +8,14 @@ use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 /// Paragraphs in a row without a figure, a picture, a drawing, a table or a listing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// How many; a list counts as one, and so does a remark. A formula on its own belongs to the
+    /// Number of paragraphs; a list or a remark counts as one. A displayed formula belongs to the
     /// paragraph before it.
     pub paragraphs: usize,
-    /// Where they begin.
+    /// Start of the stretch.
     pub place: Place,
 }
 
-/// The stretches of a chapter, up to its quiz: what follows is not read in one go.
+/// The stretches of a chapter, up to its quiz: the rest is not read in one go.
 pub fn stretches(source: &Source) -> Vec<Stretch> {
     let figures: Vec<Call> = split(source)
         .into_iter()

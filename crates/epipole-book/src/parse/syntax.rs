@@ -1,5 +1,5 @@
-//! `{{#name words key=value | body}}`: the one notation by which a chapter asks the builder for
-//! something. Code is left alone, and `\{{#` is a literal `{{#`.
+//! `{{#name words key=value | body}}`: the notation of all directives. Code is left alone, and
+//! `\{{#` is a literal `{{#`.
 
 use super::source::Source;
 use pulldown_cmark::{Event, Options, Parser, Tag};
@@ -8,15 +8,15 @@ use std::ops::Range;
 /// One request in a chapter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Call {
-    /// What stands after `{{#`.
+    /// Name, written after `{{#`.
     pub name: String,
     /// The words before the first `key=value`.
     pub words: Vec<String>,
-    /// `key=value` pairs in the order written; a value with spaces stands in double quotes.
+    /// `key=value` pairs in the order written; a value with spaces is in double quotes.
     pub settings: Vec<(String, String)>,
-    /// Where the text after ` | ` is: Markdown.
+    /// Byte range of the text after ` | `: Markdown.
     pub body: Option<Range<usize>>,
-    /// Where the whole directive is, from `{{` to `}}`.
+    /// Byte range of the whole directive, from `{{` to `}}`.
     pub span: Range<usize>,
 }
 
@@ -36,7 +36,7 @@ pub enum Piece {
     Text(Range<usize>),
     /// A directive.
     Directive(Call),
-    /// Something that starts like a directive: its place, and what is wrong.
+    /// A malformed directive: its byte range, and the error.
     Broken(Range<usize>, String),
 }
 
@@ -93,7 +93,7 @@ pub fn split(source: &Source) -> Vec<Piece> {
     pieces
 }
 
-/// Where code blocks and code spans are.
+/// Byte ranges of code blocks and code spans.
 fn code_ranges(text: &str) -> Vec<Range<usize>> {
     let mut ranges = Vec::new();
     for (event, range) in Parser::new_ext(text, markdown_options()).into_offset_iter() {

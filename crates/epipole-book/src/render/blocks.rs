@@ -1,4 +1,4 @@
-//! Paragraphs that hold one directive, and the fences between two of them.
+//! Paragraphs with a single directive, and the fences between two of them.
 
 use super::insert::{Block, Fence, Insert};
 use super::listing::info;
@@ -9,7 +9,7 @@ use crate::problems::Place;
 use pulldown_cmark::{Event, Tag};
 use std::ops::Range;
 
-/// What stands in a block, up to the paragraph that ends it.
+/// Contents of a block, up to the paragraph that ends it.
 pub(super) struct Collected {
     /// Events of the words before the fences.
     pub(super) words: Vec<Range<usize>>,
@@ -90,7 +90,7 @@ pub(super) fn lone_opening<'t>(inner: &[Located], inserts: &'t [Insert]) -> Opti
     }
 }
 
-/// The HTML of a paragraph that holds nothing but one insert, and what the search finds in it.
+/// The HTML of a paragraph with a single insert, and its text for the search index.
 pub(super) fn lone_block<'t>(
     inner: &[Located],
     inserts: &'t [Insert],

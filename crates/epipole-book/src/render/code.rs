@@ -1,4 +1,4 @@
-//! What listings and tasks share.
+//! Helpers shared by listings and tasks.
 
 use super::insert::Fence;
 use super::listing::shown_lines;
@@ -8,7 +8,7 @@ use crate::problems::Place;
 /// Longest line of code that a reader sees, in characters; more makes even a wide page scroll.
 pub(crate) const LONGEST_LINE: usize = 66;
 
-/// The button that copies what is in sight; a script brings it to life.
+/// The button that copies the visible code; a script activates it.
 pub(crate) const COPY: &str = "<button type=\"button\" class=\"copy\" hidden>Copy</button>";
 
 /// Name and title of a listing or a task.

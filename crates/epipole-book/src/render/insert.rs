@@ -5,7 +5,7 @@ use crate::html::escape;
 use crate::parse::stand_ins::{Part, parts};
 use crate::problems::Place;
 
-/// What a directive becomes.
+/// Rendered form of a directive.
 pub(crate) enum Insert {
     /// A printed number.
     Value(String),
@@ -13,7 +13,7 @@ pub(crate) enum Insert {
     Inline { html: String, text: String },
     /// Something that is a paragraph of its own.
     Block { html: String },
-    /// The beginning of a block that goes on to its end, likewise a paragraph of its own.
+    /// The opening of a block that extends to its end, likewise a paragraph of its own.
     Opening(Box<dyn Block>),
 }
 
@@ -22,7 +22,7 @@ pub(crate) trait Block {
     /// The paragraph that ends it.
     fn end(&self) -> &'static str;
 
-    /// The HTML. `words` stand before the fences.
+    /// Returns the HTML. `words` come before the fences.
     fn render(&self, page: &mut Writer, words: Words, fences: &[Fence], place: &Place) -> String;
 }
 
@@ -78,7 +78,7 @@ impl Insert {
     }
 }
 
-/// A text with what `form` makes of each insert in the place of its stand-in.
+/// Replaces the stand-ins of a text by the inserts, each rendered by `form`.
 pub(crate) fn substitute(words: &str, inserts: &[Insert], form: fn(&Insert) -> String) -> String {
     let mut text = String::new();
     for part in parts(words) {

@@ -1,4 +1,4 @@
-//! What pages say of one another, filled in and checked once all pages are rendered.
+//! References between pages, filled in and checked once all pages are rendered.
 
 use super::page::Page;
 use super::progress::{progress_table, solved_mark};
@@ -57,7 +57,7 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
     }
 }
 
-/// Reports links that lead nowhere, missing files, and what the Content-Security-Policy forbids.
+/// Reports broken links, missing files, and violations of the Content-Security-Policy.
 pub(crate) fn check(pages: &[Page], content: &Content, problems: &Problems) {
     check_links(pages, problems);
     for page in pages {

@@ -1,13 +1,13 @@
-//! Listings of code: what of the code a page shows, and how.
+//! Listings of code: the lines shown, and their HTML.
 
 use super::highlight::highlight;
 use crate::html::escape;
 use pulldown_cmark::CodeBlockKind;
 
-/// A line that hides itself and what follows it in the listing, as a comment of its language.
+/// A comment line that hides itself and the rest of the listing.
 const HIDES_THE_REST: [&str; 2] = ["# hidden", "// hidden"];
 
-/// A listing outside of `{{#listing}}` as HTML, highlighted, with a label that says what it is.
+/// A listing outside of `{{#listing}}` as HTML, highlighted, with a label of its kind.
 pub(crate) fn listing(code: &str, kind: &CodeBlockKind) -> String {
     let language = info(kind).0;
     let code = match language {
@@ -50,12 +50,11 @@ pub(crate) fn pre(code: &str, language: &str) -> String {
     )
 }
 
-/// The lines of `code` that a reader sees, with their numbers, counted from 0: without assertions, without
-/// what Rust's documentation hides, without what stands below a line `# hidden`; and no two empty lines in
-/// a row.
+/// The lines of `code` for the reader, numbered from 0: without assertions, without lines that
+/// Rust's documentation hides, without lines below `# hidden`, and without repeated empty lines.
 pub(crate) fn shown_lines<'a>(code: &'a str, language: &str) -> Vec<(usize, &'a str)> {
     let mut shown: Vec<(usize, &str)> = Vec::new();
-    // Brackets that an assertion has opened: it goes on while there are any.
+    // Number of brackets that an assertion has opened and not closed.
     let mut open = 0;
     for (number, line) in code.lines().enumerate() {
         let words = line.trim();
@@ -94,7 +93,7 @@ fn is_assertion(words: &str, language: &str) -> bool {
     }
 }
 
-/// How many brackets a line opens more than it closes.
+/// Number of brackets that a line opens minus those that it closes.
 fn brackets(line: &str) -> i32 {
     let count = |letter| match letter {
         '(' | '[' | '{' => 1,

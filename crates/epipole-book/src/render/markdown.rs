@@ -1,5 +1,5 @@
-//! A text's Markdown to HTML: stand-ins take the place of directives while Markdown is parsed, and their HTML takes the
-//! stand-ins' place afterwards.
+//! Renders Markdown to HTML: stand-ins replace directives while Markdown is parsed, and are
+//! replaced by the directives' HTML afterwards.
 
 use super::blocks::{code_of, collect, lone_block, lone_opening};
 use super::insert::{Block, Insert, Words, substitute};
@@ -20,15 +20,15 @@ use crate::problems::Place;
 use pulldown_cmark::{CowStr, Event, Parser, Tag, TagEnd};
 use std::collections::HashMap;
 
-/// Markdown with stand-ins, and what becomes of these.
+/// Markdown with stand-ins, and their inserts.
 pub(crate) struct Markdown {
     pub(crate) source: Source,
     pub(crate) inserts: Vec<Insert>,
-    /// What the search finds in each of the inserts: captions, notes, quizzes.
+    /// Text of each insert for the search index: captions, notes, quizzes.
     pub(crate) found: Vec<String>,
 }
 
-/// What the events of one text refer to.
+/// Data that the events of a text refer to.
 struct Text<'a> {
     source: &'a Source,
     inserts: &'a [Insert],
@@ -48,7 +48,7 @@ pub(crate) fn block(markdown: &Markdown, page: &mut Writer) -> String {
     html
 }
 
-/// A text that stands inside a paragraph, such as a caption.
+/// A text inside a paragraph, such as a caption.
 pub(crate) fn inline(markdown: &Markdown, page: &mut Writer) -> String {
     let (events, text) = parsed(markdown);
     let html = page.events(&events, &text, true);
@@ -78,7 +78,8 @@ impl Writer<'_> {
     /// HTML of a run of events. `tight` leaves out the tags of paragraphs.
     fn events(&mut self, events: &[Located], text: &Text, tight: bool) -> String {
         let mut out: Vec<Event> = Vec::new();
-        // Bytes of the next text that stand behind the formula before it already.
+        // Length of the punctuation after a formula that is already written, bytes of the next
+        // text.
         let mut skipped = 0;
         let mut at = 0;
         while at < events.len() {
@@ -307,7 +308,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Text with the stand-ins of directives replaced.
+    /// Emits text with the stand-ins of directives replaced.
     fn text(&mut self, words: &str, text: &Text, out: &mut Vec<Event>) {
         for part in parts(words) {
             match part {

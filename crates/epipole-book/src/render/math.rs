@@ -4,7 +4,7 @@ use crate::html::escape;
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
 
-/// Whether a formula stands in a line of text or on its own.
+/// Whether a formula is inline or displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
     /// `$…$`
@@ -16,7 +16,7 @@ pub enum Layout {
 /// A formula as MathML, with its LaTeX as an annotation.
 ///
 /// # Errors
-/// What is wrong with the LaTeX, in one line.
+/// The problem of the LaTeX, in one line.
 pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let latex = latex.trim();
     if latex.is_empty() {
@@ -60,8 +60,7 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     })
 }
 
-/// The renderer writes operators and words as they are: `<mo><</mo>`. This escapes what stands
-/// inside the elements that hold text.
+/// Escapes the text inside leaf elements, which the renderer leaves as it is: `<mo><</mo>`.
 fn escape_leaves(html: &str) -> String {
     let mut escaped = String::with_capacity(html.len());
     let mut rest = html;
@@ -124,7 +123,7 @@ fn with_accents(html: &str) -> String {
     done + rest
 }
 
-/// Escapes what is not yet escaped.
+/// Escapes characters that are not yet escaped.
 fn escape_once(text: &str) -> String {
     let plain = text
         .replace("&lt;", "<")

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 pub enum Cell {
     /// Words, in Markdown.
     Text(String),
-    /// Python, with what the tests have seen it print.
+    /// Python, with its recorded output.
     Code {
         /// Unique in the notebook.
         id: String,
@@ -25,7 +25,7 @@ impl Cell {
     }
 }
 
-/// Where the notebook of a page is, from the root of the site.
+/// Path of a page's notebook, from the root of the site.
 pub(crate) fn path(page: &str) -> String {
     let name = page.trim_end_matches(".html").replace('/', "-");
     format!("notebooks/{name}.ipynb")

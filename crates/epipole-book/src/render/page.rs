@@ -1,4 +1,4 @@
-//! A rendered page and all that it asks of other pages, of the content folder and of the site.
+//! A rendered page and its requirements on other pages, the content folder and the site.
 
 use super::notebook::Cell;
 use crate::problems::Place;
@@ -25,7 +25,7 @@ pub struct FigureEntry {
     pub id: String,
     /// `4.1`.
     pub number: String,
-    /// Where the chapter asks for it.
+    /// Location in the chapter.
     pub place: Place,
 }
 
@@ -34,11 +34,11 @@ pub struct FigureEntry {
 pub struct Link {
     /// Path of the page, such as `ransac.html`.
     pub page: String,
-    /// What follows `#`.
+    /// Fragment, without `#`.
     pub fragment: Option<String>,
     /// As the author wrote it.
     pub written: String,
-    /// Where.
+    /// Location in the chapter.
     pub place: Place,
 }
 
@@ -75,9 +75,9 @@ pub struct PanelRequest {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// What a reader can do with it.
+    /// Help for the reader.
     pub help: String,
-    /// What it shows beside the picture.
+    /// Snapshot of its texts, numbers and controls.
     pub snapshot: serde_json::Value,
     /// Attributes of the element.
     pub attributes: BTreeMap<String, String>,
@@ -85,12 +85,12 @@ pub struct PanelRequest {
     pub sizes: Vec<(u32, f64)>,
 }
 
-/// A file of the content folder that goes to the same path of the site.
+/// A file of the content folder, copied to the same path of the site.
 #[derive(Debug, Clone)]
 pub struct WantedFile {
     /// From the content folder.
     pub path: String,
-    /// Where the chapter names it.
+    /// Location in the chapter.
     pub place: Place,
     /// The problem if there is no such file.
     pub missing: String,
@@ -99,7 +99,7 @@ pub struct WantedFile {
 /// A page of the book.
 #[derive(Debug, Clone, Default)]
 pub struct Page {
-    /// Where it goes, such as `epipolar.html`.
+    /// Path in the site, such as `epipolar.html`.
     pub path: String,
     /// The chapter's name in `SUMMARY.md`.
     pub title: String,
@@ -115,13 +115,13 @@ pub struct Page {
     pub figures: Vec<FigureEntry>,
     /// Links into the book.
     pub links: Vec<Link>,
-    /// What the search finds.
+    /// Sections in the search index.
     pub sections: Vec<Section>,
     /// Names of listings and tasks.
     pub listings: Vec<String>,
     /// Cells of the chapter's notebook.
     pub cells: Vec<Cell>,
-    /// Letters that the chapter's figures draw as well.
+    /// Letters that the chapter's figures also draw.
     pub symbols: Vec<String>,
     /// Whether the list of references is here.
     pub has_references: bool,
@@ -131,7 +131,7 @@ pub struct Page {
     pub goals: BTreeSet<String>,
     /// Figures that it refers to, and where.
     pub wanted_figures: Vec<(String, Place)>,
-    /// Where it cites first.
+    /// Location of the first citation.
     pub cites: Option<Place>,
     /// Panels of its figures.
     pub panels: Vec<PanelRequest>,
@@ -153,7 +153,8 @@ impl Page {
         }
     }
 
-    /// Attribute of the last figure's picture: the first of a page may be in sight at once, the others can wait.
+    /// Attribute of the last figure's picture: the first of a page may be visible at once, the
+    /// others load lazily.
     pub(crate) fn loading_of_last_figure(&self) -> &'static str {
         match self.figures.len() {
             1 => "fetchpriority=\"high\"",

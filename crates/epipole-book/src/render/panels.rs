@@ -1,6 +1,6 @@
-//! The living figures as they stand before any script runs: picture, controls and numbers in a declarative
-//! shadow root, so that nothing moves when a figure wakes. The elements' own code writes them, in
-//! `web/prerender.mjs`; all figures of the book go through it at once.
+//! The live figures before any script runs: picture, controls and numbers in a declarative shadow
+//! root, so that nothing moves when a figure starts. They are written by the elements' own code, in
+//! `web/prerender.mjs`; all figures of the book are rendered in one run.
 
 use super::page::PanelRequest;
 use crate::tools::Tools;
@@ -9,7 +9,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Where the elements' style sheet belongs in a panel.
+/// Placeholder of the elements' style sheet in a panel.
 pub(crate) const STYLES: &str = "{{figure.css}}";
 
 const SCRIPT: &str = "web/prerender.mjs";

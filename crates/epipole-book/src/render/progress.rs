@@ -1,9 +1,10 @@
-//! Where the script of a page tells what the reader has solved and reached.
+//! Placeholders for the reader's progress, which the script of a page fills in.
 
 use super::page::Page;
 use crate::html::escape;
 
-/// Room below a small picture for how much of its page's quiz is solved; the script of the page fills it in.
+/// Placeholder below a small picture for the solved share of its page's quiz, filled in by the
+/// page's script.
 pub(super) fn solved_mark(page: &Page) -> String {
     let quiz = page.quizzes.first();
     quiz.map_or_else(String::new, |quiz| {

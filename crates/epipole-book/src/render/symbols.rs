@@ -1,4 +1,5 @@
-//! Letters that figures draw as well: where a chapter lists them, they have their colors in all of its formulas.
+//! Colored symbols, shared by figures and formulas: if a chapter lists them, they have their colors
+//! in all of its formulas.
 
 use crate::html::escape;
 
@@ -87,7 +88,7 @@ pub(crate) fn find(name: &str) -> Option<&'static Symbol> {
 pub(crate) fn mark(html: &str, names: &[String]) -> String {
     const LEAF: &str = "<mi>";
     const PRIME: &str = "<mi>′</mi>";
-    /// What a prime and a transposition become: the letter itself stands before.
+    /// MathML of a prime with a transposition, following the letter itself.
     const PRIME_TRANSPOSED: &str = "<msup><mi>′</mi><mi>⊤</mi></msup>";
     let mut marked = String::with_capacity(html.len());
     let mut rest = html;

@@ -1,4 +1,4 @@
-//! Tokens: places in a page for what is known only once all pages are rendered.
+//! Tokens: placeholders in a page for content that is only known once all pages are rendered.
 
 /// The page with the list of references.
 pub(crate) const PAGE_OF_REFERENCES: &str = "references-page";
@@ -6,7 +6,7 @@ pub(crate) const PAGE_OF_REFERENCES: &str = "references-page";
 pub(crate) const PAGE_OF_FIGURE: &str = "figure-page";
 /// `Figure 4.1`.
 pub(crate) const NUMBER_OF_FIGURE: &str = "figure-number";
-/// How much of a page's quiz is solved.
+/// Number of solved questions of a page's quiz.
 pub(crate) const SOLVED: &str = "solved";
 /// The table of quizzes and goals.
 pub(crate) const PROGRESS: &str = "progress";

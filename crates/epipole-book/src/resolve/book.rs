@@ -1,4 +1,4 @@
-//! What the chapters of a build ask: figures, their posters and facts, and references.
+//! Data shared by the chapters of a build: figures, their posters and facts, and references.
 
 use super::cache::Cache;
 use super::facts::Facts;
@@ -15,7 +15,7 @@ type Settings = [(String, String)];
 /// A figure in a state.
 type State = (String, Vec<(String, String)>);
 
-/// The sources of all answers. Chapters can ask from several threads.
+/// The data for all directives, shared by several threads.
 pub(crate) struct Book<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) gallery: &'a dyn Gallery,
@@ -43,7 +43,7 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// What a figure shows in a state, its computations done.
+    /// Facts of a figure in a state, after its computations.
     ///
     /// # Errors
     /// A sentence that names the figure.

@@ -1,11 +1,11 @@
-//! What is kept between builds: posters and snapshots of figures.
+//! Cache of posters and snapshots of figures between builds.
 
 use crate::hash::fnv;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Hash of the sources that draw figures: what others have drawn is drawn again.
+/// Hash of the sources that draw figures: entries of other versions are drawn again.
 const DRAWN_BY: &str = env!("EPIPOLE_BOOK_DRAWN_BY");
 
 /// A folder with results, each under a hash of all that it depends on.
@@ -18,7 +18,7 @@ impl Cache {
         Cache(folder.to_path_buf())
     }
 
-    /// What was kept of a figure in a state, or what `make` gives, which is kept then.
+    /// Returns the cached data of a figure in a state, or calls `make` and caches the result.
     ///
     /// # Errors
     /// Those of `make`.
@@ -42,7 +42,7 @@ impl Cache {
     }
 }
 
-/// An extension of its own for each file that is being written: two threads may make the same.
+/// A unique extension for each file being written, as two threads may write the same.
 fn part_name() -> String {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -70,7 +70,7 @@ mod tests {
                 .get_or(("dot", &settings, "360"), text, nothing)
                 .is_err()
         );
-        // What cannot be read is made again.
+        // An unreadable entry is made again.
         assert!(cache.get_or(key, |_| None, nothing).is_err());
     }
 }

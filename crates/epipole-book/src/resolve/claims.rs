@@ -1,17 +1,18 @@
-//! What a caption or a sentence says that the reader will see, checked against the figure.
+//! Checks the claims of a caption or a sentence against the figure.
 //!
-//! A claim is one or more comparisons, separated by semicolons: `samples > 100; verdict has corner`. On the
-//! left stands the name of a readout, of a control, or `goal.name`; on the right a number, such a name,
-//! or words. `name#2` is the second number of a readout that holds several ("0.2 % (start: 9.2)").
+//! A claim is one or more comparisons, separated by semicolons:
+//! `samples > 100; verdict has corner`. The left side is the name of a readout, of a control, or
+//! `goal.name`; the right side is a number, another name, or words. `name#2` is the second number of
+//! a readout that holds several ("0.2 % (start: 9.2)").
 
 use super::facts::{Facts, Shown};
 
 const OPERATORS: [&str; 8] = [">=", "<=", "!=", ">", "<", "=", "has", "lacks"];
 
-/// Checks a claim against what a figure shows.
+/// Checks a claim against the facts of a figure.
 ///
 /// # Errors
-/// A sentence: what is false and what is true instead, or what cannot be read.
+/// A sentence: the false comparison with the actual value, or the part that cannot be read.
 pub fn check(claim: &str, facts: &Facts) -> Result<(), String> {
     claim
         .split(';')
@@ -80,13 +81,13 @@ fn verdict(holds: bool, test: &str, seen: &Shown) -> Result<(), String> {
     ))
 }
 
-/// A number, or what a name stands for if that is one.
+/// A number, or the value of a name.
 fn value_of(right: &str, facts: &Facts) -> Option<f64> {
     let number = right.parse().ok();
     number.or_else(|| look(right, facts).ok()?.number)
 }
 
-/// What stands under `name` or `name#2`.
+/// The value of `name` or `name#2`.
 fn look(name: &str, facts: &Facts) -> Result<Shown, String> {
     let (id, place) = match name.split_once('#') {
         Some((id, place)) => (

@@ -1,5 +1,5 @@
-//! What a figure shows in one of its states: the numbers, words and settings that a page prints, quotes
-//! and relies on. Taken from the same snapshot that a page in a browser gets.
+//! Facts of a figure in one of its states: the numbers, words and settings that a page prints,
+//! quotes and checks, from the same snapshot as in a browser.
 
 use super::figures::Aspect;
 use crate::problems::name_list;
@@ -34,7 +34,7 @@ impl Facts {
         &self.0
     }
 
-    /// What the figure shows, in one or two sentences.
+    /// Description of the picture, in one or two sentences.
     pub fn description(&self) -> &str {
         self.0["description"].as_str().unwrap_or_default()
     }
@@ -47,7 +47,7 @@ impl Facts {
         }
     }
 
-    /// The names of what stands in a list of the snapshot: `controls`, `readouts`, `challenges`.
+    /// The names in a list of the snapshot: `controls`, `readouts`, `challenges`.
     pub fn ids(&self, list: &str) -> Vec<&str> {
         let entries = self.0[list].as_array();
         let ids = entries.into_iter().flatten();
@@ -71,8 +71,8 @@ impl Facts {
         }
     }
 
-    /// What is shown under a name: a readout, else the value of a control, else, as `goal.name`, whether
-    /// a goal is reached.
+    /// The value of a name: a readout, else the value of a control, else, as `goal.name`, whether a
+    /// goal is reached.
     ///
     /// # Errors
     /// A sentence with the names that exist.

@@ -1,4 +1,5 @@
-//! What the builder asks of the figures: which exist, what a chapter's parameters mean, the poster.
+//! The builder's interface to the figures: their names, the check of a chapter's parameters, the
+//! poster.
 //!
 //! The rest of the builder knows only the two traits here, so its tests can bring their own
 //! figures.
@@ -9,7 +10,7 @@ use epipole_widgets::gallery::{self, FIGURES};
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Answers, Snapshot};
 
-/// What figures have computed, kept while the builder runs.
+/// Cache of the figures' computations while the builder runs.
 static ANSWERS: Answers = Answers::new();
 
 /// The room that a page has for a picture: figures lay themselves out for its width.
@@ -65,7 +66,7 @@ pub trait Gallery: Send + Sync {
     /// Their names, for messages.
     fn names(&self) -> Vec<String>;
 
-    /// Title of a figure, and what a reader can do with it.
+    /// Title and help of a figure.
     fn about(&self, name: &str) -> (String, String);
 
     /// A figure in the state that the settings describe.
@@ -77,8 +78,7 @@ pub trait Gallery: Send + Sync {
 
 /// One figure in one state.
 pub trait Figure: Send + Sync {
-    /// Everything that a page shows of it beside the picture, once all computations are done: JSON, as
-    /// pages in a browser get it.
+    /// JSON of everything beside the picture, after all computations, as in a browser.
     ///
     /// # Errors
     /// A sentence.
@@ -131,8 +131,8 @@ impl Gallery for Widgets {
     }
 }
 
-/// A figure's name and state; the figure itself is made where it is asked, as it cannot be sent
-/// between threads.
+/// A figure's name and state; the figure itself is made on each use, as it cannot be sent between
+/// threads.
 struct Widget {
     name: String,
     settings: Vec<(String, String)>,

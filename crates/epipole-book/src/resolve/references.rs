@@ -15,12 +15,12 @@ pub struct Reference {
     pub year: u16,
     /// Title.
     pub title: String,
-    /// Where it appeared: journal, volume and pages, or publisher.
+    /// Journal, volume and pages, or publisher.
     #[serde(rename = "in")]
     pub venue: Option<String>,
     /// Digital object identifier, without `https://doi.org/`.
     pub doi: Option<String>,
-    /// Where to read it, if there is no DOI.
+    /// Web address, if there is no DOI.
     pub url: Option<String>,
 }
 
@@ -29,7 +29,7 @@ pub struct Reference {
 pub struct References(BTreeMap<String, Reference>);
 
 impl References {
-    /// Reads the file; what is wrong goes to `problems`.
+    /// Reads the file; errors go to `problems`.
     pub fn parse(source: &Source, problems: &Problems) -> References {
         match toml::from_str::<BTreeMap<String, Reference>>(source.text()) {
             Ok(works) => {

@@ -1,5 +1,5 @@
-//! What the browser downloads beside the pages: styles, fonts, scripts and WebAssembly. Every name
-//! carries a hash of the content; what is in `embed/` has stable names, for other sites.
+//! Files that the browser downloads besides the pages: styles, fonts, scripts and WebAssembly.
+//! Every name carries a hash of the content; only names in `embed/` are stable, for other sites.
 
 mod embed;
 mod files;
@@ -19,7 +19,7 @@ use crate::tools::{Tools, read};
 use anyhow::Result;
 use std::path::Path;
 
-/// The figures for the browser, if the project has figures: what takes longest.
+/// The figures for the browser, if the project has figures: the slowest step.
 ///
 /// # Errors
 /// A tool that is missing or fails, named with the remedy.

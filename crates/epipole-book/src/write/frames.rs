@@ -1,6 +1,6 @@
-//! `embed/<figure>.html`: the page of one figure, for frames on other pages. It has poster and words for readers
-//! without script; its address sets the figure. Where the address of the book is known, each page links to what
-//! oEmbed wants to know of it.
+//! `embed/<figure>.html`: the page of one figure, for frames on other pages. It has poster and
+//! words for readers without script; its address sets the figure. If the address of the book is
+//! configured, each page links to its oEmbed data.
 
 use super::assets::Assets;
 use super::policy::CONTENT_SECURITY_POLICY;
@@ -18,8 +18,8 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a frame needs beyond the poster for title, buttons, numbers and sliders, CSS pixels. A page that listens is
-/// told the true height.
+/// Height of a frame beyond the poster, for title, buttons, numbers and sliders, CSS pixels. A
+/// listening page receives the true height.
 const BESIDE_POSTER: f64 = 300.0;
 
 /// One figure, ready for its page.
@@ -34,8 +34,8 @@ pub(crate) struct Frame {
     files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Asks for the posters of all figures in their first state. They are drawn into pages of their own, whose files
-/// belong to the site.
+/// Draws the posters of all figures in their initial state, into pages of their own, with files
+/// that belong to the site.
 ///
 /// # Errors
 /// The sentence of a figure that cannot be drawn.
@@ -140,7 +140,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// Where the book is published, `[output.epipole] address`, with a slash at its end.
+/// Address of the published book, `[output.epipole] address`, with a trailing slash.
 pub(crate) fn address(config: &Config) -> Option<String> {
     let written = config.get::<String>("output.epipole.address").ok()??;
     Some(format!("{}/", written.trim_end_matches('/')))

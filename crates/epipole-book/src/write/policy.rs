@@ -13,12 +13,13 @@ macro_rules! policy {
     };
 }
 
-/// What a page may load and do. Sent as a header by `serve`, and part of every page.
+/// Content-Security-Policy of a page. Sent as a header by `serve`, and part of every page.
 pub const CONTENT_SECURITY_POLICY: &str = policy!("", "");
 
-/// The same for pages that stand in frames of other pages. In a page itself browsers would ignore the last part.
+/// The same for pages inside frames of other pages. Browsers ignore the last directive in the page
+/// itself.
 pub const FRAME_POLICY: &str = policy!("", "; frame-ancestors *");
 
-/// The same for the Lab, which also opens the reader's own videos, and whose workers learn from an address of the page
-/// whether their work is still wanted.
+/// The same for the Lab, which also opens the reader's own videos, and whose workers check a URL of
+/// the page for cancellation.
 pub const LAB_POLICY: &str = policy!(" blob:", "; media-src blob:");

@@ -1,6 +1,6 @@
-//! Stills: small pictures of all figures with their words, for pages that show no widgets. They travel with the Python
-//! package, so each is a PNG of few colors in which runs of like pixels are one color: drawings stay as they are,
-//! photographs become coarse.
+//! Stills: small pictures of all figures with their words, for pages without widgets. They are part
+//! of the Python package, so each is a PNG of few colors in which runs of similar pixels are one
+//! color: drawings stay the same, photographs become coarse.
 
 use crate::resolve::facts::Facts;
 use crate::resolve::figures::{Gallery, Poster, Room};
@@ -14,7 +14,7 @@ use std::path::Path;
 /// Pixels in a row of a still. A figure is laid out for a column and reduced.
 const WIDTH: u32 = 400;
 
-/// Bytes that a still has if that can be had: 31 of them and the modules are less than 1.2 MB.
+/// Target size of a still, bytes: 31 of them and the modules are less than 1.2 MB.
 const BYTES: usize = 6_800;
 
 /// Colors, and how far a pixel may be from the color that its neighbor has, of 255: the first that is small enough.
@@ -30,12 +30,12 @@ const LADDER: [(usize, i32); 9] = [
     (12, 46),
 ];
 
-/// A color that so many of all pixels have stays exactly as it is, of 1000.
+/// Share of the pixels, in thousandths, above which a color is kept exactly.
 const FREQUENT: usize = 5;
 
 type Color = [u8; 3];
 
-/// Writes `NAME.png` for each figure and `words.json`, what each shows in words, to a folder.
+/// Writes `NAME.png` for each figure and `words.json`, their descriptions, to a folder.
 ///
 /// # Errors
 /// A figure that cannot be drawn, or a folder that cannot be written.
@@ -59,7 +59,7 @@ pub fn write(gallery: &dyn Gallery, folder: &Path) -> Result<usize> {
     Ok(names.len())
 }
 
-/// What a figure shows at first, in words and as a PNG.
+/// Description and PNG of a figure's initial state.
 fn still(gallery: &dyn Gallery, name: &str) -> Result<(String, Vec<u8>), String> {
     let figure = gallery.open(name, &[])?;
     let facts = Facts::parse(&figure.snapshot()?)?;
@@ -147,7 +147,7 @@ impl Palette {
     }
 }
 
-/// How different two colors look, squared: green counts most.
+/// Squared perceptual distance of two colors: green counts most.
 fn distance_sq(one: Color, other: Color) -> i32 {
     let difference = |channel: usize| i32::from(one[channel]) - i32::from(other[channel]);
     let [r, g, b] = [difference(0), difference(1), difference(2)];
@@ -189,7 +189,8 @@ fn cut(colors: Vec<(Color, usize)>, limit: usize) -> Vec<Color> {
     boxes.iter().map(|inside| mean(inside)).collect()
 }
 
-/// How far the colors of a box spread, weighted by how many there are, and along which channel.
+/// Squared range of a box's widest channel, weighted by the root of the number of colors, and that
+/// channel.
 fn spread(inside: &[(Color, usize)]) -> (u64, usize) {
     let count: usize = inside.iter().map(|(_, count)| count).sum();
     let range = |channel: usize| {
@@ -212,8 +213,8 @@ fn mean(inside: &[(Color, usize)]) -> Color {
     [0, 1, 2].map(|channel| (sum(channel) / all.max(1)) as u8)
 }
 
-/// The color of each pixel: that of its neighbor above or to the left if that is near enough, else the nearest. What
-/// has one of the frequent colors keeps it.
+/// Palette index of each pixel: that of its neighbor above or to the left if close enough, else the
+/// nearest. Pixels with a frequent color keep it.
 fn indices(picture: &Picture, palette: &Palette, tolerance: i32) -> Vec<u8> {
     let mut found: Vec<u8> = Vec::with_capacity(picture.pixels.len());
     let mut from_above = false;
@@ -222,7 +223,7 @@ fn indices(picture: &Picture, palette: &Palette, tolerance: i32) -> Vec<u8> {
         let exactly = nearest < palette.exact && palette.colors[nearest] == pixel;
         let above = place.checked_sub(picture.width).map(|at| found[at]);
         let left = (place % picture.width > 0).then(|| found[place - 1]);
-        // A compressor likes to go on as it did.
+        // Continuing with the same choice compresses better.
         let known = match from_above {
             true => [above, left],
             false => [left, above],

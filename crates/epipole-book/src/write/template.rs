@@ -1,4 +1,4 @@
-//! A page around its content: `web/theme/index.hbs` and what it may use.
+//! The template of a page, `web/theme/index.hbs`, and its variables.
 
 use super::assets::Assets;
 use super::policy::CONTENT_SECURITY_POLICY;
@@ -12,7 +12,7 @@ use mdbook_driver::config::Config;
 use serde::Serialize;
 use std::path::Path;
 
-/// The template and what is the same on all pages.
+/// The template and the content shared by all pages.
 pub(crate) struct Template<'a> {
     handlebars: Handlebars<'static>,
     book_title: String,
@@ -45,7 +45,7 @@ struct Data<'a> {
     nav: &'a Nav,
 }
 
-/// Where a page stands in the book.
+/// Position of a page in the book.
 #[derive(Serialize, Default)]
 pub(crate) struct Nav {
     entries: Vec<NavEntry>,
@@ -210,8 +210,7 @@ impl<'a> Template<'a> {
         html.with_context(|| format!("the page {} cannot be made", page.path))
     }
 
-    /// What a server shows for an address that does not exist. Its links are relative to the
-    /// folder of the site.
+    /// Page for an address that does not exist. Its links are relative to the folder of the site.
     pub(crate) fn not_found(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
         let page = Page {
             path: "404.html".to_owned(),
@@ -224,7 +223,8 @@ impl<'a> Template<'a> {
         self.page(&page, &Nav::new(entries, pages, pages.len() + 1))
     }
 
-    /// What stands where the Lab will be until it is built: building it takes minutes, and the book links to it.
+    /// Placeholder for the Lab until it is built: building it takes minutes, and the book links to
+    /// it.
     pub(crate) fn without_lab(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
         let page = Page {
             path: format!("{LAB_FOLDER}/index.html"),

@@ -117,7 +117,7 @@ fn every_figure_has_a_page_for_frames() {
     ] {
         assert!(frame.contains(part), "{part}: {frame}");
     }
-    // Where the book is published nobody has said.
+    // No address of the published book is configured.
     assert!(!frame.contains("oembed"), "{frame}");
     assert!(!book.out().join("embed/dot.json").exists());
 }

@@ -1,4 +1,4 @@
-//! Listings: tabs, hidden lines, and what they print.
+//! Listings: tabs, hidden lines, and output.
 
 use crate::tiny::Book;
 
@@ -46,7 +46,7 @@ fn a_listing_has_tabs_and_says_what_it_prints() {
     ] {
         assert!(article.contains(part), "{part}: {article}");
     }
-    // What checks is for the tests and the notebook.
+    // Checking code is for the tests and the notebook.
     for hidden in ["assert", "Not yet", "{{"] {
         assert!(!article.contains(hidden), "{hidden}: {article}");
     }

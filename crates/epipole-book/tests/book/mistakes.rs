@@ -1,4 +1,4 @@
-//! What each mistake of an author says.
+//! Messages for the mistakes of authors.
 
 use crate::tiny::Book;
 

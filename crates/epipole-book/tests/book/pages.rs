@@ -1,4 +1,4 @@
-//! What a page of the book looks like as HTML.
+//! HTML of a page of the book.
 
 use crate::tiny::Book;
 
@@ -215,7 +215,7 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
     // The goals of its figures are counted, too.
     let goals = "<td class=\"reached\" data-goals=\"dot/large\">– of 1</td>";
     assert!(progress.contains(goals), "{progress}");
-    // A picture that leads to a chapter has room for what is solved there.
+    // A picture that links to a chapter has room for the chapter's solved questions.
     let mark = "<span class=\"solved\" data-quiz=\"one\" data-questions=\"1\" data-goals=\"dot/large\" hidden></span></a>";
     assert_eq!(progress.matches(mark).count(), 1, "{progress}");
     assert_eq!(progress.matches("class=\"solved\" data-quiz").count(), 1);

@@ -1,4 +1,4 @@
-//! What holds of the chapters that we ship.
+//! Properties of the published chapters.
 
 use epipole_book::parse::rhythm::stretches;
 use epipole_book::parse::source::Source;
@@ -57,7 +57,7 @@ fn captions_are_short() {
     assert!(long.is_empty(), "{long:#?}");
 }
 
-/// A choice of a question: its words, whether it is right, and whether something is said of it.
+/// A choice of a question: its words, whether it is right, and whether it has a comment.
 type Choice = (String, bool, bool);
 
 /// The questions of all quizzes: id and choices.

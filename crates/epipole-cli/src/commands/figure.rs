@@ -79,11 +79,11 @@ fn size(text: &str) -> Result<Size, String> {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let mut figure = Figure::new(&arguments.name)?;
-    // Whoever draws one picture wants that picture, so a bad value is not passed over here.
+    // A bad value is an error here, as the picture would not be the requested one.
     if let Some(problem) = figure.apply(&arguments.set).into_iter().next() {
         return Err(problem.into());
     }
-    // What it says and shows is what it has computed.
+    // The description and the picture need the result of the computation.
     figure.finish_job();
     if let Some(path) = &arguments.output {
         if path

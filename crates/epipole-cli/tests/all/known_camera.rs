@@ -1,4 +1,4 @@
-//! `epipole two-view`, `match` and `rectify` of photographs by a known camera, whatever its lens.
+//! `epipole two-view`, `match` and `rectify` with a known camera, for every lens model.
 
 use crate::common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
 use crate::common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
@@ -8,7 +8,7 @@ use nalgebra::{Point2, Point3, Vector3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The table from two places, as seen through `camera` from so near that it fills the picture.
+/// The table from two places, so near that it fills the image of `camera`.
 fn table(camera: &Camera) -> [RigidTransform; 2] {
     let up = Vector3::new(0.0, -1.0, 0.0);
     let back = (camera.intrinsics.fu_px() / 140.0).min(3.0) * 0.55;
@@ -28,7 +28,7 @@ fn pair(folder: &Folder, photographs: [RgbImage; 2]) -> [PathBuf; 2] {
 
 fn two_view(files: &[PathBuf; 2], camera: &Path, model: &str) -> Value {
     let [a, b] = files.each_ref().map(|file| path(file));
-    // In so small a picture what is 2 px off may be on the next square of the cloth.
+    // In an image this small, an error of 2 px may reach the next square of the cloth.
     json(&[
         "two-view",
         a,
@@ -42,7 +42,7 @@ fn two_view(files: &[PathBuf; 2], camera: &Path, model: &str) -> Value {
     ])
 }
 
-/// Degrees of turn and of direction.
+/// Errors of rotation and direction, degrees.
 fn off_deg(found: &Value, truth: &RigidTransform) -> [f64; 2] {
     let found = motion(found);
     [
@@ -85,7 +85,7 @@ fn every_lens_gives_the_motion_between_its_photographs() {
             .norm()
             .min((told + e / e.norm()).norm());
         assert!(off < 1e-9, "{off}");
-        // Of what the Brown camera sees four fifths are on the table, which is a plane then.
+        // Four fifths of the Brown camera's view are the table, so its result is planar.
         let chosen = two_view(&files, &file, "auto");
         let expected = match kind {
             LensKind::Brown => "planar",
@@ -177,7 +177,7 @@ fn matches_tell_the_rays_of_their_keypoints() {
     assert!(!said(&["match", a, b]).contains("lens"));
 }
 
-/// What is matched in the results is in one row.
+/// Matches in the rectified images are in the same row.
 #[test]
 fn every_lens_is_rectified() {
     for kind in KINDS {
@@ -247,7 +247,8 @@ fn cameras_that_do_not_fit_get_a_sentence() {
         let [c, d] = small.each_ref().map(|file| path(file));
         let arguments = [command, c, d, "--camera", path(&file)];
         fails(&folder, &arguments, 1, "neither photograph has this size");
-        // One of them is by the camera: the other is guessed at, and told of.
+        // One photograph has the camera's size; the focal length of the other is guessed, with a
+        // warning.
         let output = epipole(&[command, path(&a), d, "--camera", path(&file)]);
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(told.contains("is used for 1 of 2 photographs"), "{told}");

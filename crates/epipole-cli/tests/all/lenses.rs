@@ -39,7 +39,7 @@ fn camera_json(coefficients: &[f64]) -> String {
     )
 }
 
-/// How far off the found centers are, meters, the largest.
+/// Largest error of the camera centers, meters.
 fn off_m(result: &Value) -> f64 {
     let (mut found, mut truth) = (Vec::new(), Vec::new());
     for image in result["images"].as_array().unwrap() {
@@ -83,7 +83,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     let line =
         format!("1 OPENCV_FISHEYE {SIZE} {SIZE} 140 141 211 208.5 -0.02 0.006 -0.002 0.0003");
     assert!(cameras().lines().any(|l| l == line), "{}", cameras());
-    // The photographs beside the model are those that it speaks of.
+    // The photographs are copied unchanged beside the model.
     for file in &files {
         let copied = out.join("images").join(file.file_name().unwrap());
         assert_eq!(std::fs::read(copied).unwrap(), std::fs::read(file).unwrap());

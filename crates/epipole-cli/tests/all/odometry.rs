@@ -1,4 +1,4 @@
-//! `epipole odometry` on rendered frames whose cameras are known.
+//! `epipole odometry` on rendered frames with known cameras.
 
 use crate::common::lens;
 use crate::common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 const SIZE: (u32, u32) = (400, 300);
 
-/// A camera that goes to the right, and a little forward.
+/// A camera that moves to the right, and a little forward.
 fn along(n: usize) -> PosedCamera {
     let step = n as f64;
     let motion = Vector3::new(-0.05 * step, 0.004 * step, -0.02 * step);
@@ -35,8 +35,8 @@ fn path_of(result: &Value) -> Vec<RigidTransform> {
         .collect()
 }
 
-/// How far each place is off, as a share of how far the last one is from the first, once the unit of the last is taken from
-/// the truth; and degrees of turn.
+/// Error of each position after alignment of the scale by the last one, relative to the distance
+/// between the first and the last, and error of each rotation in degrees.
 fn off(found: &[RigidTransform], truth: &[RigidTransform]) -> Vec<[f64; 2]> {
     let length = |poses: &[RigidTransform]| poses[poses.len() - 1].translation.vector.norm();
     let scale = length(truth) / length(found);
@@ -165,7 +165,7 @@ fn frames_without_a_path_are_refused() {
         let arguments = [&["odometry", path(&two), "--focal-px", "500"], options].concat();
         fails(&folder, &arguments, 2, expected);
     }
-    // Two cameras at one place, by their pictures: the same pictures on both sides.
+    // Two cameras at the same place: the same images on both sides.
     let rig = [
         "--right",
         path(&three),
@@ -215,7 +215,7 @@ fn frames_through_any_lens_are_followed() {
         for [place, turn] in off(&path_of(&result), &truth) {
             assert!(place < 0.05 && turn < most_deg, "{kind:?}: {place} {turn}");
         }
-        // What is to be refined of the lens is, as far as it has it.
+        // The requested distortion terms are refined, if the lens model has them.
         let more = ["--refine-distortion", "--refine-tangential", "--json"];
         let output = epipole(&[&arguments[..], &more].concat());
         let refined = numbers(&parse(&output)["distortion"]);
@@ -226,7 +226,8 @@ fn frames_through_any_lens_are_followed() {
     }
 }
 
-/// The focal length is not in the data of these frames, and the guess is 4 % off: it is refined at the end, and said.
+/// These frames have no EXIF focal length, and the guess is 4 % off: it is refined at the end, with
+/// a message.
 #[test]
 fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
     let folder = Folder::new("odometry-focal");

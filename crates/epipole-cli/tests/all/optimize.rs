@@ -1,4 +1,4 @@
-//! `epipole ba` and `posegraph` on problems whose optimum is known.
+//! `epipole ba` and `posegraph` on problems with a known optimum.
 
 use crate::common::{Folder, fails, json, numbers, path};
 use epipole::math::random::Random;
@@ -108,7 +108,7 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let wild = options.with_outlier_fraction(0.05);
     let clean = problem(&options);
     let file = folder.write("wild.txt", &problem(&wild).to_text());
-    // How far the points are from where they would be without outliers.
+    // Distance of the points from their positions without outliers.
     let distance = |loss: &str| {
         let out = folder.file("out.txt");
         let options = ["--loss", loss, "--loss-width", "2"];
@@ -197,7 +197,7 @@ fn broken_problems_are_refused_with_their_line() {
         let out = folder.file("out.txt");
         fails(&folder, &["ba", path(&file), "-o", path(&out)], 1, expected);
     }
-    // A camera and a point that nobody sees are no obstacle.
+    // A camera and a point without observations do no harm.
     let text = format!("2 2 2\n0 0 11 20\n0 0 10 20\n{camera}\n{camera}\n1 2 -10\n0 0 -5\n");
     let file = folder.write("unseen.txt", &text);
     let result = json(&["ba", path(&file)]);
@@ -234,7 +234,7 @@ const UNIT: &str = "1 0 0 1 0 1";
 #[test]
 fn contradicting_measurements_meet_in_the_middle() {
     let folder = Folder::new("posegraph");
-    // One says a meter, the other two: 1.5 is best, and leaves 0.25 twice.
+    // One measurement of 1 m, one of 2 m: 1.5 m is best, and leaves 0.25 twice.
     let text = format!(
         "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 5 1 0.3\n\
          EDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 2 0 0 {UNIT}\n"
@@ -260,7 +260,7 @@ fn contradicting_measurements_meet_in_the_middle() {
     for (value, truth) in values.iter().zip([1.5, 0.0, 0.0]) {
         assert!((value - truth).abs() < 1e-6, "{pose}");
     }
-    // What is written is where it ended.
+    // The written graph has the final cost.
     let again = json(&["posegraph", path(&out)]);
     assert!((again["initial_chi2"].as_f64().unwrap() - 0.5).abs() < 1e-9);
     // The measurements alone lead there, too: here least squares are linear.
@@ -284,7 +284,7 @@ fn contradicting_measurements_meet_in_the_middle() {
     }
     let file = folder.write("square.g2o", &text);
     let result = json(&["posegraph", path(&file)]);
-    // Turns are nearly fixed: 4 · 100 · 0.1².
+    // Rotations are nearly fixed: 4 · 100 · 0.1².
     let chi2 = result["final_chi2"].as_f64().unwrap();
     assert!((chi2 - 4.0).abs() < 0.01, "{chi2}");
     assert_eq!(
@@ -296,7 +296,7 @@ fn contradicting_measurements_meet_in_the_middle() {
 #[test]
 fn a_wrong_measurement_is_borne_by_a_loss() {
     let folder = Folder::new("posegraph-loss");
-    // Two say one meter, a third five.
+    // Two measurements of 1 m, a third of 5 m.
     let text = format!(
         "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.2 0 0\n\
          EDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 1 0 0 {UNIT}\nEDGE_SE2 0 1 5 0 0 {UNIT}\n"

@@ -1,5 +1,5 @@
-//! `epipole two-view` and `fit` where a pair is special: photographs of different shapes, cameras that only
-//! turned, searches that ended early.
+//! `epipole two-view` and `fit` on special pairs: photographs of different shapes, rotation-only
+//! motion, searches that ended early.
 
 use crate::common::{
     Folder, angle_deg, epipole, fails, json, k, motion, moved, numbers, parse, path,
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 const SIZE: (u32, u32) = (640, 480);
 const K: &str = "600,600,319.5,239.5";
 
-/// A step to the right with a turn back to the table.
+/// A translation to the right with a rotation back to the table.
 fn step() -> RigidTransform {
     RigidTransform::new(
         Vector3::new(-0.25, 0.02, 0.03),
@@ -38,14 +38,14 @@ fn photographs(folder: &Folder, motion: &RigidTransform) -> ([PosedCamera; 2], [
     (cameras, names.map(|name| folder.file(name)))
 }
 
-/// A result and what was said beside it.
+/// A result and the messages beside it.
 fn told(arguments: &[&str]) -> (Value, String) {
     let output = epipole(&[arguments, &["--json"]].concat());
     assert_eq!(output.status.code(), Some(0), "{arguments:?}");
     (parse(&output), String::from_utf8(output.stderr).unwrap())
 }
 
-/// A focal length is that of both cameras, but the second photograph stands upright.
+/// Both cameras have one focal length, but the second photograph is in portrait format.
 #[test]
 fn each_photograph_has_its_own_middle() {
     let folder = Folder::new("pair-middle");
@@ -135,7 +135,8 @@ fn fits_of_essential_matrices_say_that_the_camera_may_have_only_turned() {
     assert!(result.get("could_be_turn").is_none());
 }
 
-/// What lies on one line tells nothing of what is beside it, and a homography fits any two matches there.
+/// Inliers on one line do not constrain the model beside it, and a homography fits any two matches
+/// there.
 #[test]
 fn homographies_of_lines_say_so() {
     let folder = Folder::new("fit-line");
@@ -177,7 +178,8 @@ fn homographies_of_lines_say_so() {
     }
 }
 
-/// Without intrinsics a turn cannot be told from a plane, but both from a scene with depth.
+/// Without intrinsics a rotation cannot be distinguished from a plane, but both can from a scene
+/// with depth.
 #[test]
 fn fits_without_intrinsics_say_what_they_leave_open() {
     let folder = Folder::new("fit-open");
@@ -221,7 +223,7 @@ fn fits_without_intrinsics_say_what_they_leave_open() {
     }
 }
 
-/// A row far beyond all images is left out, counted, and said.
+/// A row far beyond all images is left out, counted, and reported.
 #[test]
 fn a_row_beyond_all_images_is_left_out() {
     let folder = Folder::new("fit-far");
@@ -262,7 +264,7 @@ fn photographs_of_a_turn_have_no_direction() {
         assert!(found.rotation.angle_to(&truth.rotation).to_degrees() < 0.2);
         assert_eq!(numbers(&result["cam2_from_cam1"]["translation"]), [0.0; 3]);
     }
-    // Known intrinsics tell a turn from a plane, pixels alone do not.
+    // Known intrinsics distinguish a rotation from a plane, pixels alone do not.
     let (result, told) = pair(&b, "homography", &["--k", &k]);
     assert!(told.is_empty(), "{told}");
     assert_eq!(result["configuration"], "panoramic");
@@ -271,7 +273,7 @@ fn photographs_of_a_turn_have_no_direction() {
     let (result, told) = pair(&b, "homography", &[]);
     assert_eq!(result["configuration"], "planar");
     assert_eq!(result["cam2_from_cam1"], Value::Null);
-    // With a focal length that nobody knows, though, a turn explains them.
+    // With an unknown focal length, though, a rotation explains them.
     let focal_px: f64 = k.split(',').next().unwrap().parse().unwrap();
     let sentence = told.split("with a focal length near ").nth(1).unwrap();
     let near: f64 = sentence.split(' ').next().unwrap().parse().unwrap();

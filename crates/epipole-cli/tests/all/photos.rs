@@ -1,4 +1,5 @@
-//! What commands do with photographs before they look at them: reduced, turned, freed of a lens, chosen from a video.
+//! Preparation of photographs before commands use them: downscaled, turned upright, undistorted,
+//! selected from a video.
 
 use crate::common::{Folder, epipole, exif, fails, json, moved, numbers, path};
 use epipole::camera::RigidTransform;
@@ -46,7 +47,7 @@ fn reduced_photographs_keep_the_focal_length_of_their_files() {
     assert_eq!(each["images"], result["images"]);
     let cameras = std::fs::read_to_string(out.join("cameras.txt")).unwrap();
     assert!(cameras.contains(" 240 180 "), "{cameras}");
-    // One that is not told is guessed, and so all are refined.
+    // A missing focal length is guessed, so all are refined.
     let guessed = sfm(&["--focals-px=600,-,600", "--keep-focal"]);
     assert_eq!(guessed["images"][0]["focal_px"], 600.0);
     assert_eq!(guessed["images"][1]["focal_px"], 576.0);
@@ -133,7 +134,7 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
         1,
         "the file does not say how it was turned",
     );
-    // Structure from motion goes on without, and says so.
+    // Structure from motion continues without the camera for that photograph, with a warning.
     let result = folder.file("result");
     let told = epipole(&[
         "sfm",
@@ -237,7 +238,7 @@ fn photographs_are_written_as_the_model_speaks_of_them() {
             .map(|(a, b)| f64::from(a.abs_diff(*b)));
         assert!(off.sum::<f64>() / (240.0 * 180.0 * 3.0) < 4.0);
     }
-    // Not over what was given, and not over each other.
+    // Neither input files nor other results are overwritten.
     let given: Vec<PathBuf> = (0..3)
         .map(|n| out.join(format!("images/{n}.jpg")))
         .collect();

@@ -1,4 +1,4 @@
-//! `epipole sfm` on photographs of which it is known where they were taken, and on lenses that are not alike.
+//! `epipole sfm` on photographs with known positions, and with different lenses.
 
 use crate::common::{Folder, exif, fails, json, motion, moved, path};
 use epipole::camera::{PosedCamera, RigidTransform};
@@ -34,7 +34,7 @@ fn photographs(folder: &Folder, cameras: &[PosedCamera]) -> PathBuf {
     folder.file("photos")
 }
 
-/// Where a result says that the cameras are.
+/// Camera centers of a result.
 fn centers(result: &Value) -> Vec<Point3<f64>> {
     let images = result["images"].as_array().unwrap().iter();
     images
@@ -93,7 +93,7 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     assert!(without.get("placed").is_none());
     assert!(worst_m(&centers(&without), &truth) > 0.1);
 
-    // Two do not say how it is turned.
+    // Two positions do not determine the rotation.
     let two: String = text
         .lines()
         .take(4)

@@ -7,10 +7,10 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// How far the right camera stands to the right.
+/// Distance of the right camera to the right of the left one, meters.
 const BASELINE_M: f64 = 0.06;
 
-/// Turned a little, and not exactly beside the left one.
+/// Rotated a little, and not exactly beside the left one.
 fn right_from_left() -> RigidTransform {
     RigidTransform::new(
         Vector3::new(-BASELINE_M, 0.002, -0.001),
@@ -43,7 +43,7 @@ fn cameras(kind: LensKind) -> [Camera; 2] {
     [left, right]
 }
 
-/// How far the wall is from the left camera.
+/// Distance of the wall from the left camera, meters.
 const WALL_M: f64 = 0.8;
 
 struct Rig {
@@ -71,7 +71,8 @@ fn rig(kind: LensKind, name: &str) -> Rig {
     }
 }
 
-/// What is matched in the results is in one row, and Q says in meters where it is: on a wall, whose distance is known.
+/// Matches in the rectified images are in the same row, and Q gives their positions in meters, on a
+/// wall at a known distance.
 #[test]
 fn photographs_of_a_rig_are_rectified_in_meters() {
     for kind in KINDS {
@@ -92,7 +93,8 @@ fn photographs_of_a_rig_are_rectified_in_meters() {
             let row = numbers(&found[side][place.as_u64().unwrap() as usize]);
             [row[0], row[1]]
         };
-        // The plane n · X = 1 through what Q makes of the matches, by the normal equations.
+        // The plane n · X = 1 through the points that Q gives for the matches, by the normal
+        // equations.
         let (mut off_px, mut squares, mut sums) = (Vec::new(), Matrix3::zeros(), Vector3::zeros());
         for pair in found["matches"].as_array().unwrap() {
             let [u, v] = place("keypoints1", &pair[0]);
@@ -196,7 +198,7 @@ fn rigs_that_do_not_fit_get_a_sentence() {
     ] {
         fails(folder, &[&both[..], &more].concat(), 2, "--rig");
     }
-    // What else shapes the results does here, too.
+    // The other options of rectification also apply here.
     let shaped = [
         &both[..],
         &["--size", "200x100", "--alpha", "0.5", "--json"],

@@ -1,4 +1,4 @@
-//! `epipole sfm` on rendered photographs whose cameras are known.
+//! `epipole sfm` on rendered photographs with known cameras.
 
 use crate::common::{Folder, fails, json, k, motion, moved, numbers, path};
 use epipole::camera::{PosedCamera, RigidTransform};
@@ -8,10 +8,10 @@ use serde_json::Value;
 
 const SIZE: (u32, u32) = (400, 300);
 
-/// A camera that goes around the table while it looks at it.
+/// A camera that moves around the table and looks at it.
 fn around(n: usize) -> PosedCamera {
     let angle = 0.1 * (n as f64 - 2.0);
-    // Turns about a point 1.3 m in front of the camera.
+    // Rotations about a point 1.3 m in front of the camera.
     let pivot = Vector3::new(0.0, 0.0, 1.3);
     let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
     let shift = pivot - turn * pivot;
@@ -27,7 +27,8 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.starts_with('#'))
 }
 
-/// The lens of these photographs is not in their data, and the guess is 4 % off: it is refined, and said.
+/// These photographs have no EXIF focal length, and the guess is 4 % off: it is refined, with a
+/// message.
 #[test]
 fn an_unknown_focal_length_is_refined() {
     let folder = Folder::new("sfm-focal");
@@ -58,7 +59,7 @@ fn an_unknown_focal_length_is_refined() {
     assert!(refined_px < guessed_px);
 }
 
-/// One set of defaults: `detect` finds, and `match` matches, just what `sfm` does.
+/// One set of defaults: `detect` and `match` give the same features and matches as `sfm`.
 #[test]
 fn commands_find_the_same_features() {
     let folder = Folder::new("sfm-features");
@@ -90,7 +91,7 @@ fn commands_find_the_same_features() {
     assert_eq!(places(&matched["matches"]), expected);
 }
 
-/// What the command line says of features, matches and the reconstruction reaches it.
+/// Options of features, matches and the reconstruction take effect.
 #[test]
 fn every_step_of_a_reconstruction_can_be_set() {
     let folder = Folder::new("sfm-set");
@@ -146,7 +147,7 @@ fn photographs_become_cameras_and_points() {
     let folder = Folder::new("sfm");
     let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
-    // What is no photograph is passed over.
+    // Files that are not photographs are skipped.
     folder.write("photos/notes.txt", "not a photograph");
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let result = json(&[

@@ -10,10 +10,10 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 const PROJECT: &str = "project.json";
 /// The folder of its photographs.
 const PHOTOGRAPHS: &str = "photographs/";
-/// The folder of its results, below it one for what they were computed with.
+/// Folder of the results, with a subfolder named by the build that computed them.
 const RESULTS: &str = "results/";
 const DAMAGED: &str = "this file is no project of the Lab, or it is damaged";
-/// What a project may unpack to.
+/// Maximum unpacked size of a project, bytes.
 const MAX_BYTES: u64 = 2_000_000_000;
 
 /// Names, and what they hold.
@@ -162,7 +162,7 @@ mod tests {
         let bytes = save(&photographs, &project(), &computed).unwrap();
         let (read, files, again) = open(&bytes).unwrap();
         assert_eq!(again, computed);
-        // What something else has computed is no result here.
+        // Results of another build are not loaded.
         let older = Computed {
             by: "older".to_owned(),
             ..computed

@@ -1,4 +1,4 @@
-//! Depth for other programs: a picture of numbers for each pair, and all points as one cloud.
+//! Depth for other programs: a depth image for each pair, and all points as one cloud.
 
 use super::archive::Archive;
 use super::model::Order;
@@ -25,7 +25,7 @@ pub(super) fn add(archive: &mut Archive, order: &Order<'_>) -> Result<(), String
         }
         let pixels = (0..pair.height).flat_map(|v| (0..pair.width).map(move |u| (u, v)));
         let depths = pixels.map(|(u, v)| pair.depth(u, v).map_or(f32::NAN, |z| (z * scale) as f32));
-        // A picture of numbers, whatever the numbers are.
+        // An image with one arbitrary number per pixel.
         let depths = DisparityImage::from_raw(pair.width, pair.height, depths.collect())
             .map_err(|_| broken())?;
         archive.add(&format!("depth/{name}.pfm"), &depths.to_pfm())?;
@@ -46,7 +46,7 @@ pub(super) fn add(archive: &mut Archive, order: &Order<'_>) -> Result<(), String
     archive.add("dense.ply", &cloud.to_ply())
 }
 
-/// What `reconstruction.json` says of each pair: its files and the camera of its picture.
+/// Entries of `reconstruction.json` for the pairs: files, and camera of the depth image.
 pub(super) fn json(order: &Order<'_>) -> Vec<Value> {
     let scale = order.meters_per_unit.unwrap_or(1.0);
     let one = |(name, pair): &(String, Dense)| {

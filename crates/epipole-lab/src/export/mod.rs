@@ -1,4 +1,4 @@
-//! What leaves the Lab: zip files with a reconstruction, or with a project to go on with.
+//! Exports: zip files with a reconstruction, or with a project.
 
 mod archive;
 mod depth;

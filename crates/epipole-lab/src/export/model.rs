@@ -12,7 +12,7 @@ use image::{DynamicImage, ImageFormat};
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
-/// What is to be exported.
+/// Contents of an export.
 pub(crate) struct Order<'a> {
     pub(crate) images: &'a [ImagePoints],
     pub(crate) photographs: &'a [Packed],
@@ -67,7 +67,7 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
     archive.finish()
 }
 
-/// Tracks that refer to nothing would be a fault of whoever asked.
+/// Invalid indices in tracks are a bug of the caller.
 fn check_indices(order: &Order<'_>) -> Result<(), String> {
     let is_there = |&(image, keypoint): &(u32, u32)| {
         (order.images.get(image as usize))

@@ -51,7 +51,7 @@ pub(super) fn json(order: &Order<'_>, images: &[SfmImage], model: &Reconstructio
     summary.to_string()
 }
 
-/// What the files are, and how to make them by the command line.
+/// Description of the files, and the command line that makes them.
 pub(super) fn readme(order: &Order<'_>) -> String {
     let unit = match order.meters_per_unit {
         Some(_) => "Lengths are in meters, by the length that was measured.",

@@ -1,10 +1,10 @@
-//! The file dialog of the desktop, by a program that desktops bring: none of its toolkits becomes part of this one.
+//! The file dialog of the desktop, by an external program: no further toolkit becomes a dependency.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// What is asked for.
+/// Kind of file dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     /// Any number of photographs.
@@ -21,7 +21,7 @@ impl Wanted {
         }
     }
 
-    /// What their files are called, and the endings of their names.
+    /// Label and extensions of the files.
     fn kind(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Photographs => ("Photographs", &["jpg", "jpeg", "png"]),
@@ -37,7 +37,7 @@ impl Wanted {
         both.collect::<Vec<_>>().join(" ")
     }
 
-    /// Programs that ask, each with its arguments; they print a path a line.
+    /// Dialog programs with their arguments; they print one path per line.
     fn programs(self) -> Vec<(&'static str, Vec<String>)> {
         let title = self.title();
         let name = self.kind().0;
@@ -84,7 +84,7 @@ impl Wanted {
     }
 }
 
-/// Asks, and waits until the reader has chosen: nothing, if that was given up. `None` where nothing can ask.
+/// Opens the dialog and waits for the choice: empty if canceled, `None` without a dialog program.
 pub(super) fn ask(wanted: Wanted) -> Option<Vec<PathBuf>> {
     for (program, arguments) in wanted.programs() {
         let asked = Command::new(program)

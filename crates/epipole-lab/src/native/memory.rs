@@ -1,11 +1,12 @@
-//! What is let go of goes back to the system. The allocator of glibc keeps large pieces for the next ones, more of them
-//! with each that is freed: with eleven photographs of 3 megapixels, a window at rest held 90 MB that nobody used.
+//! Returns freed memory to the system. The allocator of glibc keeps large blocks for reuse, more of
+//! them with each one freed: with eleven photographs of 3 megapixels, an idle window held 90 MB of
+//! unused memory.
 
-/// Pieces of at least so many bytes are given back as soon as they are freed, as `mallopt(3)` says.
+/// Blocks of at least this many bytes are returned as soon as they are freed, see `mallopt(3)`.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const SETTING: (&str, &str) = ("MALLOC_MMAP_THRESHOLD_", "131072");
 
-/// Sees to that. The setting is read when a program begins, so the first thing that this one does is to begin anew, in the
+/// Applies the setting. It is read at program start, so the program first restarts itself in the
 /// same process.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub(crate) fn give_back() {
@@ -17,7 +18,7 @@ pub(crate) fn give_back() {
     let Ok(program) = std::env::current_exe() else {
         return;
     };
-    // Returns only if it fails, and then it goes on without.
+    // Returns only on failure; then the program runs without the setting.
     let _ = std::process::Command::new(program)
         .args(std::env::args_os().skip(1))
         .env(name, value)

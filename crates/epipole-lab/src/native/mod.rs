@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, OnceLock};
 
-/// What is said of a panic.
+/// Message after a panic.
 const MISTAKE: &str =
     "this is a mistake of the Lab, not of your photographs: try again, or try other settings";
 
@@ -39,7 +39,7 @@ pub(crate) fn run(files: Vec<PathBuf>) -> eframe::Result {
     eframe::run_native("epipole-lab", options, create)
 }
 
-/// What is wrong with a file shows where the photograph would.
+/// Reads files; an unreadable photograph shows its error in place of the image.
 fn read(paths: &[PathBuf]) -> Vec<Arrival> {
     let mut arrivals = Vec::new();
     let mut photographs = Vec::new();
@@ -76,7 +76,7 @@ struct Window {
     receiver: Receiver<Report>,
     canceled: HashMap<WorkId, Arc<AtomicBool>>,
     arrivals: Vec<Arrival>,
-    /// What dialogs bring.
+    /// Channel for the results of dialogs.
     bring: Sender<Vec<Arrival>>,
     brought: Receiver<Vec<Arrival>>,
     /// Whether a dialog is open: one is enough.
@@ -99,7 +99,7 @@ impl Window {
         }
     }
 
-    /// Opens a dialog, and goes on.
+    /// Opens a dialog without blocking.
     fn ask(&self, wanted: Wanted) {
         if self.asks.swap(true, Ordering::Relaxed) {
             return;
@@ -149,7 +149,7 @@ impl Host for Window {
                     false => ControlFlow::Continue(()),
                 }
             };
-            // Nothing that is shared can be left half done: a request goes in, an answer comes out.
+            // No shared state can be left inconsistent: a request goes in, an answer comes out.
             let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut progress)));
             tell(match computed {
                 Ok(result) => Report::Done(work, result),
@@ -240,7 +240,7 @@ impl Host for Window {
     fn address(&mut self, _link: &str) {}
 
     fn say(&mut self, _words: &str) {
-        // The toolkit tells assistive technology itself.
+        // The toolkit reports to assistive technology itself.
     }
 }
 

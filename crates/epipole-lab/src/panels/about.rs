@@ -1,4 +1,4 @@
-//! Where the book explains a step: a figure to play with, and its chapter.
+//! Links from each step to the book: an explaining figure, and its chapter.
 
 use crate::project::Step;
 
@@ -14,7 +14,7 @@ pub struct About {
 }
 
 impl Step {
-    /// What explains it.
+    /// The figure that explains the step.
     pub fn about(self) -> About {
         let (figure, page, title) = match self {
             Self::Photographs => (

@@ -1,4 +1,4 @@
-//! The whole of what is seen: a bar, the steps, the picture of a step and its knobs.
+//! The whole screen: a bar, the steps, the image of a step and its controls.
 
 use super::cloud::CloudView;
 use super::depth::DepthView;
@@ -14,10 +14,10 @@ use crate::tasks::{Request, Sample};
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use std::collections::VecDeque;
 
-/// Below this width, steps and knobs stand below each other.
+/// Width in points below which steps and controls are stacked.
 const NARROW: f32 = 760.0;
 
-/// What panels remember beside the project.
+/// State of the panels besides the project.
 #[derive(Default)]
 pub(super) struct Memory {
     pub(super) pictures: Pictures,
@@ -46,12 +46,12 @@ pub struct App<H> {
     project: Project,
     host: H,
     work: Work,
-    /// What has come and waits.
+    /// Queue of arrivals.
     arrivals: VecDeque<Arrival>,
     memory: Memory,
     said: String,
     link: String,
-    /// When that was found out: the revision, and the news.
+    /// Revision and news at the last announcement.
     told_at: Option<(u64, Option<String>)>,
 }
 
@@ -95,10 +95,10 @@ impl<H: Host> App<H> {
         &mut self.host
     }
 
-    /// Does what is to be done between two frames. True while something is under way.
+    /// Does the work between two frames. True while something is running.
     pub fn go_on(&mut self) -> bool {
         self.arrivals.extend(self.host.arrivals());
-        // What comes with a project comes after it.
+        // Arrivals after a project wait until it is open.
         while !self.work.is_opening()
             && let Some(arrival) = self.arrivals.pop_front()
         {
@@ -173,7 +173,7 @@ impl<H: Host> App<H> {
         }
         CentralPanel::default().show(ui, |ui| self.picture(ui, &mut events));
         if !events.is_empty() || self.is_waiting() {
-            // What follows from them is started, and shown, with the next frame.
+            // The effects of the events start, and show, with the next frame.
             ui.ctx().request_repaint();
         }
         for event in events {
@@ -183,7 +183,7 @@ impl<H: Host> App<H> {
             self.project.update(event);
         }
         if self.project.is_paused() {
-            // Who stops something does not wait for another frame.
+            // Stopping takes effect before the next frame.
             self.work.go_on(&mut self.project, &mut self.host);
         }
         self.work.keep(&self.project, &mut self.host, ui);

@@ -1,4 +1,4 @@
-//! The bar above all steps: photographs, samples, projects, back and forth, what is under way.
+//! The bar above all steps: photographs, samples, projects, undo and redo, running jobs.
 
 use super::host::Host;
 use super::menu::{item, menu};
@@ -7,7 +7,7 @@ use crate::project::{Event, Project, Step};
 use crate::tasks::Sample;
 use egui::Ui;
 
-/// What can be done in every step.
+/// Draws the actions available in every step.
 pub(super) fn bar(
     project: &Project,
     work: &mut Work,

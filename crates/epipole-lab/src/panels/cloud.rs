@@ -1,4 +1,4 @@
-//! Cameras and points in space: turned, moved, enlarged by mouse, fingers and keys.
+//! Cameras and points in 3D: rotation, panning and zoom by mouse, touch and keys.
 
 use super::look;
 use super::marks::{add_dense, frustum, rays, standing};
@@ -10,7 +10,7 @@ use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 use epipole_canvas::theme::{Role, Theme};
 use std::time::Duration;
 
-/// What the color of a point says.
+/// Meaning of a point's color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Coloring {
     /// The photographs.
@@ -22,22 +22,22 @@ pub(super) enum Coloring {
     Track,
 }
 
-/// What the scene was made of.
+/// Inputs of the current scene; a change rebuilds it.
 #[derive(Clone, PartialEq)]
 struct Made {
     key: Key,
     component: usize,
     coloring: Coloring,
     theme: Theme,
-    /// How many photographs stand in their frusta.
+    /// Number of photographs shown in their frusta.
     photographs: usize,
-    /// How many cameras there are while there are not all.
+    /// Number of cameras so far, during a reconstruction.
     growing: Option<usize>,
     dense: Vec<Key>,
     floor: Option<Floor>,
 }
 
-/// What the last frame shows.
+/// Inputs of the last frame; a change redraws it.
 #[derive(Clone, PartialEq)]
 struct Drawn {
     orbit: Orbit,
@@ -82,16 +82,16 @@ impl Default for CloudView {
     }
 }
 
-/// A frame of so many points, and of so many pixels, is drawn while something moves: it has to be there for the next
-/// picture of the screen.
+/// Maximum numbers of points and of pixels in a frame during motion: it must be ready for the next
+/// refresh of the screen.
 const MAX_MOVING: usize = 100_000;
 const MAX_MOVING_PIXELS: usize = 200_000;
 
-/// What was moved counts as moving for so long, seconds: a hand that turns it rests between two frames now and then, and
-/// every point would be drawn in each such rest.
+/// Time without change after which motion counts as ended, seconds: a dragging hand pauses between
+/// frames now and then, and each pause would draw all points.
 const REST_S: f64 = 0.15;
 
-/// By how much width and height of a frame of so many pixels are divided while something moves.
+/// Divisor of the frame's width and height during motion.
 fn coarseness((width, height): (usize, usize)) -> usize {
     let over = (width * height) as f64 / MAX_MOVING_PIXELS as f64;
     (libm::ceil(libm::sqrt(over)) as usize).clamp(1, 4)
@@ -159,13 +159,13 @@ impl CloudView {
         let (width, height) = self.frame.size();
         let [u, v] = [at.x * width as f32, at.y * height as f32].map(f64::from);
         let found = self.frame.pick(u, v, 6);
-        // Points of every pixel are seen from one pair, and that is all there is to say of them.
+        // Dense points come from a single pair and have no details to show.
         let found = found.filter(|point| *point < component.points.len());
         self.point = found;
         found
     }
 
-    /// Where a point is on the screen.
+    /// Position of a point on the screen.
     pub(super) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
         let (width, height) = self.frame.size();
         let place = self.scene.points.get(point)?.0;
@@ -174,7 +174,7 @@ impl CloudView {
         Some(rect.min + share * rect.size())
     }
 
-    /// What was drawn last: width, and red, green, blue, opacity, row by row.
+    /// Pixels of the last frame: width, and red, green, blue, opacity, row by row.
     pub(super) fn pixels(&self) -> Option<(u32, Blob)> {
         let (width, height) = self.frame.size();
         let rgba = self.frame.rgba();

@@ -1,4 +1,4 @@
-//! What the knobs and numbers of the step "Depth" say.
+//! Controls and numbers of the step "Depth".
 
 use super::knobs::{self, Turned};
 use super::look;
@@ -51,7 +51,7 @@ pub(super) fn disparities(
     turned
 }
 
-/// What the colors of the depth mean.
+/// Draws the legend of the depth colors.
 pub(super) fn legend(project: &Project, range: Option<[f64; 2]>, ui: &mut Ui) {
     let Some([near, far]) = range else { return };
     let (rect, response) = ui.allocate_exact_size(egui::vec2(280.0, 12.0), egui::Sense::hover());
@@ -81,7 +81,7 @@ fn length(project: &Project, units: f64) -> String {
     }
 }
 
-/// What the pixel says that was clicked.
+/// Shows the values of the clicked pixel.
 pub(super) fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, ui: &mut Ui) {
     let Some([u, v]) = probe else {
         ui.weak("Click a pixel: its match must lie on the same line of the other photograph.");

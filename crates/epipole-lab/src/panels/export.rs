@@ -1,11 +1,11 @@
-//! What is saved, and how to do the same elsewhere.
+//! Saving, and the recipe for the same result elsewhere.
 
 use super::host::Wish;
 use super::knobs;
 use crate::project::{Project, Step};
 use egui::{Button, RichText, Ui};
 
-/// What can be saved. Returns what was asked for.
+/// Draws the save buttons. Returns the requested one.
 pub(super) fn knobs(project: &Project, ui: &mut Ui) -> Option<Wish> {
     let mut wish = None;
     ui.label(project.describe());

@@ -8,7 +8,7 @@ use crate::tasks::{Feature, FeatureKind};
 use egui::{Shape, Slider, Stroke, Ui};
 use epipole_canvas::theme::Role;
 
-/// So many features are drawn, the strongest.
+/// Maximum number of features drawn, the strongest.
 const MAX_DRAWN: usize = 1500;
 
 /// The photograph with its features.
@@ -52,7 +52,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     }
 }
 
-/// The feature nearest to a pixel, at most so many pixels away.
+/// The feature nearest to a pixel, within `reach` pixels.
 pub(super) fn nearest(list: &[Feature], u: f64, v: f64, reach: f64) -> Option<usize> {
     let away = |f: &Feature| (f.u - u) * (f.u - u) + (f.v - v) * (f.v - v);
     let all = list.iter().enumerate().map(|(index, f)| (away(f), index));
@@ -60,7 +60,7 @@ pub(super) fn nearest(list: &[Feature], u: f64, v: f64, reach: f64) -> Option<us
     (best.0 <= reach * reach).then_some(best.1)
 }
 
-/// Which features, and what one of them is.
+/// Draws the feature settings, and details of the selected feature.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     let current = project.view().photo;
     if let Some(id) = knobs::choose(project, ui, "Photograph", current, None) {

@@ -1,26 +1,26 @@
-//! What the Lab asks of the place where it runs: a window or a page.
+//! Interface to the environment of the Lab: a window or a page.
 
 use super::About;
 use crate::tasks::{Blob, Branch};
 
-/// The number of a piece of work.
+/// Identifier of a job.
 pub type WorkId = u64;
 
-/// What whoever computes tells.
+/// Message from a worker.
 #[derive(Debug, Clone)]
 pub enum Report {
-    /// How far a piece of work is, and what it does.
+    /// Progress of a job, 0 to 1, and its current stage.
     Progress(WorkId, f32, String),
-    /// What a piece of work has so far.
+    /// Intermediate result of a job.
     SoFar(WorkId, Vec<u8>),
-    /// A piece of work has come to its end.
+    /// Result of a job, or its error message.
     Done(WorkId, Result<Vec<u8>, String>),
-    /// A piece of work has broken down, and a sentence why: not what it was asked for, but computing itself.
+    /// Failure of the worker itself, as opposed to an error of the job, with a message.
     Broken(WorkId, String),
 }
 
 impl Report {
-    /// How many bytes there are to read.
+    /// Number of bytes to decode.
     pub(super) fn num_bytes(&self) -> usize {
         match self {
             Self::SoFar(_, bytes) | Self::Done(_, Ok(bytes)) => bytes.len(),
@@ -29,7 +29,7 @@ impl Report {
     }
 }
 
-/// What the reader brought.
+/// Input from the reader or the environment.
 #[derive(Debug, Clone)]
 pub enum Arrival {
     /// Names and files.
@@ -38,93 +38,95 @@ pub enum Arrival {
     Project(Blob),
     /// The parameters of an address: a step, a sample, knobs.
     Link(Vec<(String, String)>),
-    /// A video of this number, which waits for [`Host::ask_for_frames`].
+    /// Video with this number, waiting for [`Host::ask_for_frames`].
     Video(u32),
-    /// Of a video of this number and name: some frames of the part that was asked for.
+    /// Number and name of a video, and frames of the requested part.
     Frames(u32, String, Vec<Blob>),
-    /// A video of this number cannot be read any further, and a sentence why.
+    /// Read error of the video with this number, with a message.
     NoFrames(u32, String),
-    /// Nothing, and a sentence why; or how far it is.
+    /// Message without data, such as an error or progress.
     News(String),
-    /// What is kept where the Lab runs.
+    /// State of the project kept in this environment.
     Kept(Kept),
-    /// What was computed of the sample before, as bytes of [`Computed`](crate::project::Computed); nothing where that did
-    /// not come.
+    /// Precomputed results of the sample, as bytes of [`Computed`](crate::project::Computed); empty
+    /// if they could not be loaded.
     Solved(Blob),
 }
 
-/// What is told of a project that the reader chose to keep.
+/// State of the project that the reader chose to keep.
 #[derive(Debug, Clone)]
 pub enum Kept {
-    /// This one was kept when the Lab ran last, or was asked for by [`Host::ask_for_kept`].
+    /// The project kept by the last session, or requested by [`Host::ask_for_kept`].
     Project(Blob),
-    /// There is one, which is not open, and a sentence why.
+    /// A kept project that is not open, with a message.
     Aside(String),
-    /// What was given to [`Host::keep`] is kept: so many bytes.
+    /// The project given to [`Host::keep`] was written: number of bytes.
     Done(usize),
-    /// What was given is not kept.
+    /// The project given to [`Host::keep`] was not written.
     Not {
-        /// A sentence why.
+        /// Reason, as a message.
         why: String,
-        /// Whether something is still there that was kept before.
+        /// Whether the previously kept project still exists.
         is_there: bool,
     },
-    /// Elsewhere, the reader has forgotten it.
+    /// The reader has erased it elsewhere.
     Forgotten,
 }
 
-/// What a panel asks for that only the place where it runs can do.
+/// Request of a panel to the environment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wish {
     /// Give the reader a file with the calibrated camera.
     SaveCamera,
     /// Give the reader a zip file with the reconstruction.
     Export,
-    /// Give the reader the space as it is to be seen.
+    /// Save an image of the current view of the point cloud.
     SaveView,
     /// Take photographs with the camera of the machine.
     TakePhotographs,
 }
 
-/// A place where the Lab runs.
+/// Environment of the Lab.
 pub trait Host {
-    /// How many pieces of work can be done at once.
+    /// Number of jobs that can run at once.
     fn capacity(&self) -> usize;
-    /// Starts a piece of work, which needs the code of one branch.
+    /// Starts a job, which needs the code of one branch.
     fn start(&mut self, work: WorkId, branch: Branch, request: Vec<u8>);
-    /// Ends a piece of work that nobody wants any more. It may be done all the same.
+    /// Cancels a job that is no longer needed. It may finish nevertheless.
     fn cancel(&mut self, work: WorkId);
-    /// What has been told since this was asked last.
+    /// Reports since the last call.
     fn reports(&mut self) -> Vec<Report>;
-    /// What the reader has brought since this was asked last.
+    /// Arrivals since the last call.
     fn arrivals(&mut self) -> Vec<Arrival>;
-    /// Whether [`Arrival::Solved`] comes: until then nothing of the sample needs to be computed.
+    /// Whether [`Arrival::Solved`] will come: until then no result of the sample needs to be
+    /// computed.
     fn brings_sample(&self) -> bool;
-    /// Asks the reader for photographs. False where there is no way but dropping them.
+    /// Opens a dialog for photographs. False if there is none and files can only be dropped.
     fn ask_for_photographs(&mut self) -> bool;
-    /// Asks the reader for a project. False likewise.
+    /// Opens a dialog for a project. False if there is none.
     fn ask_for_project(&mut self) -> bool;
-    /// Lets the reader take photographs with the camera of the machine. False where there is no way.
+    /// Opens the camera of the device. False if there is none.
     fn ask_for_camera(&mut self) -> bool;
-    /// Cuts a video that has arrived into so many parts of equal length, and brings some frames of one of them. The parts
-    /// are asked for in their order, each when the one before has been looked through: there are never many frames.
+    /// Splits an arrived video into `num_parts` parts of equal length, and reads some frames of one
+    /// of them. Parts are requested in order, each after the previous one is processed, to limit
+    /// the frames in memory.
     fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32);
-    /// Gives the reader a file.
+    /// Saves a file for the reader; returns the message to show.
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
     /// Whether a project can be kept here without giving the reader a file.
     fn can_keep(&self) -> bool;
-    /// Keeps a project in place of what was kept before. What came of it arrives as [`Arrival::Kept`].
+    /// Keeps a project in place of the previous one. The outcome arrives as [`Arrival::Kept`].
     fn keep(&mut self, project: Vec<u8>);
-    /// Erases what is kept.
+    /// Erases the kept project.
     fn forget(&mut self);
-    /// Brings what is kept, as [`Arrival::Kept`].
+    /// Requests the kept project, which arrives as [`Arrival::Kept`].
     fn ask_for_kept(&mut self);
-    /// What is to be seen now, for whoever does not see it.
+    /// Announces a text to assistive technology.
     fn say(&mut self, words: &str);
     /// Shows the figure of the book that explains a step.
     fn explain(&mut self, about: About);
-    /// Whether there is a book to show it from.
+    /// Whether a book with these figures is available.
     fn has_book(&self) -> bool;
-    /// The parameters that bring back what is to be seen now, for an address.
+    /// Sets the parameters of the address that restore the current view.
     fn address(&mut self, link: &str);
 }

@@ -1,11 +1,11 @@
-//! What a reader brings: photographs, of a board while that step is open, projects, videos, links.
+//! Handling of arrivals: photographs (of a board during that step), projects, videos, links.
 
 use super::host::{Arrival, Host};
 use super::work::{Errand, Work};
 use crate::project::{Computed, Event, Given, Project, Step};
 use crate::tasks::{Blob, Request, Source};
 
-/// Takes what has come.
+/// Handles an arrival.
 pub(super) fn take(arrival: Arrival, project: &mut Project, work: &mut Work, host: &mut impl Host) {
     match arrival {
         Arrival::Photographs(files) => photographs(project, files),

@@ -7,10 +7,10 @@ use crate::project::{Event, Key, Project, Step};
 use crate::tasks::{Answer, Request, Sample};
 use std::time::Duration;
 
-/// Changes that came to rest for so long are kept, seconds.
+/// Time without changes after which they are kept, seconds.
 const REST_S: f64 = 1.0;
 
-/// What is kept, if anything is.
+/// State of the kept project.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum State {
     /// Nothing.
@@ -22,17 +22,17 @@ enum State {
     Open,
 }
 
-/// What is kept in the browser.
+/// Keeping of the project in the browser.
 #[derive(Default)]
 pub(super) struct Keeping {
     state: State,
-    /// What is kept of it, or on its way there.
+    /// Key of the kept version, or of the one being written.
     kept: Option<Key>,
-    /// What has changed, and since when, seconds.
+    /// Key of a changed version, and the time of the change in seconds.
     changed: Option<(Key, f64)>,
-    /// Whether the reader waits to hear that it is kept.
+    /// Whether to confirm to the reader that it is kept.
     is_new: bool,
-    /// Whether it has just come back.
+    /// Whether it was just restored.
     pub(super) is_back: bool,
 }
 
@@ -100,7 +100,7 @@ impl Work {
         }
     }
 
-    /// Keeps the project once its changes have come to rest.
+    /// Keeps the project after a pause in the changes.
     pub(super) fn keep(&mut self, project: &Project, host: &mut impl Host, ui: &egui::Ui) {
         if self.keeping.state != State::Open {
             return;
@@ -128,7 +128,7 @@ impl Work {
         }
     }
 
-    /// Gives the browser what is to be kept, when it is written.
+    /// Hands the written project to the browser.
     pub(super) fn written(&mut self, answer: Result<Answer, String>, host: &mut impl Host) {
         match answer {
             // It may have been forgotten meanwhile.
@@ -153,7 +153,7 @@ impl Work {
         ));
     }
 
-    /// Hears of what is kept.
+    /// Handles news of the kept project.
     pub(super) fn hear_of_kept(&mut self, kept: Kept, host: &mut impl Host) {
         match kept {
             Kept::Project(archive) => {
@@ -181,7 +181,7 @@ impl Work {
         }
     }
 
-    /// Opens what was kept, at the step that is open.
+    /// Opens the kept project, at the current step.
     pub(super) fn reopened(&mut self, answer: Result<Answer, String>, project: &mut Project) {
         match answer {
             Ok(Answer::Opened {
@@ -193,7 +193,7 @@ impl Work {
                 project.update(Event::OpenProject(Box::new(saved), files));
                 project.bring(computed);
                 project.update(Event::Show(step));
-                // What was there before nobody has seen.
+                // The state before the restore was never visible.
                 project.forget_past();
                 self.keeping = Keeping {
                     state: State::Open,

@@ -1,16 +1,16 @@
-//! What the knobs of all steps share.
+//! Helpers shared by the controls of all steps.
 
 use super::app::Memory;
 use super::menu;
 use crate::project::{Event, Project, Settings, Step};
 use egui::{Slider, Ui};
 
-/// What a reader does with a knob.
+/// Interaction with a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Turned {
     /// Nothing.
     No,
-    /// It is held and may go on: nothing is computed anew.
+    /// Held, and may still change: nothing is recomputed.
     Held,
     /// It has a new place.
     Done,
@@ -22,7 +22,7 @@ impl From<bool> for Turned {
     }
 }
 
-/// Lets the reader turn knobs.
+/// Shows controls and applies their changes.
 pub(super) fn edit(
     project: &Project,
     memory: &mut Memory,
@@ -51,7 +51,7 @@ pub(super) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Turned {
     }
 }
 
-/// What stands in place of a picture while there is none: in the middle, with a margin.
+/// Draws a text in place of an image: in the middle, with a margin.
 pub(super) fn instead(ui: &mut Ui, words: &str) {
     let whole = ui.available_rect_before_wrap();
     let width = (whole.width() - 32.0).clamp(1.0, 460.0);
@@ -61,7 +61,7 @@ pub(super) fn instead(ui: &mut Ui, words: &str) {
     job.halign = egui::Align::Center;
     let text = ui.painter().layout_job(job);
     let rect = egui::Rect::from_center_size(whole.center(), egui::vec2(width, text.size().y));
-    // Words that are longer than the room begin at its top.
+    // Text taller than the area starts at its top.
     let top = rect.top().max(whole.top());
     let response = ui.interact(rect, ui.scope_id().with("instead"), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, words));
@@ -91,7 +91,7 @@ pub(super) fn book(ui: &mut Ui, step: Step) {
     }
 }
 
-/// The photographs to choose from. Returns the one that was clicked.
+/// Shows the photographs to choose from. Returns the one that was clicked.
 pub(super) fn choose(
     project: &Project,
     ui: &mut Ui,

@@ -67,15 +67,15 @@ fn visuals(theme: Theme) -> Visuals {
         widget.fg_stroke.color = role(Role::Ink);
     }
     visuals.widgets.noninteractive.bg_stroke.color = role(Role::Edge);
-    // An edge tells what can be pressed from what cannot, also an empty box from the paper behind it. All are as wide, so
-    // that nothing moves under the pointer.
+    // An outline marks clickable items, also an empty box on the paper behind it. All have the same
+    // width, so that nothing moves under the pointer.
     visuals.widgets.inactive.bg_stroke = Stroke::new(1.0, role(Role::Muted));
     visuals.widgets.hovered.bg_stroke = Stroke::new(1.0, role(Role::Ink));
     visuals.widgets.active.bg_stroke = Stroke::new(1.0, role(Role::Best));
     visuals
 }
 
-/// Where a context says whether it has high contrast.
+/// Key of the context's high-contrast flag.
 fn is_high() -> egui::Id {
     egui::Id::unique("high contrast")
 }
@@ -88,7 +88,7 @@ pub(super) fn wear(context: &egui::Context, name: &str) {
         Some(Theme::HighContrast) => Theme::HighContrast,
         _ => Theme::Dark,
     };
-    // The toolkit knows of two: the darker one makes room.
+    // The toolkit knows two themes; this one takes the place of the dark one.
     context.set_visuals_of(egui::Theme::Dark, visuals(is_dark));
     context.set_theme(match theme {
         Some(Theme::Light) => egui::ThemePreference::Light,

@@ -1,4 +1,4 @@
-//! What is drawn beside points: cameras, and the rays of one point; and where that is seen.
+//! Marks besides the points: cameras, the rays of one point, and its observations.
 
 use crate::project::Project;
 use crate::tasks::{CameraFound, Component, Thumbnail};
@@ -72,7 +72,7 @@ pub(super) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, c
     }
 }
 
-/// Where a point is seen: the photograph, the keypoint's place, and how far the point is from it, pixels.
+/// Observations of a point: photograph, keypoint, and reprojection error in pixels.
 pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
     let (Some(component), photos) = (project.component(), project.taking_part()) else {
         return Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], 
     point.track.iter().filter_map(sight).collect()
 }
 
-/// So many points of the dense depth of all pairs are shown.
+/// Maximum number of points shown from the dense depth of all pairs.
 const MAX_DENSE: usize = 1_000_000;
 
 /// Adds the points of every pixel after those that photographs share.

@@ -133,7 +133,7 @@ fn cell(
     response.on_hover_text(words);
 }
 
-/// The end of a long name tells photographs apart.
+/// Shortens a name to its end, which distinguishes photographs.
 fn shortened(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     match letters.len() > most {
@@ -147,7 +147,7 @@ fn shortened(name: &str, most: usize) -> String {
     }
 }
 
-/// How features are matched.
+/// Draws the matching controls.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     ui.label(project.describe());
     ui.weak(

@@ -1,4 +1,5 @@
-//! What is seen, in egui. A panel asks the project and sends it events; it computes nothing but layout.
+//! The user interface, in egui. A panel reads the project and sends it events; it computes only
+//! layout.
 
 mod about;
 mod app;

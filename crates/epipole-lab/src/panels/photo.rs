@@ -11,20 +11,20 @@ use egui::{
 use epipole_canvas::theme::{Role, Theme};
 use std::collections::BTreeMap;
 
-/// The pictures that the screen holds.
+/// Textures of images.
 #[derive(Default)]
 pub(super) struct Pictures {
     full: BTreeMap<Name, Strips>,
     small: BTreeMap<Name, TextureHandle>,
 }
 
-/// So many photographs are kept for the screen: two are looked at, at most.
+/// Maximum number of full images kept as textures; at most two are visible.
 const MAX_FULL: usize = 6;
-/// And so many small ones.
+/// The same for thumbnails.
 const MAX_SMALL: usize = 200;
 
 impl Pictures {
-    /// The photograph, as much of it as has come.
+    /// The photograph, as far as it is uploaded.
     pub(super) fn full(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> Strips {
         let size = [photograph.width as usize, photograph.height as usize];
         if !self.full.contains_key(&key) {
@@ -61,13 +61,13 @@ impl Pictures {
     }
 }
 
-/// How a reader looks at a photograph.
+/// Viewing state of a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Lens {
     zoom: f32,
-    /// Where the middle of the rectangle is in the photograph, as a share of it.
+    /// Point of the photograph in the middle of the view, as a share of its size.
     middle: Vec2,
-    /// Where the crosshair is, likewise.
+    /// Crosshair, likewise.
     cross: Vec2,
 }
 
@@ -85,15 +85,15 @@ impl Default for Lens {
 pub(super) struct Shown {
     pub(super) response: Response,
     painter: Painter,
-    /// Where the whole photograph would be.
+    /// Rectangle of the whole photograph on the screen.
     place: Rect,
     size: Vec2,
-    /// Where the crosshair was clicked by a key, as a share.
+    /// Point clicked with the crosshair by a key, as a share of the size.
     keyed: Option<Vec2>,
 }
 
 impl Shown {
-    /// Where a pixel is on the screen.
+    /// Position of a pixel on the screen.
     pub(super) fn at(&self, u: f64, v: f64) -> Pos2 {
         let share = vec2(
             (u as f32 + 0.5) / self.size.x,
@@ -155,7 +155,7 @@ impl Shown {
     }
 }
 
-/// Shows a photograph in a rectangle, with a name for those who do not see it.
+/// Shows a photograph in a rectangle, with an accessible name.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -190,7 +190,7 @@ pub(super) fn show(
         {
             let before = fit * lens.zoom;
             lens.zoom = (lens.zoom * factor).clamp(1.0, 16.0);
-            // What is under the pointer stays there.
+            // Keeps the point under the pointer fixed.
             let from_middle = (pointer - rect.center()) / size;
             lens.middle += from_middle * (1.0 / before - 1.0 / (fit * lens.zoom));
         }

@@ -1,4 +1,4 @@
-//! The photographs: what they are, what became of them, which take part.
+//! The photographs: their data, their outcomes, and the choice of those that take part.
 
 use super::app::Memory;
 use super::host::Wish;
@@ -22,7 +22,7 @@ pub(super) fn picture(
     events: &mut Vec<Event>,
 ) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        // Room for the frame around the one that is looked at.
+        // Space for the frame around the selected one.
         Frame::new().inner_margin(4.0).show(ui, |ui| {
             // Two in a row at least: phones have no room for two large ones.
             let half = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
@@ -88,7 +88,7 @@ fn card(
     response.on_hover_text(words);
 }
 
-/// Size, focal length, fate of the one that is looked at, and of all that are left out.
+/// Size, focal length and outcome of the selected one, and the outcomes of those left out.
 pub(super) fn knobs(
     project: &Project,
     memory: &mut Memory,
@@ -106,7 +106,7 @@ pub(super) fn knobs(
         ui.separator();
     }
     let left_out = project.left_out();
-    // What became of the one that is looked at stands above.
+    // The state of the selected photograph is already shown above.
     let is_other = |(id, _): &&(PhotoId, Fate)| *id != project.view().photo;
     if left_out.iter().any(|photo| is_other(&photo)) {
         ui.strong(format!("Left out: {}", left_out.len()));

@@ -18,7 +18,7 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     memory.cloud.show(project, ui, rect);
 }
 
-/// Why there is nothing to see, each photograph that was left out in a line of its own.
+/// Reason for an empty view, with one line for each photograph left out.
 fn why_none(project: &Project) -> String {
     let mut words = project.describe();
     for (id, _) in project.left_out() {
@@ -33,7 +33,7 @@ fn why_none(project: &Project) -> String {
 /// Numbers, reasons, knobs.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     numbers(project, ui, events);
-    // Without any, the words in place of the picture tell why.
+    // Without any, a message in place of the image gives the reason.
     if project.component().is_some() {
         for (id, _) in &project.left_out() {
             if let Some(photo) = project.document().photo(*id) {
@@ -71,7 +71,7 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     knobs::book(ui, Step::Reconstruction);
 }
 
-/// How the space is looked at.
+/// Draws the view options of the point cloud.
 fn view(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     point(project, memory, ui);
     ui.horizontal_wrapped(|ui| {
@@ -97,7 +97,7 @@ fn view(project: &Project, memory: &mut Memory, ui: &mut Ui) {
 
 fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     let Some(found) = project.reconstruction() else {
-        // The picture grows meanwhile, and does not say how far it is.
+        // The view grows meanwhile, without a progress bar.
         if project.growing().is_some() {
             ui.label(project.describe());
         }

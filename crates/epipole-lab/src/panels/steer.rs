@@ -1,10 +1,10 @@
-//! Where the space is seen from: at first, and by the hand that turns, moves and enlarges it.
+//! Viewpoint of the point cloud: the initial one, and changes by pointer, touch and keys.
 
 use crate::tasks::{CameraFound, Component};
 use egui::{Key as KeyName, Response, Ui, Vec2};
 use epipole_canvas::cloud::Orbit;
 
-/// Turns, moves and enlarges. True while something moves.
+/// Rotates, pans and zooms. True while something moves.
 pub(super) fn steer(
     orbit: &mut Orbit,
     ui: &Ui,
@@ -64,8 +64,8 @@ pub(super) fn steer(
     *orbit != before
 }
 
-/// From the side of another view, or else from behind the cameras and a little aside; with all of them in the picture, and
-/// the points but for the outermost.
+/// From the side of another view, or else from behind the cameras and a little aside; with all
+/// cameras in the image, and the points except for the outermost.
 pub(super) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
     const ASIDE_RAD: f64 = 0.35;
     let cameras = || component.cameras.iter().flatten();

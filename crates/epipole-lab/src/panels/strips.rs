@@ -1,26 +1,26 @@
-//! A picture that comes to the screen a strip at a time: all of a photograph would hold up the frame that shows it first.
+//! Uploads an image strip by strip: a whole photograph would delay the frame that first shows it.
 
 use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, Ui, Vec2, pos2};
 use std::ops::Range;
 
-/// So many pixels of a picture come with a frame.
+/// Number of pixels of an image uploaded per frame.
 const MAX_PIXELS: usize = 500_000;
 
-/// A picture, cut across.
+/// An image, divided into horizontal strips.
 #[derive(Clone)]
 pub(super) struct Strips {
     width: usize,
     height: usize,
-    /// What is seen where nothing has come yet.
+    /// Placeholder behind the strips that are not there yet.
     under: Option<TextureHandle>,
     /// From the top, as many as have come.
     textures: Vec<TextureHandle>,
 }
 
 impl Strips {
-    /// A picture of which nothing has come.
+    /// An image without any strip.
     ///
-    /// * `under`: the same, small, to be seen meanwhile
+    /// * `under`: its thumbnail, shown meanwhile
     pub(super) fn new([width, height]: [usize; 2], under: Option<TextureHandle>) -> Self {
         Self {
             width,
@@ -35,7 +35,7 @@ impl Strips {
         Vec2::new(self.width as f32, self.height as f32)
     }
 
-    /// Whether all of it has come.
+    /// Whether all strips are uploaded.
     pub(super) fn is_whole(&self) -> bool {
         self.rows(self.textures.len()).is_empty()
     }
@@ -52,7 +52,7 @@ impl Strips {
         start.saturating_sub(1)..(end + 1).min(self.height)
     }
 
-    /// Brings the next strip, if one is missing; the others come with the next frames.
+    /// Uploads the next missing strip; the others follow in the next frames.
     ///
     /// * `image`: the pixels of these rows
     pub(super) fn bring(
@@ -72,9 +72,9 @@ impl Strips {
         }
     }
 
-    /// Paints what has come.
+    /// Paints the uploaded strips.
     ///
-    /// * `place`: where the whole picture would be
+    /// * `place`: rectangle of the whole image
     pub(super) fn paint(&self, painter: &Painter, place: Rect) {
         if let Some(under) = self.under.as_ref().filter(|_| !self.is_whole()) {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));

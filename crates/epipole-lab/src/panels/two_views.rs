@@ -8,7 +8,7 @@ use crate::tasks::ViewModel;
 use egui::{Align, Layout, Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
-/// So many matches are drawn.
+/// Maximum number of matches drawn.
 const MAX_DRAWN: usize = 400;
 
 /// Both photographs, beside or above each other.
@@ -117,7 +117,7 @@ impl Both for (Rect, Rect) {
     }
 }
 
-/// Where the epipolar line of a pixel enters and leaves the other photograph.
+/// End points of a pixel's epipolar line in the other photograph.
 fn epipolar_line(f: &[f64; 9], [u, v]: [f64; 2], size: [u32; 2]) -> Option<([f64; 2], [f64; 2])> {
     let line = [0, 3, 6].map(|row| f[row] * u + f[row + 1] * v + f[row + 2]);
     let [a, b, c] = line;
@@ -148,7 +148,7 @@ fn mapped(h: &[f64; 9], [u, v]: [f64; 2]) -> Option<[f64; 2]> {
     place.iter().all(|x| x.is_finite()).then_some(place)
 }
 
-/// Which pair, and what it says.
+/// Draws the choice of the pair, and its results.
 pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
     let (a, b) = project.view().pair;
     if knobs::choose_pair(project, ui, events) {
@@ -216,12 +216,13 @@ pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events:
     knobs::book(ui, Step::TwoViews);
 }
 
-/// A number with its sign and its power of ten, so that rows stand below each other.
+/// A number with its sign and power of ten, for aligned rows.
 fn scientific(value: f64) -> String {
     format!("{value:.3e}").replace('-', "−")
 }
 
-/// What both features look like, each turned as its photograph is, in the window that its descriptor sees.
+/// Draws both features in the windows of their descriptors, each in the orientation of its
+/// photograph.
 fn patches(
     project: &Project,
     memory: &mut Memory,

@@ -8,17 +8,17 @@ use std::collections::VecDeque;
 struct Reading {
     video: u32,
     num_parts: u32,
-    /// The part that was asked for.
+    /// The requested part.
     part: u32,
     chosen: Vec<(String, Blob)>,
 }
 
-/// All that are being read; the first of them is under way.
+/// Queue of videos; the first is being read.
 #[derive(Default)]
 pub(super) struct Videos(VecDeque<Reading>);
 
 impl Videos {
-    /// One more, of which so many frames are wanted.
+    /// Adds a video, of which `num_parts` frames are wanted.
     pub(super) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
         self.0.push_back(Reading {
             video,
@@ -32,13 +32,13 @@ impl Videos {
         }
     }
 
-    /// The part of a video that was asked for, if it is the one that is being read.
+    /// The requested part of a video, if it is the one being read.
     pub(super) fn part_of(&self, video: u32) -> Option<u32> {
         let first = self.0.front().filter(|reading| reading.video == video);
         first.map(|reading| reading.part)
     }
 
-    /// How far the first one is, in words.
+    /// Progress of the first video, in words.
     pub(super) fn words(&self) -> Option<String> {
         let first = self.0.front()?;
         Some(format!(
@@ -48,8 +48,8 @@ impl Videos {
         ))
     }
 
-    /// Takes the sharpest frame of the part that was asked for, if it had one. Returns the frames of all parts after the
-    /// last.
+    /// Keeps the sharpest frame of the requested part, if it had any. Returns the frames of all
+    /// parts after the last.
     pub(super) fn take(
         &mut self,
         video: u32,
@@ -71,7 +71,7 @@ impl Videos {
         Some(done.chosen)
     }
 
-    /// Forgets a video, and goes on with the next.
+    /// Drops a video, and starts the next.
     pub(super) fn give_up(&mut self, video: u32, host: &mut impl Host) {
         let before = self.part_of(video);
         self.0.retain(|reading| reading.video != video);

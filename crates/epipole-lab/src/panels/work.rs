@@ -1,4 +1,4 @@
-//! Which pieces of work are under way: as many as the host can do, only what is wanted.
+//! Running jobs: as many as the host allows, and only those still needed.
 
 use super::host::{Host, Report, WorkId};
 use super::intake;
@@ -40,30 +40,30 @@ struct Running {
     words: String,
 }
 
-/// So many bytes are read and written between two frames, and those of one photograph more: a few milliseconds.
+/// Bytes decoded and encoded between two frames, plus those of one photograph: a few milliseconds.
 const MAX_BYTES: usize = 4_000_000;
 
 /// All work that is under way.
 #[derive(Default)]
 pub(super) struct Work {
     running: Vec<Running>,
-    /// What was told and waits for the next frame.
+    /// Reports waiting for the next frame.
     told: VecDeque<Report>,
     last: WorkId,
-    /// The revision of the project at which everything that is wanted was looked through.
+    /// The revision of the project whose tasks were checked last.
     seen: Option<u64>,
-    /// What came of the last errand.
+    /// Message from the last errand.
     pub(super) news: Option<String>,
-    /// Videos of which frames are taken.
+    /// Videos that frames are taken from.
     pub(super) videos: Videos,
-    /// What is kept where the Lab runs.
+    /// Keeping of the project.
     pub(super) keeping: Keeping,
-    /// Whether the sample comes solved, and has not come yet.
+    /// Whether the results of the sample are still to arrive.
     pub(super) waits_for_sample: bool,
 }
 
 impl Work {
-    /// Nothing is under way; `waits_for_sample` if the sample comes solved.
+    /// No running jobs; `waits_for_sample` if the sample comes solved.
     pub(super) fn new(waits_for_sample: bool) -> Self {
         Self {
             waits_for_sample,
@@ -71,7 +71,8 @@ impl Work {
         }
     }
 
-    /// Hears what is done, ends what is not wanted any more, starts what is. What takes too long waits for the next frame.
+    /// Takes reports, cancels jobs that are no longer needed, and starts new ones. Larger amounts
+    /// of work wait for the next frame.
     pub(super) fn go_on(&mut self, project: &mut Project, host: &mut impl Host) {
         let mut num_bytes = 0;
         self.told.extend(host.reports());
@@ -88,7 +89,7 @@ impl Work {
         let waits =
             self.waits_for_sample && project.document().photos.iter().all(intake::is_sample);
         let wanted = match self.is_opening() || waits {
-            // Another project, or what was computed before, is about to come.
+            // Another project, or precomputed results, are about to arrive.
             true => Vec::new(),
             false => project.wanted(),
         };
@@ -149,18 +150,18 @@ impl Work {
         }
     }
 
-    /// Starts an errand that the reader need not hear of.
+    /// Starts an errand in the background.
     pub(super) fn start_errand(&mut self, errand: Errand, request: &Request, host: &mut impl Host) {
         self.start(What::Errand(errand), request, host);
     }
 
-    /// Whether such an errand is under way.
+    /// Whether the errand is running.
     pub(super) fn runs(&self, errand: Errand) -> bool {
         let what = What::Errand(errand);
         self.running.iter().any(|running| running.what == what)
     }
 
-    /// Whether another project is about to take the place of this one.
+    /// Whether another project is about to replace this one.
     pub(super) fn is_opening(&self) -> bool {
         self.runs(Errand::Open) || self.runs(Errand::Reopen)
     }
@@ -197,7 +198,7 @@ impl Work {
         }
     }
 
-    /// What has come to its end, if it is still wanted.
+    /// Removes a finished job; returns its subject if it was still running.
     fn ended(&mut self, id: WorkId) -> Option<What> {
         let place = self.running.iter().position(|running| running.id == id)?;
         self.seen = None;
@@ -222,7 +223,7 @@ impl Work {
         }
     }
 
-    /// Goes on with the next part of a video, or takes the frames of all.
+    /// Requests the next part of a video, or adds the frames of all parts.
     fn frames(
         &mut self,
         video: u32,
@@ -256,7 +257,7 @@ impl Work {
         !self.running.is_empty() || self.is_waiting()
     }
 
-    /// What is under way, in a few words, with the share that is done of the longest.
+    /// Description of the running jobs, with the progress of the longest.
     pub(super) fn words(&self, project: &Project) -> Option<(String, f32)> {
         let Some(first) = self.running.first() else {
             return Some((self.videos.words()?, 0.0));
@@ -300,7 +301,7 @@ fn answer_of(result: Result<Vec<u8>, String>) -> Result<Answer, String> {
     result.and_then(|bytes| Answer::from_bytes(&bytes))
 }
 
-/// What to say of an errand that is done.
+/// Handles the result of an errand; returns the message to show.
 fn finish(
     errand: Errand,
     result: Result<Vec<u8>, String>,

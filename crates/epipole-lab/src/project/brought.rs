@@ -1,5 +1,5 @@
-//! Results that were computed before, and came with a project or with the sample. Each is taken once it is wanted, and
-//! only if it fits what it is a result of: a file may say anything.
+//! Precomputed results from a project file or the sample. Each is taken when it is needed, and only
+//! if it is valid, as files are untrusted.
 
 use super::document::PhotoId;
 use super::keys::Key;
@@ -11,13 +11,13 @@ use crate::tasks::{
 };
 use serde::{Deserialize, Serialize};
 
-/// What results are computed with: only those of the same are taken.
+/// Hash of the code that computes results; results of other code are rejected.
 pub const COMPUTED_BY: &str = env!("EPIPOLE_LAB_COMPUTED_BY");
 
-/// Results by their keys, and what they were computed with.
+/// Results by key, and the code that computed them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Computed {
-    /// [`COMPUTED_BY`] of whoever computed.
+    /// [`COMPUTED_BY`] of the build that computed them.
     pub by: String,
     /// Keys, and bytes of answers.
     pub results: Vec<(u64, Blob)>,
@@ -29,15 +29,15 @@ impl Computed {
         crate::tasks::to_bytes(self)
     }
 
-    /// What these bytes hold; nothing, if they hold nothing of the kind.
+    /// Parses the bytes; empty if they are invalid.
     pub fn from_bytes(bytes: &[u8]) -> Self {
         postcard::from_bytes(bytes).unwrap_or_default()
     }
 }
 
 impl Project {
-    /// Takes results that were computed before, in place of others that were brought and that nobody wanted. What was
-    /// computed with something else, or does not fit, is left: it is computed as if it had not come.
+    /// Takes precomputed results, replacing unused ones of an earlier call. Invalid results, and
+    /// those of another build, are ignored and computed again.
     pub fn bring(&mut self, computed: Computed) {
         self.brought.clear();
         if computed.by == COMPUTED_BY {
@@ -48,7 +48,7 @@ impl Project {
         self.take_brought();
     }
 
-    /// Takes what is wanted of it, and what is wanted then.
+    /// Takes the results that are needed now, repeatedly, as they enable further ones.
     pub(super) fn take_brought(&mut self) {
         let mut is_new = true;
         while is_new && !self.brought.is_empty() {
@@ -66,7 +66,8 @@ impl Project {
         }
     }
 
-    /// Features, matches, pairs and the reconstruction that there are: what takes long, but for pixels, which files have.
+    /// Results worth saving: features, matches, pairs and the reconstruction, but not pixels, which
+    /// come from the files.
     pub(super) fn computed(&self) -> Computed {
         self.computed_of(|kept| match kept {
             Kept::Features(found) => Some(Answer::Features((**found).clone())),
@@ -74,8 +75,9 @@ impl Project {
         })
     }
 
-    /// The same of a sample, to travel light: with sizes and lenses of its photographs, whose pixels are soon rendered, and
-    /// without descriptors, which only somebody asks for who looks at them or who matches anew. Those are nine bytes of ten.
+    /// The same for a sample, in a compact form: with sizes and lenses of its photographs, whose
+    /// pixels are quickly rendered, and without descriptors, which only their display and new
+    /// matching need. Those are nine bytes of ten.
     pub fn light_computed(&self) -> Computed {
         self.computed_of(|kept| match kept {
             Kept::Photograph(found) => Some(Answer::Photograph(Photograph {
@@ -106,7 +108,7 @@ impl Project {
         }
     }
 
-    /// Whether an answer can be what a task asks for.
+    /// Whether an answer has the form that a task needs.
     fn fits(&self, about: About, answer: &Answer) -> bool {
         let num_features = |id: PhotoId| {
             let photo = self.document.photo(id)?;
@@ -148,7 +150,7 @@ fn are_finite(numbers: &[f64]) -> bool {
     numbers.iter().all(|x| x.is_finite())
 }
 
-/// What follows from features, if it takes long.
+/// Expensive results that follow from features.
 fn follows(kept: &Kept) -> Option<Answer> {
     match kept {
         Kept::Matches(found) => Some(Answer::Matches((**found).clone())),

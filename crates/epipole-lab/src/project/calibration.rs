@@ -1,5 +1,5 @@
-//! The camera that photographs of a board give: what it depends on, what became of each of them, and which
-//! photographs it is used for.
+//! The camera calibrated from photographs of a board: its inputs, the outcome of each photograph,
+//! and the photographs that it applies to.
 
 use super::Project;
 use super::document::{Given, Settings};
@@ -8,7 +8,7 @@ use super::wanted::About;
 use crate::tasks::{Blob, BoardFound, Calibration, Request, Sample, Source};
 use std::rc::Rc;
 
-/// What became of a photograph of a board.
+/// Outcome for a photograph of a board.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum BoardFate {
     /// It is not known yet.
@@ -21,7 +21,7 @@ pub enum BoardFate {
     NotFound(String),
     /// It is of this size, and most others are of another one.
     OtherSize((u32, u32), (u32, u32)),
-    /// So many marks of the board were found.
+    /// Number of marks found.
     Found(usize),
 }
 
@@ -31,13 +31,13 @@ impl Project {
         Key::of(&("board", photo.content.0, options))
     }
 
-    /// The name of a board's picture, for whoever keeps one.
+    /// Key of a board's image, for caches.
     pub fn key_of_board(&self, photo: &Given) -> Key {
         // Another board is looked for in the same pixels.
         Key::of(&("picture of a board", photo.content.0))
     }
 
-    /// What was found in a photograph of a board, if it was looked through.
+    /// The board found in a photograph, if it has been searched.
     pub fn board(&self, photo: &Given) -> Option<&Rc<BoardFound>> {
         self.results.board(self.board_key(photo))
     }
@@ -105,7 +105,7 @@ impl Project {
         boards.iter().position(|other| other.id == photo.id)
     }
 
-    /// What became of a photograph of a board.
+    /// Outcome for a photograph of a board.
     pub fn board_fate(&self, photo: &Given) -> BoardFate {
         if photo.excluded {
             return BoardFate::Excluded;

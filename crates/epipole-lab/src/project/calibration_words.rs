@@ -1,4 +1,5 @@
-//! Boards and the camera that they give, in words, and as a file and a command for whoever calibrates elsewhere.
+//! Boards and the calibrated camera in words, and as a file and a command for calibration
+//! elsewhere.
 
 use super::Project;
 use super::calibration::BoardFate;
@@ -7,7 +8,7 @@ use super::words::count;
 use crate::tasks::{BoardPattern, Calibration, LensCamera, Source};
 
 impl Project {
-    /// What became of a photograph of a board, for people, and what would help.
+    /// Outcome for a photograph of a board in words, with advice.
     pub fn board_words(&self, photo: &Given) -> String {
         match self.board_fate(photo) {
             BoardFate::Open => "being processed".to_owned(),
@@ -49,7 +50,7 @@ impl Project {
         words
     }
 
-    /// How far the calibration is, and what would help if it comes to nothing.
+    /// State of the calibration, with advice if it fails.
     pub fn calibrate_status(&self) -> String {
         let boards = &self.document.boards;
         if boards.is_empty() {
@@ -98,7 +99,8 @@ impl Project {
         words
     }
 
-    /// What makes the camera less sure than the errors say, a sentence each without its period.
+    /// Reasons why the camera is less accurate than the errors suggest, one sentence each without
+    /// its period.
     pub fn calibration_warnings(&self) -> Vec<String> {
         let Some(found) = self.calibration() else {
             return Vec::new();
@@ -230,7 +232,7 @@ pub(super) fn listed(numbers: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// What `epipole undistort` and `epipole sfm` read of a camera.
+/// JSON fields of a camera that `epipole undistort` and `epipole sfm` read.
 pub(super) fn camera_fields(camera: &LensCamera) -> String {
     let (width, height) = camera.size;
     format!(

@@ -1,4 +1,4 @@
-//! What a project is made of, and what undo brings back: photographs, knobs, measures.
+//! Contents of a project, restored by undo: photographs, settings, measurements.
 
 use super::keys::Key;
 use crate::tasks::{
@@ -17,9 +17,9 @@ pub struct Given {
     pub id: PhotoId,
     /// Its name, which no other one has.
     pub name: String,
-    /// Where it comes from.
+    /// File or sample.
     pub source: Source,
-    /// The name of its bytes: two files with the same are the same photograph.
+    /// Hash of its bytes: files with equal hashes are the same photograph.
     pub content: Key,
     /// Left out by the reader.
     pub excluded: bool,
@@ -30,7 +30,7 @@ pub struct Given {
 /// When focal lengths are refined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RefineFocal {
-    /// If a photograph does not tell its own.
+    /// If a photograph has no focal length of its own.
     WhenGuessed,
     /// Always.
     Always,
@@ -41,25 +41,25 @@ pub enum RefineFocal {
 /// All knobs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Photographs are reduced to so many megapixels.
+    /// Maximum size of downscaled photographs, megapixels.
     pub max_megapixels: f64,
-    /// How features are found.
+    /// Feature detection.
     pub features: FeatureOptions,
-    /// How they are matched.
+    /// Matching.
     pub matching: MatchOptions,
-    /// How pairs are judged.
+    /// Two-view verification.
     pub pairs: PairOptions,
-    /// How everything is reconstructed; `refine_focal` in it follows the field below.
+    /// Reconstruction; its `refine_focal` follows the field below.
     pub sfm: SfmOptions,
     /// When focal lengths are refined.
     pub refine_focal: RefineFocal,
-    /// How the depth of pairs is found.
+    /// Dense depth of pairs.
     #[serde(default)]
     pub depth: DepthOptions,
-    /// How the camera is calibrated.
+    /// Calibration.
     #[serde(default)]
     pub calibration: CalibrationOptions,
-    /// How many frames of a video become photographs.
+    /// Number of frames to extract from a video.
     #[serde(default = "usual_num_frames")]
     pub num_frames: u32,
 }
@@ -84,11 +84,11 @@ impl Default for Settings {
     }
 }
 
-/// The largest disparity that can be asked for, pixels.
+/// Maximum disparity, pixels.
 pub const MAX_DISPARITY_PX: i32 = 8192;
-/// As many frames as a video may give.
+/// Maximum number of frames from a video.
 pub const MAX_FRAMES: u32 = 60;
-/// As many columns and rows as a board may have.
+/// Maximum number of columns and rows of a board.
 pub const MAX_MARKS: u32 = 100;
 /// The least and the greatest side of a square, meters.
 pub const SQUARES_M: [f64; 2] = [1e-4, 100.0];
@@ -135,7 +135,7 @@ pub struct Anchor {
     pub keypoint: u32,
 }
 
-/// Two points, and the length between them if the reader knows it.
+/// Two points, and their distance if known.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measure {
     /// The points.
@@ -144,14 +144,14 @@ pub struct Measure {
     pub length_m: Option<f64>,
 }
 
-/// Everything that undo brings back.
+/// The state that undo restores.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Document {
     /// The photographs, in order.
     pub photos: Vec<Given>,
     /// All knobs.
     pub settings: Settings,
-    /// What was measured.
+    /// Measurements.
     pub measures: Vec<Measure>,
     /// Three points of the floor.
     pub floor: Option<[Anchor; 3]>,
@@ -174,7 +174,7 @@ impl Document {
         self.boards.iter().find(|photo| photo.id == id)
     }
 
-    /// Both photographs, as they stand in the list.
+    /// Both photographs of a pair.
     pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&Given, &Given)> {
         let place = |id| self.photos.iter().position(|photo| photo.id == id);
         let (one, two) = (place(a)?, place(b)?);
@@ -198,7 +198,7 @@ impl Document {
 pub(super) fn content_of(source: &Source) -> Key {
     match source {
         Source::File(bytes) => Key::of_bytes(bytes),
-        // One photograph twice is what this sample is for.
+        // A duplicate photograph is the purpose of this sample.
         Source::Rendered(sample @ Sample::Twice, _) => Key::of(&(sample, 0_u8)),
         Source::Rendered(sample, index) => Key::of(&(sample, index)),
     }

@@ -1,4 +1,4 @@
-//! What a reader can do.
+//! Actions of the reader.
 
 use super::document::{Anchor, Measure, PhotoId, Settings};
 use super::saved::Saved;
@@ -66,13 +66,13 @@ pub enum Event {
     Begin(Vec<(String, Blob)>),
     /// Gave photographs of a board, likewise.
     AddBoards(Vec<(String, Blob)>),
-    /// Asked for the sample of a board in place of all boards.
+    /// Opened the sample of a board in place of all boards.
     OpenBoards,
     /// Removed all photographs of boards.
     ClearBoards,
     /// Made the camera that was found from boards that of the photographs of its size; or gave it up.
     UseCalibration(bool),
-    /// Asked for a sample in place of all photographs.
+    /// Opened a sample in place of all photographs.
     OpenSample(Sample),
     /// Opened a project in place of everything, with the names and bytes of its files.
     OpenProject(Box<Saved>, Vec<(String, Blob)>),
@@ -86,7 +86,7 @@ pub enum Event {
     Focal(PhotoId, Option<f64>),
     /// Moved a photograph towards the beginning of the list.
     Earlier(PhotoId),
-    /// Turned knobs.
+    /// Changed settings.
     Set(Settings),
     /// Measured a length.
     Measure(Measure),
@@ -94,9 +94,9 @@ pub enum Event {
     Length(usize, Option<f64>),
     /// Removed a measure.
     Forget(usize),
-    /// Said which three points lie on the floor, or took that back.
+    /// Chose three points on the floor, or removed them.
     Floor(Option<[Anchor; 3]>),
-    /// Took the depth of a pair into the cloud, or out of it.
+    /// Added the depth of a pair to the cloud, or removed it.
     Dense(PhotoId, PhotoId, bool),
     /// Took back the last change.
     Undo,
@@ -110,7 +110,7 @@ pub enum Event {
     LookAtPair(PhotoId, PhotoId),
     /// Looks at a part of the reconstruction.
     LookAtComponent(usize),
-    /// Wants what broke down to be computed once more.
+    /// Retried failed computations.
     TryAgain,
     /// Stopped computing, or went on.
     Pause(bool),

@@ -1,35 +1,36 @@
-//! What became of each photograph, and what would help.
+//! Outcome for each photograph, with advice.
 
 use super::document::{Given, PhotoId};
 use super::{Project, stages::FocalOrigin};
 use crate::tasks::{Component, Shows};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What became of a photograph.
+/// Outcome for a photograph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Fate {
     /// It is not known yet.
     Open,
-    /// It has a camera, and so many points are seen in it.
+    /// Registered, with the number of its points.
     Registered(usize),
     /// The reader left it out.
     Excluded,
-    /// The same file stands before it in the list.
+    /// Duplicate of an earlier photograph in the list, by its name.
     Twin(String),
     /// It cannot be read.
     Unreadable(String),
     /// No other photograph takes part.
     Alone,
-    /// It has so few features.
+    /// Too few features; their number.
     FewFeatures(usize),
-    /// It shares nothing with any other; at best so many matches agree.
+    /// No overlap with any other; the largest number of agreeing matches.
     OverlapsNone(usize),
-    /// Between it and those that it overlaps with, the camera only turned; if that is told only by another focal length
-    /// than was given, what that is, in pixels of the photograph as it was given.
+    /// Only rotation between it and the photographs that it overlaps with; if this holds only for
+    /// another focal length than the given one, that focal length, in pixels of the original
+    /// photograph.
     OnlyTurned(Option<u32>),
-    /// It sees so few of the points.
+    /// Too few visible points; their number.
     SeesFew(usize),
-    /// It sees so many points, but they do not agree on a place.
+    /// Number of visible points, which do not agree on a pose.
     NoPlace(usize),
     /// It belongs to another part.
     OtherPart(usize),
@@ -41,7 +42,7 @@ pub enum Fate {
 const FEW_FEATURES: usize = 60;
 
 impl Project {
-    /// What became of a photograph.
+    /// Outcome for a photograph.
     pub fn fate(&self, photo: &Given) -> Fate {
         let mut kept = self.fates.borrow_mut();
         if kept.0 != self.revision {
@@ -99,7 +100,7 @@ impl Project {
         let enough = self.document.settings.sfm.min_num_inliers;
         let (mut most, mut moves) = (0, 0);
         let mut turns = 0;
-        // Of those that show a turn, the factors of the focal lengths by which they do: a small turn shows by any.
+        // Focal factors of the pairs with pure rotation: a small rotation fits with any factor.
         let mut factors = Vec::new();
         // Keypoints that agree with a point which other photographs gave.
         let mut seen = BTreeSet::new();
@@ -157,7 +158,7 @@ impl Project {
         }
     }
 
-    /// What became of a photograph, for people, and what would help.
+    /// Outcome for a photograph in words, with advice.
     pub fn fate_words(&self, photo: &Given) -> String {
         let enough = self.document.settings.sfm.min_num_inliers;
         let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
@@ -203,7 +204,7 @@ impl Project {
         }
     }
 
-    /// The photographs that are given but not in the part that is looked at, with what became of them.
+    /// The photographs outside the current component, with their outcomes.
     pub fn left_out(&self) -> Vec<(PhotoId, Fate)> {
         let photos = self.document.photos.iter();
         photos

@@ -3,7 +3,8 @@
 use super::Project;
 use nalgebra::{Point3, Vector3};
 
-/// Three points on a line, or nearly, say nothing of a plane: the sine of the angle between their sides.
+/// Minimum sine of the angle between the sides of three points: points nearly on a line do not
+/// determine a plane.
 const LEAST_SINE: f64 = 0.02;
 
 /// A plane in the frame of the reconstruction.
@@ -16,7 +17,7 @@ pub struct Floor {
 }
 
 impl Project {
-    /// The floor, if three points were chosen, all of them are in the part that is looked at, and they lie on no line.
+    /// The floor, if three points were chosen, are in the current component, and are not on a line.
     pub fn floor(&self) -> Option<Floor> {
         let component = self.component()?;
         let mut corners = [Point3::origin(); 3];
@@ -39,7 +40,7 @@ impl Project {
         Some(Floor { origin, up })
     }
 
-    /// How high a point of the part that is looked at is above the floor, in units of the reconstruction.
+    /// Height of a point of the current component above the floor, in units of the reconstruction.
     pub fn height_in_units(&self, point: usize) -> Option<f64> {
         let floor = self.floor()?;
         let position = Point3::from(self.component()?.points.get(point)?.position);
@@ -57,7 +58,7 @@ impl Project {
         }
     }
 
-    /// What there is to say of the floor.
+    /// State of the floor in words.
     pub fn floor_words(&self) -> &'static str {
         match (self.document.floor.is_some(), self.floor().is_some()) {
             (false, _) => "",

@@ -15,7 +15,7 @@ pub struct Length {
     pub sigma: f64,
 }
 
-/// What a unit of the reconstruction is.
+/// Metric scale of the reconstruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     /// Meters in a unit.
@@ -119,7 +119,7 @@ fn noise_px(component: &Component) -> f64 {
     libm::sqrt(sum_sq / freedom.max(1.0))
 }
 
-/// How unsure a point is, its cameras taken as right: `σ² (Σ JᵀJ)⁻¹`.
+/// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
 fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matrix3<f64>> {
     let point = component.points.get(point)?;
     let position = Point3::from(point.position);
@@ -136,7 +136,7 @@ fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matr
         .then_some(covariance)
 }
 
-/// How a pixel moves with its point, lens distortion left aside.
+/// Derivative of the pixel by the point, without lens distortion.
 fn jacobian(camera: &CameraFound, position: &Point3<f64>) -> Option<Matrix2x3<f64>> {
     let (rotation, in_cam) = in_camera(camera, position);
     if in_cam.z <= 0.0 {
@@ -164,7 +164,7 @@ fn in_camera(camera: &CameraFound, position: &Point3<f64>) -> (Matrix3<f64>, Poi
 }
 
 impl CameraFound {
-    /// Where the camera stands, in the world.
+    /// Position of the camera in the world.
     pub fn center(&self) -> Point3<f64> {
         let (rotation, origin) = in_camera(self, &Point3::origin());
         Point3::from(-(rotation.transpose() * origin.coords))
@@ -183,7 +183,7 @@ impl CameraFound {
         move |[u, v]| world_from_cam * Vector3::new((u - cu) / fu, (v - cv) / fv, 1.0)
     }
 
-    /// How far in front of the camera a place is, along its axis; negative behind it.
+    /// Depth of a point in the camera, along its axis; negative behind it.
     pub fn depth(&self, position: [f64; 3]) -> f64 {
         in_camera(self, &Point3::from(position)).1.z
     }

@@ -1,8 +1,8 @@
-//! The state of the Lab: photographs, knobs, and what follows from them. Plain data, without a screen
-//! and without a clock.
+//! The state of the Lab: photographs, settings, and results. Plain data, without a screen or a
+//! clock.
 //!
-//! State changes only by [`Project::update`] and [`Project::done`]. [`Project::wanted`] says what there
-//! is to compute, and whoever can compute asks [`Project::request`] for the bytes.
+//! State changes only by [`Project::update`] and [`Project::done`]. [`Project::wanted`] lists the
+//! tasks to compute, and [`Project::request`] gives a worker the bytes of each.
 
 mod brought;
 mod calibration;
@@ -48,7 +48,7 @@ use crate::tasks::{Answer, Blob, Component, Reconstructed};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the reader looks at; undo leaves it alone.
+/// The current view; undo leaves it alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     /// The step.
@@ -75,15 +75,15 @@ pub struct Project {
     future: Vec<Document>,
     next_id: PhotoId,
     paused: bool,
-    /// Photographs whose pixels were let go of and are read once more.
+    /// Photographs whose pixels were dropped and are being read again.
     reading: BTreeSet<Key>,
-    /// Those of them that could not be read once more.
+    /// Those of them whose second read failed.
     unread: BTreeSet<Key>,
-    /// What there is of the reconstruction that is on its way.
+    /// Intermediate result of the running reconstruction.
     growing: Option<(Key, Reconstructed)>,
-    /// How often anything has changed.
+    /// Number of changes.
     revision: u64,
-    /// What became of photographs, found out once for each revision: panels ask with every frame.
+    /// Outcomes of photographs, cached per revision, as panels read them in every frame.
     fates: RefCell<(u64, BTreeMap<PhotoId, Fate>)>,
 }
 
@@ -114,17 +114,17 @@ impl Default for Project {
 }
 
 impl Project {
-    /// What the project is made of.
+    /// Contents of the project.
     pub fn document(&self) -> &Document {
         &self.document
     }
 
-    /// What the reader looks at.
+    /// The current view.
     pub fn view(&self) -> &View {
         &self.view
     }
 
-    /// How often anything has changed: what was found out at one revision holds until the next.
+    /// Number of changes; values computed at one revision are valid until the next.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -139,13 +139,13 @@ impl Project {
         !self.past.is_empty()
     }
 
-    /// Whether there is something to bring back.
+    /// Whether there is anything to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }
 
-    /// Takes a result, or the sentence why there is none. A result that is no longer needed is kept as
-    /// well: undo may ask for it.
+    /// Takes a result, or its error message. A result that is no longer needed is also kept: undo
+    /// may need it.
     pub fn done(&mut self, key: Key, result: Result<Vec<u8>, String>) {
         self.revision += 1;
         let size = result.as_ref().map_or(0, Vec::len);
@@ -168,8 +168,8 @@ impl Project {
         self.balance_pixels();
     }
 
-    /// Takes the sentence why computing a result broke down, through no fault of what it is computed from: memory is
-    /// full, or the Lab has made a mistake. [`Event::TryAgain`] computes it once more.
+    /// Takes the message of a failure that is not due to the input: out of memory, or a bug of the
+    /// Lab. [`Event::TryAgain`] computes the result again.
     pub fn broke_down(&mut self, key: Key, sentence: String) {
         self.revision += 1;
         if self.growing.as_ref().is_some_and(|(of, _)| *of == key) {
@@ -191,7 +191,7 @@ impl Project {
         is_needed(broken) || is_needed(&self.unread)
     }
 
-    /// Takes what there is of a reconstruction that is on its way. Anything else is left alone.
+    /// Takes an intermediate result of the running reconstruction. Others are ignored.
     pub fn so_far(&mut self, key: Key, bytes: &[u8]) {
         if let Ok(Answer::Reconstruction(found)) = Answer::from_bytes(bytes) {
             // The revision stays: nothing that is to be computed has changed.
@@ -216,7 +216,7 @@ impl Project {
         self.results.failure(self.reconstruction_key()?)
     }
 
-    /// The keys of what the project is made of now.
+    /// The keys of all results of the current contents.
     fn needed(&self) -> BTreeSet<Key> {
         let mut keys = BTreeSet::new();
         let photos = &self.document.photos;

@@ -1,15 +1,15 @@
-//! Which photographs have their pixels at hand: those of many would take more memory than a page may. The others are
-//! known small, and are read from their files once more for whoever looks at them or computes with them.
+//! Which photographs have their pixels in memory: all of them may exceed the memory of a page. The
+//! others keep a thumbnail, and are read again from their files for display or computation.
 
 use super::document::{Given, PhotoId};
 use super::keys::Key;
 use super::{Project, Step};
 
-/// The pixels at hand take no more bytes, unless more is looked at.
+/// Maximum size of the pixels in memory, bytes, except for visible photographs.
 const MAX_BYTES: usize = 64_000_000;
 
 impl Project {
-    /// The photographs of the list, those whose pixels are looked at first.
+    /// The photographs of the list, those with visible pixels first.
     pub(super) fn by_need(&self) -> impl Iterator<Item = &Given> {
         let looked_at = self.looked_at();
         let is_looked_at = move |photo: &&Given| looked_at.contains(&photo.id);
@@ -17,7 +17,7 @@ impl Project {
         first.into_iter().chain(then)
     }
 
-    /// The photographs of which somebody sees every pixel, or is about to see their depth.
+    /// The photographs shown in full, or whose depth is about to be computed.
     fn looked_at(&self) -> Vec<PhotoId> {
         let (a, b) = self.view.pair;
         let mut ids = match self.view.step {
@@ -36,7 +36,7 @@ impl Project {
         ids
     }
 
-    /// The keys of photographs whose features are still to be found, in the order of the list.
+    /// The keys of photographs without features, in the order of the list.
     fn awaited(&self) -> Vec<Key> {
         let to_describe = self.to_describe();
         let is_awaited = |photo: &&&Given| {
@@ -49,7 +49,7 @@ impl Project {
         awaited.map(|photo| self.photograph_key(photo)).collect()
     }
 
-    /// Lets go of pixels that take too much, and says which ones are read once more.
+    /// Drops pixels beyond the memory limit, and selects those to read again.
     pub(super) fn balance_pixels(&mut self) {
         let size = |key: &Key| {
             self.results
@@ -77,8 +77,8 @@ impl Project {
         let looked_at: Vec<Key> = (looked_at.into_iter())
             .filter_map(|id| Some(self.photograph_key(self.document.photo(id)?)))
             .collect();
-        // What nobody waits for, the oldest first; then what will be waited for last, but for one: there is always some to
-        // go on with.
+        // Drops pixels that no task waits for, oldest first; then those needed last, except for
+        // one, so that work can continue.
         let idle = at_hand.iter().filter(|key| !awaited.contains(key));
         let late = awaited
             .iter()
@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    /// With so many photographs, of which nothing is known.
+    /// A project with photographs and no results.
     fn given(count: u8) -> Project {
         let mut project = Project::default();
         let file = |n: u8| (format!("{n}.jpg"), vec![n].into());

@@ -1,4 +1,4 @@
-//! How to do elsewhere what the Lab did: the command line, and a program.
+//! Recipes for the same result elsewhere: the command line, and a program.
 
 use super::Project;
 use super::calibration_words::{camera_fields, listed};
@@ -13,15 +13,15 @@ use std::rc::Rc;
 struct Part<'a> {
     pixels: &'a Rc<Photograph>,
     path: String,
-    /// The focal length that has to be said, pixels of the file.
+    /// Focal length to pass on, pixels of the file.
     focal_px: Option<f64>,
     is_guessed: bool,
 }
 
-/// Everything that has to be said.
+/// Contents of a recipe.
 struct Parts<'a> {
     list: Vec<Part<'a>>,
-    /// In place of the list, if it says the same.
+    /// Folder that replaces the list of files, if equivalent.
     folder: Option<&'static str>,
     /// Whether files are read as they were given, rather than from `images/`.
     as_given: bool,
@@ -36,7 +36,8 @@ impl Project {
         let pixels = pixels.filter(|pixels| !pixels.is_empty())?;
         let is_file = |photo: &Given| matches!(photo.source, Source::File(_));
         let both = || photos.iter().zip(&pixels);
-        // What was changed is in `images/` as it was used, but written anew with a loss.
+        // Altered photographs are re-encoded with loss in `images/`, so the recipe uses the
+        // originals.
         let as_given = both().any(|(photo, pixels)| is_file(photo) && !pixels.as_given);
         let list: Vec<Part<'_>> = both()
             .map(|(photo, pixels)| {
@@ -50,7 +51,7 @@ impl Project {
                     path: format!("{folder}/{}", photo.name),
                     focal_px: match origin {
                         Some(FocalOrigin::Typed) => photo.focal_px,
-                        // What is rendered has no file to tell it.
+                        // A rendered image has no file with a focal length.
                         Some(FocalOrigin::File) if !is_file(photo) => pixels.focal_px,
                         _ => None,
                     },
@@ -74,7 +75,7 @@ impl Project {
         })
     }
 
-    /// How to do the same elsewhere, once all photographs are there.
+    /// The recipe, once all photographs are loaded.
     pub fn recipe(&self) -> Option<Recipe> {
         let parts = self.parts()?;
         let photographs = match parts.as_given {

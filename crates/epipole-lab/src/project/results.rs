@@ -17,7 +17,7 @@ pub(super) enum Kept {
     Features(Rc<Features>),
     /// The matches of a pair.
     Matches(Rc<Vec<Match>>),
-    /// What a pair says.
+    /// Two-view geometry of a pair.
     TwoViews(Rc<TwoViews>),
     /// Cameras and points.
     Reconstruction(Rc<Reconstructed>),
@@ -29,7 +29,7 @@ pub(super) enum Kept {
     Calibration(Rc<Calibration>),
 }
 
-/// Results that nobody has asked for lately go when all take more than this.
+/// Maximum size of all results, bytes; beyond it the least recently used are dropped.
 const MAX_BYTES: usize = 600_000_000;
 
 /// All results, and what failed.
@@ -37,7 +37,7 @@ const MAX_BYTES: usize = 600_000_000;
 pub struct Results {
     kept: BTreeMap<Key, (Kept, usize, u64)>,
     failed: BTreeMap<Key, String>,
-    /// Those of the failed whose computing broke down: it may do better another time.
+    /// Failures of the worker itself, which may succeed another time.
     broken: BTreeSet<Key>,
     bytes: usize,
     age: u64,
@@ -70,7 +70,7 @@ impl Results {
         self.failed.insert(key, sentence);
     }
 
-    /// The same of one whose computing broke down.
+    /// The same for a failure of the worker itself.
     pub(super) fn break_down(&mut self, key: Key, sentence: String) {
         self.fail(key, sentence);
         self.broken.insert(key);
@@ -83,12 +83,12 @@ impl Results {
         }
     }
 
-    /// What broke down.
+    /// Keys of failed computations.
     pub(super) fn broken(&self) -> &BTreeSet<Key> {
         &self.broken
     }
 
-    /// Lets go of the oldest results that are not `needed`, if all take too much.
+    /// Drops the oldest results that are not `needed`, if the memory limit is exceeded.
     pub(super) fn tidy(&mut self, needed: impl Fn(Key) -> bool) {
         if self.bytes <= MAX_BYTES {
             return;
@@ -106,8 +106,8 @@ impl Results {
         }
     }
 
-    /// Whether there is an answer, or a sentence why there is none. A photograph whose
-    /// pixels were never there is none.
+    /// Whether there is an answer, or an error message. A photograph whose pixels were never loaded
+    /// does not count.
     pub(super) fn is_settled(&self, key: Key) -> bool {
         let is_there = match self.get(key) {
             Some(Kept::Photograph(found)) => found.was_read(),
@@ -117,12 +117,12 @@ impl Results {
         is_there || self.failed.contains_key(&key)
     }
 
-    /// Why there is no such result.
+    /// The error message of a failed result.
     pub fn failure(&self, key: Key) -> Option<&str> {
         self.failed.get(&key).map(String::as_str)
     }
 
-    /// A result that is kept, whatever it is.
+    /// A cached result of any kind.
     pub(super) fn get(&self, key: Key) -> Option<&Kept> {
         self.kept.get(&key).map(|(kept, _, _)| kept)
     }
@@ -152,7 +152,7 @@ impl Results {
         all.into_iter().map(|(_, key)| key).collect()
     }
 
-    /// Lets go of the pixels of a photograph, but for the small ones.
+    /// Drops the pixels of a photograph, but keeps its thumbnail.
     pub(super) fn let_go(&mut self, key: Key) {
         if let Some((Kept::Photograph(found), bytes, _)) = self.kept.get_mut(&key) {
             *bytes = bytes.saturating_sub(found.rgb.len());

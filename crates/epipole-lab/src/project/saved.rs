@@ -1,4 +1,4 @@
-//! What is written of a project beside its photographs.
+//! Saved form of a project, without its photographs.
 
 use super::Project;
 use super::brought::Computed;
@@ -21,7 +21,7 @@ pub struct Saved {
     pub settings: Settings,
     /// The photographs, in order.
     pub photos: Vec<SavedPhoto>,
-    /// What was measured; photographs are named by their place.
+    /// Measurements; photographs are identified by index.
     pub measures: Vec<Measure>,
     /// Three points of the floor, likewise.
     #[serde(default)]
@@ -42,7 +42,7 @@ pub struct Saved {
 pub struct SavedPhoto {
     /// Its name, and that of its file.
     pub name: String,
-    /// Which photograph of a sample it is, if it is one: such have no file.
+    /// Photograph of a sample, which has no file.
     pub rendered: Option<(Sample, u8)>,
     /// Left out by the reader.
     pub excluded: bool,
@@ -83,7 +83,7 @@ fn all_renumbered<const N: usize>(
 }
 
 impl Project {
-    /// What is written of it beside its photographs.
+    /// The saved form, without photographs.
     fn saved(&self) -> Saved {
         let photos = &self.document.photos;
         let place = |id: PhotoId| {
@@ -105,7 +105,7 @@ impl Project {
         }
     }
 
-    /// The name of all that is written of it: equal projects have equal names.
+    /// Hash of the saved form: equal projects have equal keys.
     pub fn saved_key(&self) -> Key {
         let contents = self.given_photos().map(|photo| photo.content.0);
         Key::of(&(self.saved(), contents.collect::<Vec<_>>()))
@@ -125,8 +125,8 @@ impl Project {
         self.document.photos.iter().chain(&self.document.boards)
     }
 
-    /// The request for a zip file that [`Event::OpenProject`](super::Event::OpenProject) brings back, and
-    /// [`Project::bring`] what was computed.
+    /// The request for a zip file, from which [`Event::OpenProject`](super::Event::OpenProject)
+    /// restores the project and [`Project::bring`] its results.
     pub fn save_request(&self) -> Request {
         self.save_request_with(self.computed())
     }
@@ -153,7 +153,7 @@ impl Project {
         }
     }
 
-    /// The document of a saved project. Photographs whose file is missing are left out of it.
+    /// The document of a saved project, without photographs whose file is missing.
     pub(super) fn restored(&mut self, saved: Saved, files: Vec<(String, Blob)>) -> Document {
         let mut document = Document {
             settings: saved.settings.checked(),

@@ -1,4 +1,4 @@
-//! What follows from what: the key of every result, and where a focal length comes from.
+//! Dependencies of results: the key of each, and the source of a focal length.
 
 use super::Project;
 use super::document::{Given, PhotoId, RefineFocal};
@@ -8,14 +8,14 @@ use crate::tasks::{
 };
 use std::rc::Rc;
 
-/// Where a focal length comes from.
+/// Source of a focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FocalOrigin {
     /// The reader typed it.
     Typed,
     /// The calibrated camera has it.
     Calibration,
-    /// The file tells it.
+    /// EXIF data of the file.
     File,
     /// 1.2 times the longer side.
     Guessed,
@@ -28,7 +28,7 @@ impl Project {
 
     /// The name of a photograph's pixels.
     pub(super) fn photograph_key(&self, photo: &Given) -> Key {
-        // What is rendered has no lens to undo.
+        // Rendered photographs have no distortion to remove.
         let camera = match photo.source {
             Source::File(_) => self.document.camera.as_ref(),
             Source::Rendered(..) => None,
@@ -76,7 +76,7 @@ impl Project {
         )))
     }
 
-    /// The name of a photograph's pixels, for whoever keeps a picture of them.
+    /// Key of a photograph's pixels, for caches.
     pub fn key_of_photograph(&self, photo: &Given) -> Key {
         self.photograph_key(photo)
     }
@@ -91,7 +91,8 @@ impl Project {
         self.results.photograph(self.photograph_key(photo))
     }
 
-    /// A photograph that can be shown, small at least: its pixels may have to be read once more.
+    /// A photograph that can be shown, at least as a thumbnail: its pixels may have to be read
+    /// again.
     pub fn shown(&self, photo: &Given) -> Option<&Rc<Photograph>> {
         self.frame(photo).filter(|found| found.was_read())
     }
@@ -106,12 +107,12 @@ impl Project {
         self.results.features(self.features_key(photo))
     }
 
-    /// The matches of a pair, if they are there; the first stands before the second in the list.
+    /// The matches of a pair, if available; `first` precedes `second` in the list.
     pub fn matches(&self, first: &Given, second: &Given) -> Option<&Rc<Vec<Match>>> {
         self.results.matches(self.matches_key(first, second))
     }
 
-    /// What a pair says, if that is known.
+    /// Two-view geometry of a pair, if available.
     pub fn two_views(&self, first: &Given, second: &Given) -> Option<&Rc<TwoViews>> {
         self.results.two_views(self.two_views_key(first, second)?)
     }
@@ -126,7 +127,8 @@ impl Project {
         Some(camera(photo, self.frame(photo)?).0)
     }
 
-    /// Its focal length times a factor, in pixels of its file: what a reader types. 0 until it is known.
+    /// Its focal length times a factor, in pixels of its file, as a reader would type it. 0 until
+    /// it is known.
     pub(super) fn focal_px(&self, photo: &Given, factor: f64) -> f64 {
         let known = self.frame(photo).map(|pixels| {
             let reduced = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
@@ -135,7 +137,7 @@ impl Project {
         known.unwrap_or(0.0)
     }
 
-    /// Where its focal length comes from.
+    /// Source of its focal length.
     pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
         Some(camera(photo, self.frame(photo)?).1)
     }
@@ -157,7 +159,7 @@ impl Project {
         self.taking_part().iter().position(|photo| photo.id == id)
     }
 
-    /// The options of the reconstruction, with what "when guessed" means now.
+    /// The options of the reconstruction, with "when guessed" resolved.
     pub fn sfm_options(&self) -> SfmOptions {
         let guessed = || {
             let mut photos = self.taking_part().into_iter();

@@ -1,14 +1,14 @@
-//! How events change the state.
+//! State changes by events.
 
 use super::document::{Anchor, Document, Given, Measure, PhotoId, content_of};
 use super::{Event, Project, Step};
 use crate::tasks::{Blob, Sample, Source};
 
-/// So many changes can be taken back.
+/// Maximum number of undo steps.
 const MAX_PAST: usize = 200;
 
 impl Project {
-    /// Carries out an event. Whatever is wrong with it, the state stays as it was.
+    /// Applies an event. An invalid event leaves the state unchanged.
     pub fn update(&mut self, event: Event) {
         self.revision += 1;
         self.carry_out(event);
@@ -178,7 +178,7 @@ impl Project {
         self.document.dense.clear();
     }
 
-    /// What was done so far cannot be taken back.
+    /// Clears the undo history.
     pub fn forget_past(&mut self) {
         self.past.clear();
         self.future.clear();
@@ -222,7 +222,7 @@ impl Project {
         }
     }
 
-    /// What is looked at must be there, and in order.
+    /// Repairs the view: its photographs must exist and be in order.
     fn look_at_what_is_there(&mut self) {
         let photos = &self.document.photos;
         if self.document.photo(self.view.photo).is_none() {

@@ -1,4 +1,4 @@
-//! What there is to compute now, most urgent first.
+//! Tasks to compute now, most urgent first.
 
 use super::document::{Given, PhotoId};
 use super::keys::Key;
@@ -11,11 +11,11 @@ use std::collections::BTreeSet;
 pub struct Task {
     /// The name of its result.
     pub key: Key,
-    /// What it is about.
+    /// Subject of the task.
     pub about: About,
 }
 
-/// What a task is about.
+/// Subject of a task.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum About {
     /// A photograph.
@@ -37,7 +37,7 @@ pub enum About {
 }
 
 impl Project {
-    /// What is still to be computed and can be: its inputs are there.
+    /// Missing results whose inputs are available.
     pub fn wanted(&self) -> Vec<Task> {
         if self.paused {
             return Vec::new();
@@ -116,8 +116,8 @@ impl Project {
         tasks
     }
 
-    /// Photographs whose features came without descriptors, which are asked for now: somebody looks at them, or matches
-    /// have to be found anew.
+    /// Photographs whose features came without descriptors, which are now needed for display or for
+    /// new matches.
     pub(super) fn to_describe(&self) -> BTreeSet<PhotoId> {
         let photos = self.taking_part();
         let is_bare = |photo: &Given| {
@@ -236,7 +236,7 @@ impl Project {
         self.component().is_some() && photos.all(|photo| self.shown(photo).is_some())
     }
 
-    /// The request for the zip file of what is looked at; `None` while there is no reconstruction.
+    /// The request for the zip file of the current component; `None` without a reconstruction.
     pub fn export_request(&self) -> Option<Request> {
         let found = self.reconstruction()?;
         found.components.get(self.view.component)?;

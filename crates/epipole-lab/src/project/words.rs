@@ -1,4 +1,4 @@
-//! What there is to see now, in words: for screen readers, and for whoever wants the gist.
+//! The current view in words, for screen readers and as a summary.
 
 use super::document::Given;
 use super::{Fate, Project, Step};
@@ -13,7 +13,7 @@ pub(crate) fn count(number: usize, what: &str) -> String {
 }
 
 impl Project {
-    /// What the step that is looked at shows now.
+    /// Description of the current step.
     pub fn describe(&self) -> String {
         if self.document.photos.is_empty() && self.view.step != Step::Calibrate {
             return "No photographs yet. Add two or more of one thing, taken from different places, or open a \
@@ -49,7 +49,7 @@ impl Project {
         words
     }
 
-    /// What it means that some photographs stand upright and others do not; nothing if all are alike.
+    /// Consequence of mixed portrait and landscape photographs; empty if all are alike.
     pub fn orientation_words(&self) -> String {
         let sizes = |is_upright: bool| {
             let photos = self.taking_part().into_iter();
@@ -138,7 +138,7 @@ impl Project {
         Some(format!("{}: {}.", absent.name, self.fate_words(absent)))
     }
 
-    /// What a pair shows, and why this matrix describes it.
+    /// Explains the result of a pair, and the choice of its matrix.
     ///
     /// * `first`: its first photograph
     pub fn pair_words(&self, first: &Given, pair: &TwoViews) -> String {

@@ -1,4 +1,4 @@
-//! What can be answered.
+//! Results of computations.
 
 use super::{Blob, BoardFound, Calibration, Dense, Described, Thumbnail};
 use crate::project::{Computed, Saved};
@@ -12,21 +12,21 @@ pub struct Photograph {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Red, green, blue, row by row. None where only its size and lens are known and the pixels are to come, or where they
-    /// were let go of and can be read once more.
+    /// Red, green, blue, row by row. Empty if only size and lens are known so far, or if the pixels
+    /// were dropped and can be read again.
     pub rgb: Blob,
     /// The same, small; nothing where pixels are to come, and of a board, which is in no list.
     pub small: Thumbnail,
-    /// The focal length that the file tells, in pixels of this size.
+    /// Focal length from the file, in pixels of this size.
     pub focal_px: Option<f64>,
     /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as the calibrated
     /// camera would show it without its distortion.
     pub k: Option<[f64; 4]>,
     /// Width and height before it was reduced, upright.
     pub full_size: (u32, u32),
-    /// Width and height as the sensor gave it, before it was turned upright.
+    /// Width and height in the sensor's orientation, before it was turned upright.
     pub sensor_size: (u32, u32),
-    /// Whether its file shows just these pixels: neither reduced nor turned nor redrawn.
+    /// Whether the pixels are those of the file: not downscaled, rotated or undistorted.
     pub as_given: bool,
 }
 
@@ -36,12 +36,12 @@ impl Photograph {
         !self.rgb.is_empty()
     }
 
-    /// Whether its pixels are there, or were and can be read once more: it can be shown, small at least.
+    /// Whether its pixels are or were in memory: it can be shown, at least as a thumbnail.
     pub fn was_read(&self) -> bool {
         self.has_pixels() || !self.small.rgb.is_empty()
     }
 
-    /// How many bytes its pixels take, wherever they are.
+    /// Size of its pixels in bytes, whether loaded or not.
     pub fn num_bytes(&self) -> usize {
         3 * self.width as usize * self.height as usize
     }
@@ -65,14 +65,14 @@ pub struct Feature {
 /// The features of a photograph.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Features {
-    /// Where, strongest first.
+    /// Keypoints, strongest first.
     pub list: Vec<Feature>,
-    /// What they look like, in the same order; nothing where that is to be found out once it is asked for.
+    /// Descriptors, in the same order; empty if they are to be computed on demand.
     pub described: Described,
 }
 
 impl Features {
-    /// Whether what they look like is there.
+    /// Whether the descriptors are available.
     pub fn has_descriptors(&self) -> bool {
         self.list.is_empty() || !self.described.values.is_empty()
     }
@@ -89,16 +89,16 @@ pub struct Match {
     pub ratio: f32,
 }
 
-/// What two photographs show.
+/// Kind of scene and motion of two photographs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shows {
     /// A scene with depth, from two places.
     Depth,
     /// A plane, from two places.
     Plane,
-    /// The camera only turned, or did not move at all.
+    /// The camera only rotated, or did not move at all.
     Turn,
-    /// No more matches agree than might by chance.
+    /// No more matches agree than by chance.
     Nothing,
 }
 
@@ -113,10 +113,10 @@ pub enum ViewModel {
     Homography([f64; 9]),
 }
 
-/// What two photographs say about each other.
+/// Two-view geometry.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TwoViews {
-    /// What they show.
+    /// Kind of scene and motion.
     pub shows: Shows,
     /// The matrix chosen.
     pub model: ViewModel,
@@ -124,15 +124,16 @@ pub struct TwoViews {
     pub fundamental: Option<[f64; 9]>,
     /// Whether each match fits.
     pub inliers: Vec<bool>,
-    /// How many do.
+    /// Number of inliers.
     pub num_inliers: u32,
     /// Samples drawn.
     pub iterations: u32,
-    /// The turn of the camera, degrees, where it is known.
+    /// The rotation of the camera, degrees, if known.
     pub turn_deg: Option<f64>,
-    /// So many times the focal lengths given are those by which the camera only turned, where the given ones do not tell.
+    /// Factor of the given focal lengths for which the camera only rotated, if it did not with the
+    /// given ones.
     pub focal_factor: Option<f64>,
-    /// The median angle at which rays meet, degrees, where it is known.
+    /// The median triangulation angle, degrees, if known.
     pub angle_deg: Option<f64>,
 }
 
@@ -150,7 +151,7 @@ pub struct CameraFound {
 /// A point that was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointFound {
-    /// Where it is.
+    /// Position in the world.
     pub position: [f64; 3],
     /// Its color.
     pub color: [u8; 3],
@@ -173,13 +174,13 @@ pub struct Component {
 }
 
 impl Component {
-    /// How many photographs it has.
+    /// Number of registered photographs.
     pub fn num_registered(&self) -> usize {
         self.cameras.iter().flatten().count()
     }
 }
 
-/// What was found in all photographs.
+/// The reconstruction from all photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reconstructed {
     /// Largest first.
@@ -190,7 +191,7 @@ pub struct Reconstructed {
     pub mean_error_px: Vec<f64>,
 }
 
-/// What came of a request.
+/// Answer to a request.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
     /// Of [`Request::Photograph`](super::Request::Photograph).

@@ -1,12 +1,12 @@
-//! A rendered set of photographs of a chessboard, by a camera whose lens bends lines.
+//! Rendered photographs of a chessboard, through a lens with distortion.
 
 use epipole::calibration::{Board, Pattern, photograph_of_board};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Turn about x, y and z in degrees, and where the middle of the board is: to the right, down and away, in
-/// centimeters. The last one is half outside of the picture.
+/// Rotation about x, y and z in degrees, and position of the board's middle: to the right, down and
+/// away, in centimeters. The last board is half outside of the image.
 const POSES: [[f64; 6]; 10] = [
     [6.0, -5.0, 3.0, 0.0, 0.0, 40.0],
     [35.0, 0.0, 5.0, -3.0, -2.0, 38.0],
@@ -19,17 +19,17 @@ const POSES: [[f64; 6]; 10] = [
     [-25.0, -25.0, 6.0, 11.0, 8.5, 42.0],
     [10.0, -10.0, 8.0, 22.0, 3.0, 40.0],
 ];
-/// Gray values are uncertain by so much.
+/// Standard deviation of the noise of gray values in [0, 1].
 const NOISE: f64 = 0.008;
 
-/// How many photographs there are.
+/// Number of photographs.
 #[cfg(test)]
 pub(super) const COUNT: usize = POSES.len();
 
-/// A photograph of the set, and none beyond its end.
+/// A photograph of the set, `None` beyond its end.
 ///
 /// # Errors
-/// As [`Board::new`] and [`Intrinsics::new`], of which these numbers give no cause.
+/// As [`Board::new`] and [`Intrinsics::new`], which do not fail for these numbers.
 pub(super) fn photograph(index: u8) -> Result<Option<RgbImage>, epipole::Error> {
     let Some([x, y, z, right, down, away]) = POSES.get(usize::from(index)) else {
         return Ok(None);

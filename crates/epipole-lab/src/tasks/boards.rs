@@ -3,7 +3,7 @@
 use super::Photograph;
 use serde::{Deserialize, Serialize};
 
-/// What is printed on a board.
+/// Pattern of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BoardPattern {
     /// Squares; the marks are inner corners.
@@ -15,7 +15,7 @@ pub enum BoardPattern {
 /// A board, but for its size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BoardOptions {
-    /// What is printed on it.
+    /// Pattern.
     pub pattern: BoardPattern,
     /// Marks in a row.
     pub columns: u32,
@@ -54,7 +54,7 @@ impl LensModel {
     }
 }
 
-/// How a camera is calibrated.
+/// Calibration settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CalibrationOptions {
     /// The board.
@@ -95,7 +95,7 @@ pub struct BoardFound {
 }
 
 impl BoardFound {
-    /// Where a mark is in the reduced photograph.
+    /// Position of a mark in the downscaled photograph.
     pub fn in_picture(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         let full = self.picture.full_size;
         // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
@@ -108,13 +108,13 @@ impl BoardFound {
         ]
     }
 
-    /// How many marks are seen.
+    /// Number of visible marks.
     pub fn num_seen(&self) -> usize {
         self.marks.iter().flatten().count()
     }
 }
 
-/// A camera whose lens is known.
+/// A camera with a known lens.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LensCamera {
     /// Width and height of its photographs, pixels.
@@ -137,7 +137,7 @@ impl LensCamera {
     }
 }
 
-/// What a calibration says of one photograph.
+/// Calibration results for one photograph.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ViewFound {
     /// Root mean square of its reprojection errors, pixels.
@@ -165,7 +165,7 @@ pub struct Calibration {
     pub coverage: f64,
     /// Of each photograph that was given.
     pub views: Vec<Option<ViewFound>>,
-    /// What makes it less sure than the errors say: the place of the photograph, if it is about one, and a
-    /// sentence.
+    /// Reasons why it is less accurate than the errors suggest: index of the photograph, if it is
+    /// about one, and a sentence.
     pub warnings: Vec<(Option<u32>, String)>,
 }

@@ -3,8 +3,8 @@
 use super::{Blob, CameraFound};
 use serde::{Deserialize, Serialize};
 
-/// A rectified pair and its disparities. The first picture is the one from the left or, if it is vertical, from
-/// above; what it shows is further left, or further up, in the second picture.
+/// A rectified pair and its disparities. The first image is the left one or, for a vertical pair,
+/// the upper one; its points are further left, or further up, in the second image.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Dense {
     /// Width of both pictures, pixels.
@@ -25,7 +25,8 @@ pub struct Dense {
     pub proposed_px: Option<[i32; 2]>,
     /// Those that were looked for.
     pub range_px: [i32; 2],
-    /// How many pixels of the first picture its photograph shows: it stands turned, with a border.
+    /// Number of pixels of the first image that its photograph covers: it is rotated, with a
+    /// border.
     pub num_shown: u32,
     /// The share of them with an answer.
     pub density: f64,
@@ -45,7 +46,7 @@ impl Dense {
         has(&self.disparity, 4) && has(&self.left, 3) && has(&self.right, 3)
     }
 
-    /// The disparity of a pixel of the first picture, pixels; `None` where there is no answer.
+    /// The disparity of a pixel of the first image, pixels; `None` without an answer.
     pub fn disparity(&self, u: u32, v: u32) -> Option<f32> {
         if u >= self.width || v >= self.height {
             return None;
@@ -55,8 +56,8 @@ impl Dense {
         Some(f32::from_le_bytes(bytes)).filter(|d| d.is_finite())
     }
 
-    /// The depth of a pixel, in units of the reconstruction, along the axis of the first picture's camera:
-    /// `Z = f B / d`. `None` where there is no answer, and at infinity.
+    /// The depth of a pixel, in units of the reconstruction, along the axis of the first image's
+    /// camera: `Z = f B / d`. `None` without an answer, and at infinity.
     pub fn depth(&self, u: u32, v: u32) -> Option<f64> {
         let disparity = f64::from(self.disparity(u, v)?);
         let depth = self.focal_px() * self.baseline / disparity;
@@ -68,7 +69,7 @@ impl Dense {
         self.camera.intrinsics[usize::from(self.is_vertical)]
     }
 
-    /// Where in the second picture a pixel of the first is seen.
+    /// The matching pixel in the second image.
     pub fn matched(&self, u: u32, v: u32) -> Option<[f64; 2]> {
         let disparity = f64::from(self.disparity(u, v)?);
         let (u, v) = (f64::from(u), f64::from(v));

@@ -1,4 +1,5 @@
-//! What takes long, from bytes to bytes: a thread natively and a worker in the browser run the same.
+//! Long computations, from bytes to bytes: a native thread and a worker in the browser run the
+//! same.
 //!
 //! A [`Request`] holds everything that its [`Answer`] depends on, so equal requests have equal answers
 //! everywhere. `compute` is a function of the request alone.
@@ -62,22 +63,22 @@ pub use request::{
 pub use sample::Sample;
 pub use thumbnail::Thumbnail;
 
-/// What a computation tells on its way.
+/// Report of a running computation.
 #[derive(Debug)]
 pub enum Told<'a> {
-    /// The share that is done, and what it does in a few words.
+    /// Progress, 0 to 1, and the current stage in a few words.
     Share(f32, &'a str),
-    /// What there is so far: the bytes of an [`Answer`].
+    /// Intermediate result: the bytes of an [`Answer`].
     SoFar(Vec<u8>),
 }
 
-/// Hears of a computation, and ends it by [`std::ops::ControlFlow::Break`].
+/// Progress callback of a computation; cancels it by [`std::ops::ControlFlow::Break`].
 pub type Progress<'a> = &'a mut dyn FnMut(Told<'_>) -> std::ops::ControlFlow<()>;
 
-/// Tells how far it is, and hears whether it goes on.
+/// Reports progress.
 ///
 /// # Errors
-/// If it does not.
+/// If the callback cancels.
 #[cfg(any(feature = "vision", feature = "files"))]
 fn ask(progress: Progress<'_>, share: f32) -> Result<(), String> {
     match progress(Told::Share(share, "")).is_break() {
@@ -88,8 +89,8 @@ fn ask(progress: Progress<'_>, share: f32) -> Result<(), String> {
 
 /// A message as bytes.
 pub(crate) fn to_bytes<T: serde::Serialize>(message: &T) -> Vec<u8> {
-    // Bytes that grow by doubling would take three times their room for a while, and what a page once took it never gives
-    // back.
+    // A buffer that grows by doubling would take three times its size for a while, and a page never
+    // returns memory.
     let size = postcard::serialize_with_flavor(message, postcard::ser_flavors::Size::default());
     let bytes = Vec::with_capacity(size.unwrap_or_default());
     // Writing to memory cannot fail, and none of the messages has a length unknown beforehand.
@@ -102,10 +103,10 @@ impl Request {
         to_bytes(self)
     }
 
-    /// The request of these bytes.
+    /// Parses a request.
     ///
     /// # Errors
-    /// A sentence, if they are none.
+    /// A message for invalid bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         postcard::from_bytes(bytes).map_err(|_| "the request did not arrive whole".to_owned())
     }
@@ -117,10 +118,10 @@ impl Answer {
         to_bytes(self)
     }
 
-    /// The answer of these bytes.
+    /// Parses an answer.
     ///
     /// # Errors
-    /// A sentence, if they are none.
+    /// A message for invalid bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let broken = "the answer did not arrive whole";
         match postcard::from_bytes(bytes) {

@@ -1,4 +1,4 @@
-//! The knobs of each step, as they travel to whoever computes.
+//! The settings of each step, as sent to workers.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,12 @@ pub enum FeatureKind {
     Sift,
 }
 
-/// How features are found.
+/// Feature settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FeatureOptions {
     /// The descriptor.
     pub kind: FeatureKind,
-    /// At most so many a photograph, the strongest.
+    /// Maximum number of features per photograph, the strongest.
     pub max_features: u32,
     /// Smallest contrast of a feature, gray values being in [0, 1].
     pub contrast: f32,
@@ -33,7 +33,7 @@ impl Default for FeatureOptions {
     }
 }
 
-/// How features are matched.
+/// Matching settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MatchOptions {
     /// The nearest descriptor must be closer than this share of the second nearest.
@@ -51,7 +51,7 @@ impl Default for MatchOptions {
     }
 }
 
-/// How a pair of photographs is judged.
+/// Two-view settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairOptions {
     /// The largest error of an inlier, pixels.
@@ -70,7 +70,7 @@ impl Default for PairOptions {
     }
 }
 
-/// How all photographs become cameras and points.
+/// Reconstruction settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SfmOptions {
     /// Fewest points that a photograph must see, and fewest matches that join two.
@@ -94,7 +94,7 @@ impl Default for SfmOptions {
     }
 }
 
-/// How a rectified pair is matched.
+/// Stereo matcher for a rectified pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DepthMethod {
     /// Semi-global matching.
@@ -103,16 +103,15 @@ pub enum DepthMethod {
     Block,
 }
 
-/// How the depth of every pixel is found.
+/// Dense depth settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct DepthOptions {
-    /// How rows are matched.
+    /// Stereo matcher.
     pub method: DepthMethod,
     /// Give pixels without an answer that of the background beside them.
     pub fill: bool,
-    /// The smallest and the largest disparity that is looked for, pixels of the photographs, the coarser ones where
-    /// they differ in size; none: what the
-    /// sparse points propose.
+    /// The smallest and the largest disparity to search, in pixels of the coarser photograph;
+    /// `None` for the range that the sparse points propose.
     pub range_px: Option<[i32; 2]>,
 }
 

@@ -16,11 +16,11 @@ const RENDERED: (u32, u32) = (480, 360);
 
 /// Decodes or renders.
 ///
-/// * `camera`: files of its size are redrawn as it would show them without its distortion
+/// * `camera`: its distortion is removed from files of its size
 ///
 /// # Errors
-/// A sentence, if a file is none that can be read, no flat picture can show what the camera sees, or `progress` wants no
-/// more.
+/// A message for an unreadable file, a field of view that no flat image can show, or cancellation
+/// by `progress`.
 pub(super) fn photograph(
     source: &Source,
     max_pixels: u32,
@@ -104,7 +104,7 @@ fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
     Ok(rendered(image, Some(focal_px)))
 }
 
-/// What a camera sees of the still life.
+/// Renders the still life as seen by a camera.
 fn photographed(camera: &PosedCamera, sample: Sample, index: u8) -> Result<RgbImage, String> {
     let (width, height) = match is_upright(sample, index) {
         true => (RENDERED.1, RENDERED.0),
@@ -171,11 +171,11 @@ fn held(index: u8) -> Result<PosedCamera, String> {
     })
 }
 
-/// Pixels of what hangs on a wall.
+/// Size in pixels of the picture on the wall.
 const PRINTED: (u32, u32) = (960, 720);
 
-/// A picture that hangs on a wall, photographed from places on an arc around its middle. Frames are the picture's: it is
-/// what a camera at the origin sees at a distance of 1.
+/// A picture on a wall, photographed from positions on an arc around its middle. The world frame is
+/// the picture's: a camera at the origin sees exactly the picture at a distance of 1.
 fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
     let print = still_life_camera(PRINTED.0, PRINTED.1);
     let k = still_life_camera(RENDERED.0, RENDERED.1).intrinsics;
@@ -209,7 +209,7 @@ fn carpet() -> RgbImage {
     image
 }
 
-/// The camera of the still life, turned about its own center.
+/// The camera of the still life, rotated about its own center.
 fn turned(index: u8) -> PosedCamera {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let angle = (f64::from(index) - 1.5) * 5.0_f64.to_radians();

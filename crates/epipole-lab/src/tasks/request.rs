@@ -1,4 +1,4 @@
-//! What can be asked.
+//! Requests to workers.
 
 use super::{
     Blob, BoardOptions, CalibrationOptions, CameraFound, Dense, DepthOptions, FeatureOptions,
@@ -8,7 +8,7 @@ use crate::project::{Computed, Saved};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
-/// Where a photograph comes from.
+/// Source of a photograph.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Source {
     /// The bytes of a PNG, JPEG or WebP file.
@@ -62,7 +62,7 @@ pub struct ImagePoints {
     pub name: String,
     /// Its size and intrinsics.
     pub camera: Calibrated,
-    /// Where its keypoints are, pixels.
+    /// Keypoints, pixels.
     pub points: Vec<[f64; 2]>,
     /// Their colors.
     pub colors: Vec<[u8; 3]>,
@@ -90,7 +90,7 @@ pub struct Packed {
     pub used: Option<Photograph>,
 }
 
-/// How to do the same elsewhere.
+/// Recipe for the same result elsewhere.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Recipe {
     /// The command line, in the folder of the photographs.
@@ -108,16 +108,16 @@ pub struct Recipe {
 pub enum Request {
     /// Decode or render a photograph, upright, and reduce it.
     Photograph {
-        /// Where it comes from.
+        /// File or sample.
         source: Source,
         /// The largest number of pixels.
         max_pixels: u32,
-        /// If it is of this camera's size: redraw it as that would show it without its distortion.
+        /// Camera whose distortion is removed if it has the photograph's size.
         camera: Option<LensCamera>,
     },
     /// Look for a board in a photograph of full size.
     Board {
-        /// Where it comes from.
+        /// File or sample.
         source: Source,
         /// The board.
         options: BoardOptions,
@@ -135,7 +135,7 @@ pub enum Request {
     Features {
         /// In this photograph.
         photograph: Photograph,
-        /// How.
+        /// Feature settings.
         options: FeatureOptions,
     },
     /// Match the features of two photographs.
@@ -144,18 +144,18 @@ pub enum Request {
         first: Described,
         /// Of the second.
         second: Described,
-        /// How.
+        /// Matching settings.
         options: MatchOptions,
     },
-    /// Find out what two photographs say about each other.
+    /// Estimate the two-view geometry of two photographs.
     TwoViews {
         /// Places of the matches: `u1, v1, u2, v2`.
         places: Vec<[f64; 4]>,
-        /// How ambiguous each of them is.
+        /// Ratio of descriptor distances of each match: the higher, the more ambiguous.
         ratios: Vec<f32>,
         /// Of both photographs.
         cameras: [Calibrated; 2],
-        /// How.
+        /// Two-view settings.
         options: PairOptions,
     },
     /// Find cameras and points.
@@ -164,7 +164,7 @@ pub enum Request {
         images: Vec<ImagePoints>,
         /// Matches between them.
         pairs: Vec<PairOf>,
-        /// How.
+        /// Reconstruction settings.
         options: SfmOptions,
     },
     /// Find the depth of every pixel of a pair.
@@ -178,7 +178,7 @@ pub enum Request {
         lens: Lens,
         /// Points that both show.
         points: Vec<[f64; 3]>,
-        /// How.
+        /// Dense depth settings.
         options: DepthOptions,
     },
     /// Choose the sharpest frame of a part of a video.
@@ -203,9 +203,9 @@ pub enum Request {
         images: Vec<ImagePoints>,
         /// The same with their pixels, or without: then those are read once more.
         photographs: Vec<Packed>,
-        /// What was found.
+        /// The reconstruction.
         found: Reconstructed,
-        /// Which of its components.
+        /// Index of the component.
         component: u32,
         /// Meters in a unit of the reconstruction, where something was measured.
         meters_per_unit: Option<f64>,
@@ -213,11 +213,11 @@ pub enum Request {
         focal_refined: bool,
         /// Names of photographs that have no camera in it, and why.
         left_out: Vec<(String, String)>,
-        /// What is written beside it: how to do the same elsewhere.
+        /// Recipe for the same result elsewhere.
         recipe: Recipe,
         /// The largest number of pixels of a photograph.
         max_pixels: u32,
-        /// Whose distortion was removed from photographs of its size.
+        /// Camera whose distortion was removed from photographs of its size.
         camera: Option<LensCamera>,
         /// Names of pairs, and the depth of their pixels.
         dense: Vec<(String, Dense)>,
@@ -231,19 +231,19 @@ pub enum Request {
         /// Results that need not be computed once more.
         computed: Computed,
     },
-    /// Read such a file.
+    /// Read a project's zip file.
     Open {
         /// Its bytes.
         archive: Blob,
     },
 }
 
-/// Which code a request needs: the browser loads the one without the other.
+/// Code module that a request needs: the browser loads one without the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Branch {
-    /// What is seen in photographs.
+    /// Vision on prepared photographs.
     Vision,
-    /// What reads, renders and writes files, and what looks at photographs of full size.
+    /// Reading, rendering and writing of files, and processing of full-size photographs.
     Files,
 }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub enum Sample {
     /// Nine photographs around a table.
     Table,
-    /// A camera that only turns.
+    /// A camera that only rotates.
     Turned,
     /// One photograph alone.
     Alone,
@@ -17,7 +17,7 @@ pub enum Sample {
     Plane,
     /// Three photographs of one place, and three of another.
     Mixed,
-    /// Five photographs by one camera, two of them upright.
+    /// Five photographs by one camera, two of them in portrait format.
     Upright,
     /// A chessboard, to calibrate a camera with.
     Board,
@@ -35,7 +35,7 @@ impl Sample {
         Self::Alone,
     ];
 
-    /// What it is, in a few words.
+    /// Title in a few words.
     pub fn title(self) -> &'static str {
         match self {
             Self::Table => "A table, nine photographs",
@@ -49,7 +49,7 @@ impl Sample {
         }
     }
 
-    /// How many photographs it has.
+    /// Number of photographs.
     pub fn len(self) -> u8 {
         match self {
             Self::Table => 9,

@@ -1,4 +1,4 @@
-//! What two photographs say about each other.
+//! Two-view geometry of a pair of photographs.
 
 use super::convert::{intrinsics, sentence};
 use super::{Calibrated, PairOptions, Progress, Shows, Told, TwoViews, ViewModel, ask};
@@ -10,12 +10,13 @@ use epipole::two_view::{
 };
 use nalgebra::{Matrix3, Point2};
 
-/// Chooses among E, F and H, just as `epipole two-view` does with known intrinsics: the least ambiguous matches first.
+/// Chooses among E, F and H, as `epipole two-view` does with known intrinsics: the least ambiguous
+/// matches first.
 ///
-/// Matches from which nothing can be estimated are an answer, too: [`Shows::Nothing`].
+/// Matches that do not allow any estimate also give an answer: [`Shows::Nothing`].
 ///
 /// # Errors
-/// A sentence for numbers that no photograph has, and if `progress` wants no more.
+/// A message for invalid numbers, and for cancellation by `progress`.
 pub(super) fn two_views(
     places: &[[f64; 4]],
     ratios: &[f32],
@@ -39,7 +40,7 @@ pub(super) fn two_views(
     );
     how.check().map_err(sentence)?;
     let mut monitor = |status: Status| progress(Told::Share(status.share, ""));
-    // No estimator asks for the size of the images.
+    // Estimators do not use the size of the images.
     let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
     let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut monitor);
     if found == Err(epipole::Error::Canceled) {
@@ -49,7 +50,7 @@ pub(super) fn two_views(
         return Ok(nothing(places.len()));
     };
     ask(progress, 0.0)?;
-    // By a wrong focal length a turn passes for a plane.
+    // With a wrong focal length a rotation passes for a plane.
     let otherwise = match found.configuration {
         Configuration::Planar => {
             find_turn_and_focal(&first, &second, &k1, &k2, &found.inliers, &how)

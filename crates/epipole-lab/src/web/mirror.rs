@@ -1,8 +1,9 @@
-//! What the toolkit tells of its widgets, for the page to show to assistive technology: a canvas says
-//! nothing by itself.
+//! Mirror of the toolkit's widgets, which the page exposes to assistive technology: a canvas has no
+//! accessible content of its own.
 //!
-//! A line a widget: number, role, name, value, state, least and largest value, step, "open" or "closed" for what opens a
-//! list, and for what stands in such a list the number of what has opened it; separated by tabs.
+//! One line per widget: number, role, name, value, state, minimum, maximum, step, "open" or
+//! "closed" for the opener of a list, and for an item of a list the number of its opener; separated
+//! by tabs.
 
 use egui::accesskit::{
     Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId, TreeUpdate,
@@ -10,17 +11,18 @@ use egui::accesskit::{
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What page and toolkit tell each other.
+/// Messages between page and toolkit.
 #[derive(Default)]
 pub(super) struct Told {
     widgets: String,
     is_new: bool,
     wishes: Vec<Wish>,
-    /// What this pass was told to do, and to whom.
+    /// Actions sent in this pass, and their targets.
     sent: Vec<(NodeId, Wish)>,
 }
 
-/// Passes in which a widget is looked for: numbers shift while a panel fills, and not in each of them.
+/// Number of passes in which a widget is searched for: numbers shift while a panel fills, and not
+/// in each of them.
 const PATIENCE: u8 = 5;
 
 /// A widget to be operated, as the page has seen it.
@@ -36,8 +38,8 @@ pub(super) struct Wish {
 }
 
 impl Wish {
-    /// The widget by its number now. The toolkit counts widgets, so a number may have gone over to another one since the
-    /// page has looked: whoever presses "Undo" does not mean what stands there now.
+    /// Finds the widget's current number. The toolkit counts widgets, so the number that the page
+    /// read may belong to another one by now, such as the widget in the former place of "Undo".
     fn find(&self, widgets: &str) -> Option<NodeId> {
         let alike = || {
             widgets.lines().filter_map(|line| {
@@ -49,7 +51,7 @@ impl Wish {
         };
         let is_same = |&(number, _): &(u64, &str)| number == self.widget;
         let is_named = |&(_, name): &(u64, &str)| name == self.name;
-        // One whose name tells its state may have another name by now.
+        // A widget whose name includes its state may have another name by now.
         let found = (alike().find(|widget| is_same(widget) && is_named(widget)))
             .or_else(|| alike().find(is_named))
             .or_else(|| alike().find(is_same));
@@ -66,7 +68,7 @@ impl Mirror {
         with(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// All widgets, if they have changed since they were asked for last.
+    /// All widgets, if they have changed since the last call.
     pub(super) fn news(&self) -> Option<String> {
         self.told(|told| std::mem::take(&mut told.is_new).then(|| told.widgets.clone()))
     }

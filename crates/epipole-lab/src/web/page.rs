@@ -47,16 +47,16 @@ extern "C" {
     fn ask_for_kept(this: &Shell);
 }
 
-/// How long news of work that goes on wait for a frame: several workers tell some of them within that, and each frame
-/// takes time from them.
+/// Delay of a progress report until the next frame: several workers report within it, and each
+/// frame slows them down.
 const PATIENCE: Duration = Duration::from_millis(250);
 
-/// How long an answer waits to be shown.
+/// Delay until an answer is shown.
 const SOON: Duration = Duration::from_millis(120);
-/// Until the next frame alone: who waits for nothing gets two.
+/// Delay of a single further frame: without any, egui draws two.
 const NEXT: Duration = Duration::from_millis(1);
 
-/// What came from outside and was not seen yet.
+/// Unread input from the page.
 #[derive(Default)]
 struct Inbox {
     reports: Vec<Report>,
@@ -166,7 +166,7 @@ impl eframe::App for Frames {
         if let Some(theme) = inbox.borrow_mut().theme.take() {
             wear(ui.ctx(), &theme);
         }
-        // Answers ask for a frame when they come, so nothing has to be drawn until then.
+        // Answers request a frame when they arrive, so nothing has to be drawn until then.
         self.0.go_on();
         self.0.ui(ui);
     }
@@ -232,7 +232,7 @@ impl Lab {
         }
     }
 
-    /// Starts at once what follows from an answer: workers wait for no frame.
+    /// Starts the follow-up jobs of an answer at once: workers do not wait for a frame.
     fn answered(&self, report: Report) {
         self.receive_within(SOON, |inbox| inbox.reports.push(report));
         let rests = (self.runner.app_mut::<Frames>()).is_none_or(|mut frames| {
@@ -244,7 +244,7 @@ impl Lab {
         }
     }
 
-    /// Tells how far a piece of work is.
+    /// Reports the progress of a job.
     pub fn progress(&self, work: f64, share: f32, words: String) {
         self.receive_within(PATIENCE, |inbox| {
             inbox
@@ -253,19 +253,19 @@ impl Lab {
         });
     }
 
-    /// Brings what a piece of work has so far.
+    /// Delivers the intermediate result of a job.
     #[wasm_bindgen(js_name = soFar)]
     pub fn so_far(&self, work: f64, answer: Vec<u8>) {
         let report = Report::SoFar(work as WorkId, answer);
         self.receive_within(PATIENCE, |inbox| inbox.reports.push(report));
     }
 
-    /// Brings an answer.
+    /// Delivers an answer.
     pub fn done(&self, work: f64, answer: Vec<u8>) {
         self.answered(Report::Done(work as WorkId, Ok(answer)));
     }
 
-    /// Says why there is none; `broken` if that lies in computing itself, not in what was asked.
+    /// Delivers an error message; `broken` for a failure of the worker itself.
     pub fn failed(&self, work: f64, sentence: String, broken: bool) {
         let work = work as WorkId;
         let report = match broken {
@@ -275,7 +275,7 @@ impl Lab {
         self.answered(report);
     }
 
-    /// Brings a photograph, which is seen with the next [`Lab::deliver`].
+    /// Delivers a photograph, to be added with the next [`Lab::deliver`].
     pub fn photograph(&self, name: String, bytes: Vec<u8>) {
         self.inbox
             .borrow_mut()
@@ -291,17 +291,17 @@ impl Lab {
         });
     }
 
-    /// A video has come, which waits to be asked for its frames.
+    /// Announces a video whose frames can be requested.
     pub fn video(&self, video: u32) {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Video(video)));
     }
 
-    /// Brings a frame of the part of a video that was asked for, which is seen with the next [`Lab::frames`].
+    /// Delivers a frame of the requested part of a video, to be used with the next [`Lab::frames`].
     pub fn frame(&self, bytes: Vec<u8>) {
         self.inbox.borrow_mut().frames.push(bytes.into());
     }
 
-    /// All frames of that part have come.
+    /// All frames of that part have been delivered.
     pub fn frames(&self, video: u32, name: String) {
         self.receive(|inbox| {
             let frames = std::mem::take(&mut inbox.frames);
@@ -309,7 +309,7 @@ impl Lab {
         });
     }
 
-    /// No more frames of a video come, and why.
+    /// No more frames of a video follow, with the reason.
     #[wasm_bindgen(js_name = noFrames)]
     pub fn no_frames(&self, video: u32, sentence: String) {
         self.receive(|inbox| {
@@ -318,12 +318,12 @@ impl Lab {
         });
     }
 
-    /// Says how far something is, or why it came to nothing.
+    /// Shows progress or an error message.
     pub fn news(&self, sentence: String) {
         self.receive(|inbox| inbox.arrivals.push(Arrival::News(sentence)));
     }
 
-    /// Opens what the parameters of an address ask for: names and values by turns.
+    /// Applies the parameters of an address: names and values by turns.
     pub fn link(&self, parameters: Vec<String>) {
         let pairs = parameters.chunks_exact(2);
         let parameters = pairs
@@ -332,12 +332,12 @@ impl Lab {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Link(parameters)));
     }
 
-    /// Brings what was computed of the sample before; no bytes where that did not come.
+    /// Delivers the precomputed results of the sample; empty if they could not be loaded.
     pub fn solved(&self, computed: Vec<u8>) {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Solved(computed.into())));
     }
 
-    /// Brings a project.
+    /// Opens a project.
     pub fn project(&self, archive: Vec<u8>) {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
     }
@@ -346,7 +346,7 @@ impl Lab {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Kept(kept)));
     }
 
-    /// Brings the project that the browser keeps.
+    /// Delivers the project that the browser keeps.
     #[wasm_bindgen(js_name = keptProject)]
     pub fn kept_project(&self, archive: Vec<u8>) {
         self.hear_of_kept(Kept::Project(archive.into()));
@@ -358,18 +358,18 @@ impl Lab {
         self.hear_of_kept(Kept::Aside(sentence));
     }
 
-    /// What was to be kept is: so many bytes.
+    /// The project was kept: number of bytes.
     pub fn kept(&self, num_bytes: f64) {
         self.hear_of_kept(Kept::Done(num_bytes as usize));
     }
 
-    /// What was to be kept is not, a sentence why, and whether something is still there that was kept before.
+    /// The project was not kept, with the reason, and whether the previous one still exists.
     #[wasm_bindgen(js_name = notKept)]
     pub fn not_kept(&self, why: String, is_there: bool) {
         self.hear_of_kept(Kept::Not { why, is_there });
     }
 
-    /// Another page has forgotten what was kept.
+    /// Another page has erased the kept project.
     pub fn forgotten(&self) {
         self.hear_of_kept(Kept::Forgotten);
     }
@@ -379,7 +379,7 @@ impl Lab {
         self.receive(|inbox| inbox.theme = Some(theme));
     }
 
-    /// All widgets, if they have changed: a line each, as `mirror.rs` says.
+    /// All widgets, if they have changed: one per line, in the format of `mirror.rs`.
     pub fn widgets(&self) -> Option<String> {
         self.mirror.news()
     }
@@ -397,7 +397,7 @@ impl Lab {
         self.receive(|_| {});
     }
 
-    /// The message of a panic, after which nothing goes on.
+    /// The message of a panic, after which the Lab has stopped.
     pub fn panic(&self) -> Option<String> {
         self.runner.panic_summary().map(|summary| summary.message())
     }

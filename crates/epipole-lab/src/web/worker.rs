@@ -1,4 +1,4 @@
-//! What a worker runs.
+//! Entry point of a worker.
 
 use crate::tasks::{Told, compute};
 use std::cell::RefCell;
@@ -11,14 +11,14 @@ thread_local! {
 
 #[wasm_bindgen]
 extern "C" {
-    /// Whoever wants to know how far a computation is.
+    /// Receiver of a computation's progress.
     pub type Listener;
 
-    /// Called with the share that is done, and what is being done.
+    /// Called with the progress, 0 to 1, and the current stage.
     #[wasm_bindgen(method, structural)]
     fn progress(this: &Listener, share: f32, words: &str);
 
-    /// Called with what there is so far.
+    /// Called with intermediate results.
     #[wasm_bindgen(method, structural, js_name = soFar)]
     fn so_far(this: &Listener, answer: Vec<u8>);
 }

@@ -12,7 +12,7 @@ fn table() -> Project {
     project
 }
 
-/// The sample with what came with it, nothing computed yet.
+/// The sample with its precomputed results, nothing computed yet.
 fn brought(computed: &Computed) -> Project {
     let mut project = table();
     project.bring(Computed::from_bytes(&computed.to_bytes()));
@@ -31,7 +31,7 @@ fn the_sample_comes_solved_and_only_its_pixels_are_left_to_be_made() {
     let is_photograph = |task: &Task| matches!(task.about, About::Photograph(_));
     assert!(project.wanted().iter().all(is_photograph));
     assert_eq!(project.wanted().len(), 9);
-    // What is known of a photograph is known before its pixels are there.
+    // The data of a photograph are available before its pixels.
     let first = &project.document().photos[0];
     assert_eq!(
         project.camera(first),
@@ -42,7 +42,7 @@ fn the_sample_comes_solved_and_only_its_pixels_are_left_to_be_made() {
     assert_eq!(finish(&mut project), 9);
     assert_eq!(project.export_request(), done.export_request());
     assert!(project.can_export());
-    // What has been brought is as good as computed: undo finds it.
+    // Loaded results count as computed: undo finds them.
     let id = project.document().photos[0].id;
     project.update(Event::Exclude(id, true));
     assert_eq!(finish(&mut project), 1, "eight photographs, all matched");
@@ -79,7 +79,7 @@ fn descriptors_come_once_somebody_asks_for_them() {
     assert!((0..9).all(|n| is_whole(&project, n)));
     assert_eq!(project.reconstruction(), other.reconstruction());
     assert!(project.reconstruction() != done.reconstruction());
-    // The project is saved with what there is, and opens as well.
+    // The project is saved with its results so far, and opens.
     let mut again = reopened(&brought(&done.light_computed()));
     assert_eq!(finish(&mut again), 9);
     assert_eq!(again.reconstruction(), done.reconstruction());
@@ -216,7 +216,7 @@ fn results_that_do_not_fit_are_computed_once_more() {
     let mut kinds = std::collections::BTreeSet::new();
     for index in 0..computed.results.len() {
         let answer = Answer::from_bytes(&computed.results[index].1).unwrap();
-        // One of each kind says it all.
+        // One of each kind is enough.
         if !kinds.insert(format!("{answer:?}").split('(').next().map(str::to_owned)) {
             continue;
         }
@@ -235,7 +235,7 @@ fn results_that_do_not_fit_are_computed_once_more() {
         }
     }
     assert_eq!(kinds.len(), 5, "{kinds:?}");
-    // The result is the same, whatever came.
+    // The result is the same with any loaded results.
     let mut computed = computed;
     for (n, (_, bytes)) in computed.results.iter_mut().enumerate() {
         if n % 3 == 0 {

@@ -1,5 +1,5 @@
-//! A camera from photographs of a board: the core's own, used for photographs of its size, and told in words where
-//! nothing comes of it.
+//! Calibration from photographs of a board: same result as the core's, applied to photographs of
+//! that size, with a reason if it fails.
 
 use crate::common::{finish, jpeg, reopened};
 use epipole::calibration::{
@@ -40,7 +40,8 @@ fn true_camera(width: u32, height: u32) -> Camera {
     }
 }
 
-/// A photograph of a board, turned by so many degrees about x and y, its middle 2 cm to the left and so far away.
+/// A photograph of a board rotated by `turn_deg` about x and y, its middle 2 cm to the left, at a
+/// distance of `far_m`.
 fn photographed(board: &Board, camera: &Camera, turn_deg: [f64; 2], far_m: f64) -> Blob {
     let [x, y] = turn_deg.map(f64::to_radians);
     let rotation = nalgebra::UnitQuaternion::from_euler_angles(x, y, 0.1);
@@ -76,7 +77,7 @@ fn the_sample_gives_the_camera_that_it_was_rendered_with() {
     for n in 0..4 {
         let off = (found.camera.k[n] - truth[n]).abs();
         assert!(off < 1.0, "{:?}", found.camera.k);
-        // As sure as it says: four deviations are next to never.
+        // Within the reported uncertainty: more than four deviations practically never happen.
         assert!(
             off < 4.0 * found.std_dev_k[n],
             "{off} {}",
@@ -101,7 +102,7 @@ fn the_sample_gives_the_camera_that_it_was_rendered_with() {
     }
 }
 
-/// What `epipole calibrate` does, step by step, with the same files.
+/// The steps of `epipole calibrate`, with the same files.
 #[test]
 fn files_give_what_the_core_gives_bit_for_bit() {
     let (board, camera) = (chessboard(), true_camera(400, 300));
@@ -242,7 +243,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     assert!((small.k[2] - ((expected[2] + 0.5) * share - 0.5)).abs() < 1e-9);
     project.update(Event::Undo);
 
-    // It is part of what is saved, with the boards.
+    // It is saved, together with the boards.
     let again = reopened(&project);
     assert_eq!(again.document().camera, Some(camera));
     assert_eq!(again.document().boards.len(), 10);
@@ -256,8 +257,8 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     assert!(project.wanted().is_empty(), "undo is instant");
 }
 
-/// A lens belongs to the sensor, however the camera was held: if the file says how that was, the camera is turned with
-/// it, and if not, it is not used, which is told.
+/// The lens is fixed to the sensor: if the file has an orientation, the camera is rotated with it,
+/// and if not, the camera is not used, with a message.
 #[test]
 fn the_camera_is_turned_with_photographs_taken_upright() {
     let mut project = calibrated();
@@ -283,7 +284,7 @@ fn the_camera_is_turned_with_photographs_taken_upright() {
         project.camera(upside).unwrap().k,
         [fu, fv, 639.0 - cu, 479.0 - cv]
     );
-    // The same pixels, turned after their distortion was removed.
+    // The same pixels, rotated after undistortion.
     let pixels = |given| {
         let found = project.photograph(given).unwrap();
         RgbImage::from_raw(found.width, found.height, found.rgb.to_vec()).unwrap()
@@ -385,7 +386,7 @@ fn what_gives_no_camera_is_told_with_what_helps() {
         &["found in 1 of 1 photograph.", "at least two", "30° to 45°"],
     );
     assert_eq!(project.calibration_failure(), None);
-    // All parallel to the picture.
+    // All parallel to the image plane.
     let far = [0.36, 0.4, 0.45].map(|far_m| photographed(&board, &camera, [0.0, 0.0], far_m));
     let project = with_boards(far.to_vec());
     told(&project, &["parallel", "30° to 45°"]);
@@ -418,7 +419,7 @@ fn what_gives_no_camera_is_told_with_what_helps() {
     );
     assert_eq!(project.calibration().unwrap().camera.size, (400, 300));
     assert!(project.calibration().unwrap().views[0].is_none());
-    // Left out by the reader, it is not told of any more as odd.
+    // After the reader excludes it, there is no warning about it.
     let id = project.document().boards[0].id;
     project.update(Event::Exclude(id, true));
     finish(&mut project);

@@ -1,4 +1,4 @@
-//! Whatever a reader does, in whatever order, the project stays sound, and undo brings everything back.
+//! Any sequence of actions leaves the project valid, and undo restores everything.
 
 use crate::common::answer;
 use epipole_lab::project::{Anchor, Event, Measure, Project, Settings, Step};
@@ -147,7 +147,7 @@ proptest! {
 
     #[test]
     fn bytes_that_are_no_request_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-        // Whatever they happen to mean, there is an answer or a sentence.
+        // Random bytes give an answer or an error message.
         let result = epipole_lab::tasks::compute(&bytes, &mut |_| std::ops::ControlFlow::Continue(()));
         if let Err(sentence) = result {
             prop_assert!(!sentence.is_empty());

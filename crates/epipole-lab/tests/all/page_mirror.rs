@@ -1,5 +1,5 @@
-//! What assistive technology does to a widget of the page reaches it. The file under test belongs to the page, but asks
-//! nothing of a browser.
+//! Actions of assistive technology reach the widgets of the page. The file under test belongs to
+//! the page, but needs no browser.
 
 #[path = "../../src/web/mirror.rs"]
 mod mirror;
@@ -7,7 +7,8 @@ mod mirror;
 use egui::{Context, RawInput};
 use mirror::{Mirror, Wish};
 
-/// A page of so many lines above two buttons: the toolkit counts widgets, so the lines move the numbers of the buttons.
+/// Lines of text above two buttons: the toolkit counts widgets, so the lines shift the numbers of
+/// the buttons.
 struct Page {
     context: Context,
     mirror: Mirror,
@@ -44,11 +45,11 @@ impl Page {
             let tell = |node: &mut egui::accesskit::Node| node.set_expanded(is_open);
             ui.ctx().accesskit_node_builder(more.response.id, tell);
         });
-        // Nobody draws.
+        // Nothing is drawn.
         output.textures_delta.clear();
     }
 
-    /// Presses a button as the page has last been told of it.
+    /// Presses a button by the page's latest mirror.
     fn press(&self, told: &str, name: &str) {
         let line = told.lines().find(|line| {
             let fields: Vec<&str> = line.split('\t').collect();
@@ -82,7 +83,8 @@ fn a_button_that_gets_another_number_meanwhile_is_pressed_once_all_the_same() {
     let mut page = Page::new();
     let told = page.mirror.news().unwrap();
     page.press(&told, "Redo");
-    // In the frame that hears of it, its number is another one, and that of a line is what it was.
+    // In the frame of the action, its number is another one, and its former number is that of a
+    // line.
     page.lines = 7;
     for _ in 0..9 {
         page.frame();

@@ -1,5 +1,6 @@
-//! What every step looks like, on a desktop and on a phone, light and dark: no control is cut off or covered by another
-//! one, no text is too pale, and pictures are there. `EPIPOLE_PICTURES=FOLDER` writes them.
+//! Screenshots of every step, on a desktop and on a phone, light and dark: no control is cut off or
+//! covered by another one, text has enough contrast, and images are drawn.
+//! `EPIPOLE_PICTURES=FOLDER` writes them.
 
 #![cfg(all(feature = "panels", feature = "compute"))]
 
@@ -12,7 +13,7 @@ use epipole_lab::project::Step;
 use image::RgbImage;
 use std::collections::BTreeSet;
 
-/// Everything that can be pressed or turned, with its name and its place.
+/// All controls, with names and rectangles.
 fn controls(bench: &Bench<'_>) -> Vec<(String, Rect)> {
     use egui::accesskit::Role;
     let is_control = |role| {
@@ -36,8 +37,8 @@ fn controls(bench: &Bench<'_>) -> Vec<(String, Rect)> {
         .collect()
 }
 
-/// No two controls cover each other by more than a hair, and none reaches beyond the left or right of the screen: what is
-/// below can be scrolled to.
+/// Controls overlap by at most a hair, and none extends beyond the left or right of the screen; the
+/// rest can be reached by scrolling.
 fn check_places(bench: &Bench<'_>, what: &str, width: f32) {
     let mut all = controls(bench);
     // Small photographs are under the panel of knobs where they scroll away.
@@ -68,7 +69,7 @@ fn check_places(bench: &Bench<'_>, what: &str, width: f32) {
     }
 }
 
-/// How many colors there are in the left half of the space for pictures.
+/// Number of colors in the left half of the image area.
 fn num_colors(picture: &RgbImage) -> usize {
     let colors: BTreeSet<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
     colors.len()

@@ -1,4 +1,4 @@
-//! What takes long ends when it is told to, rather than running on for nobody.
+//! Long computations end when canceled.
 
 #![cfg(feature = "compute")]
 
@@ -6,7 +6,7 @@ use epipole_lab::project::{About, Event, Project, Step};
 use epipole_lab::tasks::{Blob, Request, Sample, compute};
 use std::ops::ControlFlow;
 
-/// Asks for the request and has had enough at once.
+/// Computes the request and cancels at once.
 fn stopped(request: &Request) -> Result<Vec<u8>, String> {
     let mut asked = 0;
     let result = compute(&request.to_bytes(), &mut |_| {
@@ -52,7 +52,7 @@ fn every_long_task_stops_when_it_is_told_to() {
     assert_eq!(stopped(&request), Err("stopped".to_owned()));
 }
 
-/// How often it is asked whether to go on, if the answer is no at the time of this number.
+/// Number of progress callbacks, if the callback of this number cancels.
 fn asked(request: &Request, no_at: usize) -> (usize, Result<Vec<u8>, String>) {
     let mut count = 0;
     let result = compute(&request.to_bytes(), &mut |_| {
@@ -81,7 +81,7 @@ fn a_pair_and_a_file_are_asked_about_more_than_once_and_end_at_the_first_no() {
     )]));
     let task = project.wanted()[0].clone();
     let file = project.request(&task).unwrap();
-    // Matches that agree on nothing ask for all samples that there may be.
+    // Matches without agreement take the maximum number of samples.
     let place = |n: u32| {
         let by = |factor: u32| f64::from(n * factor % 397);
         [by(31), by(57), by(101), by(139)]

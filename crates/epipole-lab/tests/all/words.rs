@@ -1,4 +1,4 @@
-//! What is said of photographs of which nothing comes: once, and what would help.
+//! Messages about photographs that fail: once each, with advice.
 
 #![cfg(feature = "compute")]
 
@@ -6,7 +6,7 @@ use crate::common::{finish, solved};
 use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::{Blob, Sample};
 
-/// What a step says.
+/// Text of a step.
 fn said(project: &mut Project, step: Step) -> String {
     project.update(Event::Show(step));
     project.describe()

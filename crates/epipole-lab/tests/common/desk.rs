@@ -1,4 +1,4 @@
-//! The panels on a host that computes at once, operated by what they say.
+//! The panels on a host that computes synchronously, operated by their labels.
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -18,7 +18,7 @@ pub(crate) struct Desk {
     pub(crate) explained: Vec<About>,
     pub(crate) address: String,
     pub(crate) kept: Option<Vec<u8>>,
-    /// How many pieces of work were started.
+    /// Number of jobs started.
     pub(crate) num_started: usize,
     /// Whether the sample comes solved.
     pub(crate) brings_sample: bool,

@@ -4,7 +4,7 @@ use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::{Told, compute};
 use std::ops::ControlFlow;
 
-/// Reconstructs anew with another seed, and looks at what there is after each photograph.
+/// Reconstructs with another seed, and checks the intermediate result after each photograph.
 pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
     let mut settings = project.document().settings.clone();
     settings.sfm.seed = 1;
@@ -35,7 +35,7 @@ pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
         "{}",
         project.describe()
     );
-    // What belongs to other inputs, or to nothing, is not shown.
+    // Invalid results, and those of other inputs, are not shown.
     project.so_far(wanted[0].key, b"nothing");
     assert!(project.growing().is_some());
     project.update(Event::Undo);

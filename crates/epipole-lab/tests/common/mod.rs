@@ -1,4 +1,4 @@
-//! What tests share: a project that is computed to its end, as a thread or a worker would.
+//! Shared by the tests: a project computed to its end, as by a thread or a worker.
 
 #![allow(dead_code, reason = "each test uses some of it")]
 
@@ -58,7 +58,7 @@ pub(crate) fn exported(project: &Project) -> impl FnMut(&str) -> Vec<u8> + use<>
     }
 }
 
-/// How far neighbors are from each other, in units of the reconstruction.
+/// Distances between neighboring cameras, in units of the reconstruction.
 pub(crate) fn steps_between(cameras: &[Option<CameraFound>]) -> Vec<f64> {
     let centers: Vec<_> = (cameras.iter().flatten().map(CameraFound::center)).collect();
     assert_eq!(centers.len(), cameras.len());
@@ -66,7 +66,7 @@ pub(crate) fn steps_between(cameras: &[Option<CameraFound>]) -> Vec<f64> {
     steps.collect()
 }
 
-/// The project as it is after it was saved and opened again.
+/// The project after saving and opening.
 pub(crate) fn reopened(project: &Project) -> Project {
     let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
         panic!("a project is an archive");

@@ -1,4 +1,5 @@
-//! Pictures of the panels without a graphics card: the toolkit's triangles, filled on the processor.
+//! Screenshots of the panels without a graphics card: the toolkit's triangles, rasterized on the
+//! CPU.
 
 use super::desk::{Bench, Desk};
 use egui::epaint::{ImageData, Mesh, Primitive, TextureId, Vertex};
@@ -39,7 +40,7 @@ impl TestRenderer for Raster {
     }
 }
 
-/// The Lab in a screen of so many points, whose pictures can be taken.
+/// The Lab on a screen of this size in points, for screenshots.
 pub(crate) fn open<'a>(width: f32, height: f32, scale: f32) -> (Bench<'a>, Raster) {
     let raster = Raster::default();
     let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
@@ -55,7 +56,7 @@ pub(crate) fn open<'a>(width: f32, height: f32, scale: f32) -> (Bench<'a>, Raste
     (bench, raster)
 }
 
-/// Colored triangles on white, in a picture of so many pixels.
+/// Colored triangles on white, in an image of this size.
 pub(crate) fn of(mesh: &Mesh, width: u32, height: u32) -> RgbImage {
     let mut picture = RgbImage::from_pixel(width, height, Rgb([255; 3]));
     let plain = ColorImage::filled([1, 1], Color32::WHITE);
@@ -65,7 +66,7 @@ pub(crate) fn of(mesh: &Mesh, width: u32, height: u32) -> RgbImage {
 }
 
 impl Raster {
-    /// What is to be seen now.
+    /// Screenshot of the current frame.
     pub(crate) fn picture(&self, bench: &Bench<'_>) -> RgbImage {
         let (context, output) = (&bench.ctx, bench.output());
         let scale = output.pixels_per_point;

@@ -1,4 +1,4 @@
-//! What examples share: photographs from files, or rendered ones.
+//! Shared by the examples: photographs from files, or rendered ones.
 
 #![allow(dead_code, reason = "every example uses a part of this")]
 

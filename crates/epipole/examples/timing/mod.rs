@@ -5,7 +5,7 @@ mod clock;
 use clock::now;
 use std::time::Instant;
 
-/// How long some work took, and what it gave the last time.
+/// Run times of some work, and its last result.
 pub(crate) struct Timed<T> {
     pub(crate) median_ms: f64,
     pub(crate) least_ms: f64,
@@ -15,7 +15,7 @@ pub(crate) struct Timed<T> {
 /// Work that takes longer needs no run to warm up, no batch, and no more rounds than were asked for.
 const SLOW_MS: f64 = 1000.0;
 
-/// Times work in rounds, at least three of what is not slow.
+/// Times `work` in rounds: at least three, unless it is slow.
 pub(crate) fn timed<T>(rounds: usize, mut work: impl FnMut() -> T) -> Timed<T> {
     let start = Instant::now();
     let before = now(&start);

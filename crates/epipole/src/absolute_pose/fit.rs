@@ -13,24 +13,27 @@ const WHAT: &str = "a camera pose from points";
 /// Points nearer to a line than this, relative to its length, are on it.
 const FLAT: f64 = 1e-9;
 
-/// So many of the poses that three points give are refined: on a plane two of them lead to minima, and noise may let
-/// the wrong one begin lower.
+/// Number of P3P poses that are refined. On a plane two of them lead to minima, and noise may let
+/// the wrong one start with the lower cost.
 const STARTS: usize = 4;
 
-/// The pose with the smallest sum of squared reprojection errors over all points, which may lie on a plane. Nothing is
-/// left out: [`estimate_absolute_pose`](super::estimate_absolute_pose) is for matches of which some are wrong.
+/// The pose with the smallest sum of squared reprojection errors over all points, which may lie on
+/// a plane. There is no outlier rejection: see
+/// [`estimate_absolute_pose`](super::estimate_absolute_pose) for matches with outliers.
 ///
-/// * `points_in_world`, `pixels`: points and where they are seen, at least 4
-/// * `camera`: of any lens
+/// * `points_in_world`, `pixels`: points and their projections, at least 4
+/// * `camera`: with any lens
 ///
-/// Returns `cam_from_world`. Four points that lie far apart give starts, three at a time, by [`pose_p3p`], and six or
-/// more one by [`pose_dlt`]; the best of them are refined, and the best of those is returned. A small or distant plane
-/// has two poses that fit nearly as well, of which it is the better one.
+/// Returns `cam_from_world`. Initial poses come from triples of four distant points by
+/// [`pose_p3p`], and, from six points on, one from [`pose_dlt`]; the best of them are refined, and
+/// the best result is returned. A small or distant plane has two poses that fit nearly as well; the
+/// better one is returned.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different length,
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on one line, or no pose has
-/// them all in front of the camera; as [`Camera::unproject`] for a pixel that the lens bends no ray to.
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on one
+/// line, or no pose has them all in front of the camera; as [`Camera::unproject`] for a pixel
+/// without a ray.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose estimation from a planar
 /// target" (the two minima).
@@ -211,7 +214,7 @@ mod tests {
     fn exact_points_give_the_truth_on_planes_and_off_them() {
         let mut random = Random::new(1);
         for count in [4, 5, 6, 7, 12, 200] {
-            // Three points have up to four poses, and the fourth point tells which is true.
+            // Three points have up to four poses; the fourth point disambiguates.
             for thickness in [0.0, 1e-9, 1e-4, 0.1, 2.0] {
                 for _ in 0..20 {
                     let scene = scene(&mut random, count, thickness, 0.0);

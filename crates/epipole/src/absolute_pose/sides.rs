@@ -3,15 +3,15 @@
 /// Steps of Newton's method: four or five do unless two solutions are about to merge.
 const MAX_STEPS: usize = 8;
 
-/// By how much a solution may miss a ray, radians: far above rounding, far below what matters.
+/// Maximum angle between a solution and a ray, radians: far above rounding, far below relevance.
 const MAX_TURN: f64 = 1e-11;
 
 /// Newton's method on the three equations of the sides; false if it does not end at a solution.
 ///
 /// * `versines`: `1 − cos θ` of the angles between the rays
 ///
-/// Where two solutions are about to merge, or have just become complex, steps may lead anywhere: the
-/// distances that fit best are kept.
+/// Near a double solution, or one that has just become complex, steps may lead anywhere, so the
+/// distances with the smallest residual are kept.
 #[inline]
 pub(super) fn polish(d: &mut [f64; 3], sides_sq: [f64; 3], versines: [f64; 3]) -> bool {
     let [a01, a02, a12] = sides_sq;
@@ -54,8 +54,8 @@ pub(super) fn polish(d: &mut [f64; 3], sides_sq: [f64; 3], versines: [f64; 3]) -
     fits
 }
 
-/// Whether the ends of a side are where their rays are: a side whose square is off by r is off by
-/// r/(2a) itself, which turns a ray of length d by r/(2ad).
+/// Whether the ends of a side are on their rays: an error r of the squared side a² is an error of
+/// r/(2a) of the side, an angle of r/(2ad) at a distance of d.
 #[inline(always)]
 fn within(r: f64, side_sq: f64, depths_sq: f64) -> bool {
     r * r <= MAX_TURN * MAX_TURN * side_sq * depths_sq

@@ -27,7 +27,7 @@ pub(super) fn find_blobs(image: &GrayImage32, bright: bool) -> Result<Vec<Blob>>
     let size = 2 * ((SURROUNDINGS * longer) as usize).clamp(4, 500) + 1;
     let mean = box_filter(image, size, Border::Replicate)?;
     let sign = if bright { 1.0 } else { -1.0 };
-    // How much a pixel belongs to a spot.
+    // Contrast with the surroundings, positive in a spot.
     let contrast: Vec<f32> = image
         .as_raw()
         .iter()

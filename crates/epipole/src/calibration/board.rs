@@ -137,7 +137,7 @@ impl BoardView {
         self.pixels.iter().all(Option::is_some)
     }
 
-    /// The distance from a mark to the nearest of those beside it; `None` if none of these is seen.
+    /// Distance from a mark to its nearest neighbor; `None` if no neighbor is seen.
     pub(super) fn spacing(&self, mark: usize, columns: usize) -> Option<f64> {
         let here = self.pixels[mark]?;
         let (column, row) = (mark % columns, mark / columns);
@@ -149,7 +149,7 @@ impl BoardView {
             .min_by(f64::total_cmp)
     }
 
-    /// Where the marks beside one are seen: of its row, then of its column, the one before it and the one behind.
+    /// The pixels of the mark's neighbors, previous and next: along its row, then along its column.
     pub(super) fn beside(&self, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
         let at = |inside: bool, index: usize| {
             let pixel = || self.pixels.get(index).copied().flatten();

@@ -9,11 +9,11 @@ use crate::imaging::GrayImage32;
 use nalgebra::{Point2, Vector2};
 use std::collections::BTreeMap;
 
-/// Of a board's corners so many must be found.
+/// Minimum share of the board's corners that must be found.
 const LEAST_SHARE: f64 = 0.5;
 /// Corners in each of the outermost rows and columns, so that there is no doubt which they are.
 const LEAST_IN_A_LINE: usize = 2;
-/// Maximum turn of an edge from one corner to the next: the cosine of some 30°.
+/// Cosine of the maximum angle, some 30°, between an edge at one corner and at the next.
 const ALONG: f64 = 0.87;
 /// Within this share of the distance to the next corner there must be nothing but the four squares.
 const CLEAR: f64 = 0.36;
@@ -104,8 +104,8 @@ fn way_vector(saddle: &Saddle, way: usize) -> Vector2<f64> {
     saddle.edges[way / 2] * if way.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Whether `to` may be the next corner from `from` along an edge: it lies there, the edge goes on there, and
-/// dark and bright have changed places.
+/// Whether `to` may be the next corner from `from` along an edge: it lies in that direction, the
+/// edge continues through it, and dark and bright have changed sides.
 fn is_next(from: &Saddle, to: &Saddle, way: usize) -> bool {
     let step = to.place - from.place;
     let along = step / step.norm();
@@ -258,7 +258,7 @@ fn has_right_colors(lattice: &Lattice, (i, j): Cell, saddle: &Saddle) -> bool {
     a.abs() > ALONG && b.abs() > ALONG
 }
 
-/// The grid as the board's corners, or what is wrong with it.
+/// Places the grid on the board, or returns the reason why it does not fit.
 fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
     let (columns, rows) = (board.columns(), board.rows());
     let Some(extent) = grid.extent() else {
@@ -331,7 +331,7 @@ fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) ->
             .any(|&i| is_filled(&mut (top..bottom).map(|j| (i, j)), rows))
 }
 
-/// A cell in axes that were turned by so many quarters.
+/// A cell in axes rotated by `quarters` quarter turns.
 fn turned((i, j): Cell, quarters: i32) -> Cell {
     match quarters {
         0 => (i, j),
@@ -341,7 +341,7 @@ fn turned((i, j): Cell, quarters: i32) -> Cell {
     }
 }
 
-/// How far up and left the first corner is from the last, negative if it is.
+/// u + v of the first corner minus that of the last, pixels.
 fn slope(view: &BoardView) -> f64 {
     let mut seen = view.pixels.iter().flatten().map(|p| p.x + p.y);
     let first = seen.next().unwrap_or(0.0);

@@ -91,8 +91,8 @@ pub fn intrinsics_from_planes(pixels_from_plane: &[Matrix3<f64>]) -> Result<Intr
     )
 }
 
-/// The focal lengths for a known principal point: two unknowns, so that one view is enough, and noise leads
-/// less far astray.
+/// The focal lengths for a known principal point: with only two unknowns one view is enough, and
+/// noise does less harm.
 ///
 /// # Errors
 /// As [`intrinsics_from_planes`]; one view that is parallel to the image leaves them open.
@@ -152,7 +152,8 @@ fn columns(homography: &Matrix3<f64>) -> [Vector3<f64>; 2] {
     columns.map(|column| column / length)
 }
 
-/// How far the planes' origins are seen from pixel (0, 0): numbers near 1 lose no digits.
+/// Typical distance of the planes' origins from pixel (0, 0), in pixels, for scaling coordinates to
+/// about 1.
 fn typical_size(homographies: &[Matrix3<f64>]) -> Result<f64> {
     let mut sum = 0.0;
     for h in homographies {

@@ -1,7 +1,8 @@
 //! A chessboard's corner to a hundredth of a pixel: two blurred edges that cross, fitted to the gray values.
 //!
-//! Gradients are strong on the edges and say where these are, but every pixel of the squares' borders does, and
-//! a fit weighs them all as they deserve. On coarse renderings its error is less than half that of gradients alone.
+//! Gradients are strong on the edges and locate them, but every pixel of the squares' borders has
+//! information, which a fit to the gray values weighs optimally. On coarse renderings its error is
+//! less than half that of gradients alone.
 
 use crate::imaging::GrayImage32;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
@@ -10,7 +11,7 @@ use nalgebra::{Point2, SVector, Vector2};
 
 /// Of a lens that no photograph has; sharper edges are all alike.
 const LEAST_BLUR_PX: f64 = 0.2;
-/// Edges that cross under a smaller sine than this say little along themselves.
+/// Edges that cross under a smaller sine are poorly localized along themselves.
 const LEAST_SINE: f64 = 0.3;
 /// Half the difference of bright and dark, of a range of 1; less is no corner.
 const LEAST_CONTRAST: f64 = 0.02;
@@ -171,7 +172,7 @@ pub(super) fn fit_crossing(
     minimize_fixed(&problem, &mut crossing, &options).ok()?;
     let sine = libm::sin(crossing.angles_rad[0] - crossing.angles_rad[1]).abs();
     let mean_sq = 2.0 * problem.cost(&crossing) / samples.len() as f64;
-    // What is left must be little beside what the corner explains. Comparisons are false for NaN.
+    // The residual must be small beside the contrast of the corner. Comparisons are false for NaN.
     let is_corner = crossing.place.norm() <= 0.5 * radius_px
         && crossing.blur_px <= radius_px
         && sine >= LEAST_SINE

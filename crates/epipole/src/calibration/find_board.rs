@@ -11,12 +11,13 @@ use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::{Border, GrayImage32, pyramid_down};
 use nalgebra::Point2;
 
-/// The search begins in an image whose longer side is no more than this, pixels.
+/// Maximum length of the longer side of the image in which the search starts, pixels.
 const FIRST_SIDE: u32 = 1300;
 /// The window of the refinement by gradients, as a share of the distance to the nearest mark.
 const WINDOW: f64 = 0.3;
 const WINDOWS: (usize, usize) = (2, 15);
-/// The radius of the disk in which two edges are fitted, as such a share: it stays within the four squares.
+/// Radius of the disk in which two edges are fitted, as a share of the spacing: it stays within the
+/// four squares.
 const DISK: f64 = 0.45;
 const DISKS_PX: (f64, f64) = (3.0, 15.0);
 /// The two refinements agree to this share of the distance to the nearest mark, or something else is in the disk.
@@ -25,10 +26,10 @@ const LEAST_AGREEMENT_PX: f64 = 0.5;
 
 /// Finds a board's marks to a fraction of a pixel.
 ///
-/// A chessboard may be hidden in part, as long as half of its corners are seen and two at least in each of its
-/// outermost rows and columns. The first corner is one with a dark square inside, that is between it and the
-/// board's other corners; where two are (both numbers of corners even, or both odd), the one that is up and left.
-/// The disks of a circle grid are darker than the board, or brighter.
+/// A chessboard may be partly hidden: half of its corners must be visible, and at least two in each
+/// of its outermost rows and columns. The first corner has a dark square on its inner side, towards
+/// the other corners; if two do (both numbers of corners even, or both odd), the upper left one is
+/// first. The disks of a circle grid are darker than the board, or brighter.
 ///
 /// * `image`: gray values in [0, 1]
 ///
@@ -116,7 +117,7 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
         };
         let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
             .filter(|refined| (refined - pixel).norm() < 0.25 * spacing);
-        // What the edges do not confirm may be the rim of a hand.
+        // A corner that the edges do not confirm may be the rim of a hand.
         pixels.push(by_gradients.and_then(|start| {
             let edges = edges_through(pixel, beside(view, mark, columns))?;
             let radius_px = (DISK * spacing).clamp(DISKS_PX.0, DISKS_PX.1);
@@ -128,8 +129,8 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
     Ok(BoardView { pixels })
 }
 
-/// The marks beside one, as [`BoardView::beside`] has them; where none are seen along an axis, as they would stand if they
-/// stood as those beside the nearest mark that has some.
+/// The marks beside one, as in [`BoardView::beside`]; along an axis without any, they are
+/// extrapolated from the nearest mark that has neighbors.
 fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
     let mut beside = view.beside(mark, columns);
     for (axis, pair) in beside.iter_mut().enumerate() {
@@ -248,8 +249,8 @@ mod tests {
         assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
     }
 
-    /// Corners at the rim of what is hidden, some with nothing beside them along a row or a column, are as exact as the
-    /// others.
+    /// Corners at the rim of an occlusion, some without neighbors along a row or a column, are as
+    /// exact as the others.
     #[test]
     fn corners_beside_a_hand_are_exact() {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();

@@ -9,7 +9,7 @@ pub(super) type Cell = (i32, i32);
 /// A point may be so far, as a share of a step, from where others expect it: perspective and lenses bend rows.
 const MOST_STRAYED: f64 = 0.3;
 
-/// Which point stands where in a grid.
+/// Positions of points in a grid.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lattice {
     pub(super) points: BTreeMap<Cell, Point2<f64>>,
@@ -47,15 +47,15 @@ impl Lattice {
         Some(extent)
     }
 
-    /// Where the neighbor in a direction should be, going on as the two points before do, or as a neighboring row
-    /// does.
+    /// Predicts the neighbor in a direction, by continuing the two points before it or a
+    /// neighboring row.
     pub(super) fn predict(&self, (i, j): Cell) -> Option<Point2<f64>> {
         let at = |di: i32, dj: i32| self.points.get(&(i + di, j + dj));
         let mut sum = nalgebra::Vector2::zeros();
         let mut count = 0.0;
         for (di, dj) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
             if let (Some(near), Some(far)) = (at(di, dj), at(2 * di, 2 * dj)) {
-                // A third point tells how steps shrink with distance.
+                // A third point gives the rate at which steps shrink with distance.
                 let step = match at(3 * di, 3 * dj) {
                     Some(farther) => (near - far) * 2.0 - (far - farther),
                     None => near - far,
@@ -85,8 +85,8 @@ impl Lattice {
         (count > 0.0).then(|| sum / count)
     }
 
-    /// Distance of a point from the prediction of its row and column, as a share of a step; the lower median of all
-    /// that can be said.
+    /// Distance of a point from the prediction of its row and column, as a share of a step; the
+    /// lower median of all predictions.
     fn strayed(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
         let mut shares = Vec::new();
         for (di, dj) in [(1, 0), (0, 1)] {
@@ -107,7 +107,8 @@ impl Lattice {
         Some(shares[middle])
     }
 
-    /// Removes points that are not where their rows and columns go on, and those that are in none.
+    /// Removes points far from the continuation of their rows and columns, and those that are in
+    /// none.
     pub(super) fn drop_strays(&mut self) {
         let strays: Vec<Cell> = self
             .points

@@ -14,15 +14,15 @@ use image::{DynamicImage, RgbImage};
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct PrepareOptions<'a> {
-    /// At most so many pixels are left.
+    /// Maximum number of pixels of the result.
     pub max_pixels: u64,
-    /// How photographs of one camera are freed of its distortion: those that have its size as the sensor gave them, before
-    /// they are turned upright.
+    /// Undistortion for images of one camera, those with its sensor's size before they are turned
+    /// upright.
     pub undistortion: Option<&'a Undistortion>,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Upright, and else as it is.
+    /// Rotated upright, otherwise unchanged.
     fn default() -> Self {
         Self {
             max_pixels: u64::MAX,
@@ -46,9 +46,9 @@ pub struct PreparedPhoto {
     pub full_size: (u32, u32),
     /// Width and height as the sensor gave it, before it was turned upright.
     pub sensor_size: (u32, u32),
-    /// By how many quarters of a turn, clockwise, it became upright; `None` if it was mirrored.
+    /// Number of clockwise quarter turns that made it upright; `None` if it was mirrored.
     pub quarters: Option<u8>,
-    /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
+    /// Whether the pixels are those of the file: not rotated, undistorted or downscaled.
     pub is_as_stored: bool,
 }
 
@@ -58,10 +58,11 @@ impl PreparedPhoto {
         focal_px * (f64::from(self.image.width()) / f64::from(self.full_size.0.max(1)))
     }
 
-    /// The camera that took it as its pixels are now, turned and reduced with them; `None` if it is another one: the
-    /// sensor has another size, or the photograph was mirrored. For photographs that keep their distortion.
+    /// The camera of the prepared image, rotated and downscaled with it; `None` for another camera:
+    /// the sensor has another size, or the photograph was mirrored. For photographs that keep their
+    /// distortion.
     ///
-    /// * `of_sensor`: the camera as its sensor is
+    /// * `of_sensor`: the camera in the sensor's orientation and size
     ///
     /// # Errors
     /// As [`Intrinsics::resized`].
@@ -84,12 +85,12 @@ impl PreparedPhoto {
     }
 }
 
-/// Reads a PNG, JPEG or WebP file, removes the distortion if the camera is that of its size, turns it upright, and
-/// reduces it.
+/// Reads a PNG, JPEG or WebP file, undistorts it if it has the size of the undistortion's camera,
+/// turns it upright, and downscales it.
 ///
-/// A lens belongs to the sensor, not to what the hand did with it: so a camera that was calibrated with photographs as
-/// the sensor gave them serves for photographs taken upright, too, if their files say how they were turned. A mirrored
-/// photograph is none of its.
+/// The lens is fixed to the sensor: a camera calibrated with photographs in the sensor's
+/// orientation also serves for photographs taken upright, if their files have the orientation. It
+/// does not serve for a mirrored photograph.
 ///
 /// # Errors
 /// As [`decode_rgb`].
@@ -144,7 +145,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     Ok(photo)
 }
 
-/// By how many quarters of a turn, clockwise, a photograph becomes upright; `None` for a mirrored one.
+/// Number of clockwise quarter turns that make a photograph upright; `None` for a mirrored one.
 fn quarters(orientation: Orientation) -> Option<u8> {
     match orientation {
         Orientation::NoTransforms => Some(0),
@@ -208,7 +209,7 @@ mod tests {
         let (u, v) = (13, 41);
         let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));
         let ray = flat.intrinsics.ray(&place(u, v));
-        // Where the pixel comes to, and its ray, when the photograph is turned clockwise.
+        // Position and ray of the pixel after the photograph is rotated clockwise.
         for (orientation, at, turned) in [
             (6, (59 - v, u), [-ray.y, ray.x]),
             (3, (79 - u, 59 - v), [-ray.x, -ray.y]),
@@ -223,7 +224,7 @@ mod tests {
                 photo.image.get_pixel(at.0, at.1),
                 lying.image.get_pixel(u, v)
             );
-            // With its distortion kept, the camera turns with it.
+            // With its distortion kept, the camera is rotated with the image.
             let kept = prepare_photo(&file(&smooth(), orientation), &PrepareOptions::default());
             let kept = kept.unwrap().camera(&camera()).unwrap().unwrap();
             let bent = camera().ray(&place(u, v)).unwrap();

@@ -55,7 +55,7 @@ pub(super) fn camera_numbers(k: &Intrinsics, lens: &Lens) -> [f64; OF_CAMERA] {
     numbers
 }
 
-/// The lens of such numbers.
+/// The lens of these parameters.
 pub(super) fn lens_of(kind: LensKind, numbers: &[f64; OF_CAMERA]) -> Lens {
     Lens::of(kind, core::array::from_fn(|i| numbers[4 + i]))
 }
@@ -103,7 +103,8 @@ impl Problem {
         minimize(&mut SchurSystem::new(self), state, options, monitor)
     }
 
-    /// The point in the frame of the camera that sees it, and before the rig's motion, turned only and whole.
+    /// The mark in the frame of the observing camera; also before the rig's motion, only rotated
+    /// and fully transformed.
     fn place(&self, state: &State, o: &SeenMark) -> Place {
         let pose = &state.views[o.view];
         let turned = pose.rotated(&self.marks[o.mark]);
@@ -170,7 +171,7 @@ impl BundleProblem<6, SHARED> for Problem {
         let o = &self.observations[observation];
         let numbers = &state.cameras[o.eye];
         let lens = lens_of(self.kinds[o.eye], numbers);
-        // What the lens does not see has no residual, and the loop does not go there.
+        // Points outside the lens's domain have no residual, and the loop does not step there.
         let Some(seen) = lens.project(&self.place(state, o).in_cam) else {
             return [f64::NAN; 2];
         };

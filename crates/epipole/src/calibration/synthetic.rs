@@ -20,7 +20,7 @@ const DISK: f64 = 0.45;
 
 /// The mean gray of a part of the board.
 ///
-/// * `seen`: what one pixel sees, in squares
+/// * `seen`: footprint of a pixel, in squares
 fn gray(board: &Board, seen: &Footprint) -> f64 {
     let across = match board.pattern() {
         Pattern::Chessboard => board.columns(),
@@ -64,7 +64,7 @@ fn gray(board: &Board, seen: &Footprint) -> f64 {
 /// * `noise`: one standard deviation of the noise, white being 1 and black 0
 /// * `seed`: of the noise
 ///
-/// Where the lens sees nothing, and behind the board, there is table.
+/// The table also fills pixels that the lens maps to no ray, and those behind the board.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -143,7 +143,7 @@ pub(crate) fn true_view(
     }
 }
 
-/// Poses that show the board from all sides, at so many squares' distance.
+/// Poses that show the board from all sides, at a distance given in squares.
 #[cfg(test)]
 pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Vec<RigidTransform> {
     let mut random = Random::new(seed);
@@ -186,7 +186,8 @@ mod tests {
         }
     }
 
-    /// The middle of the board's mark 1 before the camera, turned about its own normal and tipped.
+    /// The board's mark 1 on the optical axis, offset by `offset_px`, rotated about the board's
+    /// normal and tipped.
     fn pose(board: &Board, turn_rad: f64, tip_rad: f64, offset_px: f64) -> RigidTransform {
         let rotation = UnitQuaternion::from_euler_angles(tip_rad, 0.3 * tip_rad, 0.0)
             * UnitQuaternion::from_euler_angles(0.0, 0.0, turn_rad);
@@ -196,7 +197,8 @@ mod tests {
         RigidTransform::from_parts((at - middle).into(), rotation)
     }
 
-    /// Where an edge crosses a row of pixels, from the sum of their gray values: the area on either side of it.
+    /// Column at which an edge crosses a row of pixels, from the sum of their gray values, the area
+    /// on either side.
     fn crossing(image: &GrayImage32, columns: core::ops::Range<u32>, v: u32) -> f64 {
         let gray = |u: u32| f64::from(image.get_pixel(u, v).0[0]);
         let (first, last) = (gray(columns.start), gray(columns.end - 1));
@@ -207,7 +209,7 @@ mod tests {
         f64::from(columns.start) - 0.5 + sum
     }
 
-    /// Edges of squares lie where projected corners say, at any angle.
+    /// Edges of squares agree with projected corners, at any angle.
     #[test]
     fn edges_are_exact() {
         let board = Board::new(Pattern::Chessboard, 3, 3, SQUARE_M).unwrap();
@@ -267,7 +269,8 @@ mod tests {
                 }
             }
             assert!((area - PI * radius_px * radius_px).abs() < 0.01, "{area}");
-            // A gray value tells how much of its pixel is covered, not where in it: the centroid is known to 1/1000 px.
+            // A gray value gives the covered area of its pixel but not its place: the centroid is
+            // known to 1/1000 px.
             assert!((moment / area).norm() < 1e-3, "{}", moment / area);
         }
     }

@@ -3,9 +3,9 @@
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
-/// The bending of rays by the division model: what is seen at a distance r from the middle comes from the ray at
-/// `r / (1 + k r²)`. One number describes also wide-angle lenses well, negative for barrels, and both ways are in
-/// closed form.
+/// The division model of distortion: a point imaged at distance r from the center lies on the ray
+/// at `r / (1 + k r²)`. The one parameter, negative for barrel distortion, fits wide-angle lenses
+/// well, too, and both directions are in closed form.
 ///
 /// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens distortion", §2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -108,7 +108,7 @@ mod tests {
                     (lens.undistort(&seen).unwrap() - ray).norm() < 1e-12,
                     "{k} {ray}"
                 );
-                // What Fitzgibbon writes, word by word.
+                // Fitzgibbon's formula, literally.
                 let r_sq = seen.coords.norm_squared();
                 assert!((seen / (1.0 + k * r_sq) - ray).norm() < 1e-12);
             }

@@ -15,12 +15,12 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// * `pixel`: where it is seen
+    /// * `pixel`: observed position
     /// * `ray`: its direction in the camera frame, of any length but 0
     /// * `px_by_ray`: the derivative of the pixel by a ray of length 1, pixels; it is 0 along the ray
     ///
-    /// `None` where these are not finite, or where the pixel does not move with every step of the ray to a side: there
-    /// is the fold of a lens.
+    /// `None` if these are not finite, or if a lateral step of the ray does not move the pixel, as
+    /// at the fold of a lens.
     ///
     /// ```
     /// use epipole::camera::Observation;
@@ -66,8 +66,9 @@ impl Observation {
         self.ray_by_px
     }
 
-    /// How far from the pixel a point of the camera frame is seen, pixels, as well as
-    /// the derivative holds: to a part in a hundred or better for errors of some pixels. `None` for a point 90° and more off the ray.
+    /// Offset from the pixel to the projection of a point in the camera frame, pixels, to first
+    /// order: exact to 1 % or better for errors of some pixels. `None` for a point 90° or more off
+    /// the ray.
     pub fn offset_px(&self, x_in_cam: &Vector3<f64>) -> Option<Vector2<f64>> {
         let along = self.ray.dot(x_in_cam);
         (along > 0.0).then(|| self.px_by_ray * x_in_cam / along)

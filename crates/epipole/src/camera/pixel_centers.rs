@@ -4,11 +4,11 @@ use super::Intrinsics;
 use crate::Result;
 use nalgebra::{Point2, Vector2};
 
-/// How far coordinates of the other convention are ahead of ours: there the center of the first pixel
-/// is at (0.5, 0.5), here it is at (0, 0).
+/// Offset of COLMAP's pixel coordinates from ours, pixels: the center of the first pixel is at
+/// (0.5, 0.5) there, at (0, 0) here.
 const HALF_PIXEL: f64 = 0.5;
 
-/// A pixel of ours, with centers at integers, in COLMAP's convention, with centers at halves.
+/// Converts a pixel from our convention, centers at integers, to COLMAP's, centers at halves.
 ///
 /// * `pixel`: (u, v), pixels
 ///

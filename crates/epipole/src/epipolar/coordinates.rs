@@ -71,7 +71,7 @@ impl Coordinates {
         }
     }
 
-    /// Some of the matches, and how much each of them counts, besides what it counted before.
+    /// A subset of the matches, with its weights multiplied by `weights`.
     pub(crate) fn weighted(&self, indices: &[usize], weights: &[f64]) -> Self {
         Self {
             weights: match self.weights(0) {
@@ -84,7 +84,7 @@ impl Coordinates {
         }
     }
 
-    /// Makes each match count by a factor, besides what it counts in `other`, which has the same matches.
+    /// Sets the weights to those of `other`, which has the same matches, times `factors`.
     pub(crate) fn weigh_as(&mut self, other: &Self, factors: &[f64]) {
         self.weights.clear();
         match other.weights(0) {
@@ -178,8 +178,8 @@ impl CommonFrame {
         unit_norm(&(self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)))
     }
 
-    /// What `work` makes of an F of pixels in the frame, as an F of pixels: there and back once, whatever is done in
-    /// between.
+    /// Applies `work` to an F of pixels in the frame's coordinates, and returns the result as an F
+    /// of pixels.
     pub(crate) fn fundamental_within(
         self,
         f: &Matrix3<f64>,

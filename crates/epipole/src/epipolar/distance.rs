@@ -36,8 +36,8 @@ impl Parts {
 
     fn symmetric_sq(&self) -> f64 {
         let (along2, along1) = self.along_sq();
-        // A pixel that is the epipole fits whatever the other is, so 0/0 is 0 for one of the lines.
-        // For both lines it is not: then the match says nothing.
+        // A pixel at the epipole satisfies the constraint with any other pixel, so 0/0 is 0 for one
+        // of the lines. For both lines it is not, as such a match is no evidence.
         let distance_sq = |along_sq: f64| {
             if self.error == 0.0 && along2 + along1 > 0.0 {
                 0.0
@@ -57,7 +57,7 @@ struct Distance {
 }
 
 impl Distance {
-    /// What `distance_sq` makes of the parts of the constraint.
+    /// The distance by `distance_sq` of the parts of the constraint.
     #[inline]
     fn new(
         fundamental: &Matrix3<f64>,
@@ -131,14 +131,14 @@ pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }
 
-/// How far a match must be moved, in both images together, to satisfy the constraint, to first
-/// order: `|x2ᵀ F x1| / √(|F x1|²₁₂ + |Fᵀ x2|²₁₂)`, pixels.
+/// Sampson distance: the first-order length of the correction, in both images together, that makes
+/// a match satisfy the constraint, `|x2ᵀ F x1| / √(|F x1|²₁₂ + |Fᵀ x2|²₁₂)`, pixels.
 ///
 /// `|·|₁₂` is the length of the first two entries. The scale of F does not matter.
 ///
-/// Infinite for a match that no small movement can mend, and for NaN and infinities. Infinite, too, for
-/// a match of the two epipoles: it satisfies the constraint whatever F else is, so it says nothing, and
-/// what says nothing must support no model. There the expression is 0/0.
+/// Infinite for a match that no small correction can mend, and for NaN and infinities. Also
+/// infinite for a match of the two epipoles: it satisfies the constraint for any F with these
+/// epipoles, so it must support no model. There the expression is 0/0.
 ///
 /// Source: Sampson 1982; Hartley & Zisserman 2004, equation 11.9, which is not defined where both
 /// points are epipoles.
@@ -185,11 +185,10 @@ pub fn symmetric_epipolar_sq(
 /// The distances of both points from their epipolar lines, as a root mean square:
 /// `√(½ (d(x2, F x1)² + d(x1, Fᵀ x2)²))`, pixels.
 ///
-/// Easier to picture than [`sampson_px`], but not what one should minimize. Infinite where that is; if
-/// one pixel alone is an epipole, the match fits and the distance is 0.
+/// Easier to picture than [`sampson_px`], but not suited for minimization. Infinite where that is;
+/// if only one pixel is an epipole, the match fits and the distance is 0.
 ///
-/// Source: Hartley & Zisserman 2004, §11.4.3; the root mean square is ours, so that it is in
-/// pixels.
+/// Source: Hartley & Zisserman 2004, §11.4.3; the root mean square is ours, for a result in pixels.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

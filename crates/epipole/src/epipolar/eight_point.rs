@@ -8,7 +8,7 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// What the eight-point algorithm saw on its way.
+/// Result and diagnostics of the eight-point algorithm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EightPoint {
     /// F with rank 2 and unit Frobenius norm.
@@ -187,9 +187,9 @@ fn check<'a>(pixels1: &'a [Point2<f64>], pixels2: &'a [Point2<f64>]) -> Result<P
     Ok((pixels1, pixels2))
 }
 
-/// F from exactly eight matches: the vector orthogonal to the rows, in a tenth of the time that
-/// singular values take. `None` for more matches, and where a row is so nearly a combination of
-/// those before it that only singular values can tell whether the matches leave F open.
+/// F from exactly eight matches: the vector orthogonal to the rows, in a tenth of the time of an
+/// SVD. `None` for more matches, and for a row so close to a combination of the previous ones that
+/// only singular values show whether the matches determine F.
 fn exact(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],

@@ -9,18 +9,19 @@ const LEAST_VOLUME: f64 = 1e-9;
 
 /// The focal lengths in pixels, of camera 1 and camera 2, of square pixels without skew.
 ///
-/// Where the origin of each image is its principal point, and `F = [A b; cᵀ d]`, an essential matrix asks for
-/// `f1² = −(e2 × b) d / (e2 × A c)`, with `e2` the epipole in image 2 and `×` the third component of the
-/// product; f2 is that of Fᵀ.
+/// With the principal points as origins of the images, and `F = [A b; cᵀ d]`, an essential matrix
+/// requires `f1² = −(e2 × b) d / (e2 × A c)`, with `e2` the epipole in image 2 and `×` the third
+/// component of the product; f2 is that of Fᵀ.
 ///
 /// * `fundamental`: F, of any scale, rank 2
-/// * `principal1`, `principal2`: the principal points, pixels; their errors enter the focal lengths, the more the
-///   nearer the axes come to each other
+/// * `principal1`, `principal2`: the principal points, pixels; the closer the axes come to each
+///   other, the more their errors affect the focal lengths
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the optical axes meet or are parallel, and thus for cameras that look at one point:
-/// then a whole family of focal lengths fits. From noisy matches such an F gives nonsense, or a square that is
-/// negative, which is the same error. [`Error::NotFinite`] for NaN and infinities.
+/// [`Error::Degenerate`] if the optical axes meet or are parallel, and thus for cameras that look
+/// at one point: then a whole family of focal lengths fits. From noisy matches the F of these
+/// cameras gives nonsense, or a negative square, which is the same error. [`Error::NotFinite`] for
+/// NaN and infinities.
 ///
 /// Source: Bougnoux 1998, "From projective to Euclidean space under any practical situation, a criticism of
 /// self-calibration".

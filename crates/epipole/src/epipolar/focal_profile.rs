@@ -27,13 +27,13 @@ const NUM_SAMPLES: usize = 12;
 /// Errors count up to this many medians: three standard deviations of Gaussian errors.
 const WIDTH_MEDIANS: f64 = 4.5;
 
-/// Focal lengths whose cost is within this many standard deviations of the least are possible.
+/// Focal lengths whose cost is within this many standard deviations of the minimum are possible.
 const POSSIBLE: f64 = 3.0;
 
 /// Focal lengths that differ by less, relative, are in one valley.
 const SAME: f64 = 0.02;
 
-/// A motion, a focal length, and the sum of squared errors, each at most the squared width, px².
+/// A motion, a focal length, and the sum of squared errors, each clipped at the squared width, px².
 #[derive(Debug, Clone)]
 struct Fit {
     pose: Pose,
@@ -154,10 +154,11 @@ impl<'a> FocalProfile<'a> {
         PoseWithFocal::new(best.pose, best.focal_px, &self.of.centers)
     }
 
-    /// The standard deviation of the logarithm of the focal length that the profile leaves.
+    /// The standard deviation of the logarithm of the focal length, from the profile.
     ///
-    /// Where the cost is a parabola, the distance of a focal length over the deviations by which its cost is higher is the
-    /// same everywhere; where it is flat on one side, or has two valleys, the largest is meant.
+    /// Each profiled focal length gives a ratio: its distance, in logarithms, over the number of
+    /// standard deviations by which its cost exceeds the minimum. For a parabolic cost all ratios
+    /// are equal; for a cost that is flat on one side, or has two valleys, the largest counts.
     ///
     /// Source: the likelihood ratio; Venzon & Moolgavkar 1988, "A method for computing profile-likelihood-based confidence
     /// intervals".

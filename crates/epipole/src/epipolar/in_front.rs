@@ -41,11 +41,11 @@ impl Lenses {
     }
 }
 
-/// A relative pose that judges pixels.
+/// Scores a relative pose by the errors of pixels.
 ///
-/// With a = R K₁⁻¹ x₁ and b = K₂⁻¹ x₂, both in the frame of camera 2, the rays meet in front of both
-/// cameras if b lies between a and t: turned from a towards t, but not beyond. Far away a and b are
-/// the same up to noise, so b may be outside by the angle of the threshold.
+/// With a = R K₁⁻¹ x₁ and b = K₂⁻¹ x₂, both in the frame of camera 2, the rays meet in front of
+/// both cameras if b lies between a and t: rotated from a towards t, but not beyond. Far away a and
+/// b are the same up to noise, so b may be outside by the angle of the threshold.
 pub(crate) struct PoseJudge {
     sampson: Sampson,
     turned1: [f64; 9],
@@ -65,8 +65,8 @@ impl PoseJudge {
             let b = [k[0] * u2[l] + k[1] * v2[l] + k[2], k[4] * v2[l] + k[5], 1.0];
             let (aa, bb, ab) = (dot(&a, &a), dot(&b, &b), dot(&a, &b));
             let (at, bt) = (dot(&a, t), dot(&b, t));
-            // |a|²|b| times the sine of the turn from a to b, where a turn towards t is positive, and
-            // times the sine of the angle between a and t; and the same from b to a, away from t.
+            // |a|²|b| times the sine of the angle from a to b, positive towards t, and times the
+            // sine of the angle between a and t; and the same from b to a, away from t.
             let (from_a, from_b) = (aa * bt - ab * at, ab * bt - bb * at);
             let within = self.margin_sq * aa * bb;
             // |t| = 1.
@@ -84,7 +84,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 impl LaneErrors for PoseJudge {
-    /// What is behind a camera is infinitely far off.
+    /// Errors of points behind a camera are infinite.
     #[inline(always)]
     fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
         let mut errors = self.sampson.relative_errors(lanes, per_threshold_sq);

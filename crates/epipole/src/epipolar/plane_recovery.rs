@@ -11,9 +11,9 @@ use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Replaces fundamental matrices from samples that lie mostly on a plane.
 ///
-/// Seven matches of which five or more are on a plane are fitted by many fundamental matrices, and
-/// a sample of such matches is what RANSAC draws when a plane dominates. The plane's homography H is
-/// right, though, and two matches off the plane give the epipole: `F = [e2]ₓ H`.
+/// Many fundamental matrices fit seven matches of which five or more are on a plane, and RANSAC
+/// draws these samples when a plane dominates. The plane's homography H is right, though, and two
+/// matches off the plane give the epipole: `F = [e2]ₓ H`.
 ///
 /// Source: Chum, Werner & Matas 2005, "Two-view geometry estimation unaffected by a dominant
 /// plane".
@@ -26,26 +26,26 @@ pub(crate) struct PlaneRecovery {
 /// Triples of a seven-match sample such that any five matches contain one of them.
 const TRIPLES: [[usize; 3]; 5] = [[0, 1, 2], [3, 4, 5], [0, 1, 6], [3, 4, 6], [2, 5, 6]];
 
-/// Pairs off the plane that are tried at most.
+/// Maximum number of pairs off the plane to try.
 const MAX_PAIRS: usize = 400;
 
-/// A plane dominates with this share of the inliers, at least.
+/// Minimum share of the inliers on a dominant plane.
 const DOMINANT_SHARE: f64 = 0.75;
 
-/// Triples of inliers that are tried in search of a dominant plane: the chance that none of them
-/// lies on it is one in ten thousand.
+/// Number of triples of inliers to try in search of a dominant plane: one in ten thousand searches
+/// finds no triple on it.
 const TRIPLES_TRIED: usize = 20;
 
 /// Inliers that a plane through a triple is tried on.
 const INLIERS_TRIED: usize = 200;
 
-/// Pairs off a dominant plane that are tried at most, at the end.
+/// Maximum number of pairs off a dominant plane to try at the end.
 const MAX_LAST_PAIRS: usize = 4000;
 
 /// Epipoles from the best pairs that are refined.
 const REFINED_EPIPOLES: usize = 8;
 
-/// So many more matches off the plane, in MSAC's counting, must fit a matrix that replaces another.
+/// Minimum gain in matches off the plane, in MSAC's counting, to replace a matrix.
 const CLEARLY_MORE: f64 = 1.0;
 
 impl PlaneRecovery {
@@ -82,10 +82,10 @@ impl PlaneRecovery {
     /// Fundamental matrices that fit a dominant plane as `f` does and more of the matches off it; all
     /// in one frame, without a refinement. Empty where no plane dominates.
     ///
-    /// The matches on the plane fit `[e2]ₓ H` whatever e2 is. By how much they miss its lines depends on
-    /// e2, though, and hundreds of them weigh more than the few matches off the plane that tell where
-    /// e2 is: the best of all sums belongs to an e2 that happens to suit the noise. So the plane's
-    /// matches have no vote here.
+    /// The matches on the plane fit `[e2]ₓ H` for any e2. Their distances to its lines depend on
+    /// e2, though, and hundreds of them outweigh the few matches off the plane that determine e2:
+    /// the best sum belongs to an e2 that happens to suit the noise. So the plane's matches are not
+    /// scored here.
     pub(crate) fn alternatives(
         &mut self,
         matches: &Coordinates,
@@ -188,7 +188,8 @@ impl PlaneRecovery {
         (count as f64 >= DOMINANT_SHARE * inliers.len() as f64).then_some(h)
     }
 
-    /// Matches off the plane by so little say next to nothing about the epipole: they are left out.
+    /// Collects the matches off the plane, without those so close to it that they hardly constrain
+    /// the epipole.
     fn find_off_plane(&mut self, matches: &Coordinates, homography: &Matrix3<f64>, max_error: f64) {
         self.off_plane.clear();
         for i in 0..matches.len() {
@@ -257,7 +258,7 @@ impl PlaneRecovery {
             if found.cost < best_cost {
                 best_cost = found.cost;
                 best = Some(f);
-                // Inliers beyond those of the plane are off it; pairs of them must be met with
+                // Inliers beyond those of the plane are off it; a pair of them must be drawn with
                 // probability 0.99.
                 let off = found.num_inliers.saturating_sub(self.on_plane.len()).max(2);
                 let share = (off as f64 / num_off as f64).min(1.0);

@@ -6,7 +6,7 @@ use super::{
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// Descriptors of whatever kind.
+/// Descriptors of any kind.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AnyDescriptors {
     /// Numbers, compared by Euclidean distance: SIFT, RootSIFT, patches.
@@ -36,7 +36,7 @@ impl AnyDescriptors {
 /// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnyFeatures {
-    /// Where.
+    /// Keypoints.
     pub keypoints: Vec<Keypoint>,
     /// Its descriptor.
     pub descriptors: AnyDescriptors,

@@ -22,13 +22,13 @@ pub enum FeatureKind {
     /// Oriented FAST corners with 256 comparisons ([`detect_orb`](super::detect_orb)).
     Orb,
     /// Harris corners with normalized patches ([`describe_patches`](super::describe_patches)), for
-    /// photographs from nearly the same place: neither turned nor enlarged.
+    /// photographs from nearly the same place, without rotation or change of scale.
     Harris,
 }
 
-/// Options of feature detection. The default is what every command and
-/// [`PhotoOptions`](crate::sfm::PhotoOptions) start from; [`MatchOptions`](super::MatchOptions) and
-/// [`RansacOptions`](crate::robust::RansacOptions) are its companions for matches and models.
+/// Options of feature detection. Every command and [`PhotoOptions`](crate::sfm::PhotoOptions) start
+/// from the default; see [`MatchOptions`](super::MatchOptions) and
+/// [`RansacOptions`](crate::robust::RansacOptions) for matches and models.
 ///
 /// ```
 /// use epipole::feature::{FeatureKind, FeatureOptions};
@@ -46,11 +46,11 @@ pub enum FeatureKind {
 pub struct FeatureOptions {
     /// RootSIFT.
     pub kind: FeatureKind,
-    /// At most so many, the strongest; 0 means no limit. 8192.
+    /// Maximum number of features, the strongest; 0 means no limit. 8192.
     pub max_features: usize,
-    /// Minimum response of a feature, for gray values in [0, 1]; `None` for what suits the kind. Of
-    /// SIFT [`SiftOptions::contrast_threshold`], 0.02: faint ones, too. Of ORB
-    /// [`OrbOptions::fast_threshold`], 20/255. Of Harris' corners the share of the strongest,
+    /// Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the
+    /// kind. SIFT: [`SiftOptions::contrast_threshold`], 0.02, which includes faint features. ORB:
+    /// [`OrbOptions::fast_threshold`], 20/255. Harris: the share of the strongest response,
     /// [`GoodFeaturesOptions::quality`], 0.01.
     pub contrast_threshold: Option<f32>,
     /// Take every direction to be 0, for cameras held upright. Harris' corners have none. False.
@@ -58,8 +58,8 @@ pub struct FeatureOptions {
     /// SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones, which takes
     /// seconds, only if they have fewer than `max_features` without; none if 0. 1.5 million.
     pub max_upsampled_pixels: u64,
-    /// SIFT: the blur that a photograph is assumed to have, pixels, 0 to half of `sigma_px`. 0.5, as
-    /// Lowe's; from 0.3 more of them match where photographs are sharp, fewer where features are rare.
+    /// SIFT: assumed blur of the input, pixels, 0 to half of `sigma_px`. 0.5, as Lowe's; 0.3 gives
+    /// more matches in sharp photographs, fewer where features are rare.
     pub input_blur_px: f64,
     /// SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6.
     pub sigma_px: f64,
@@ -67,13 +67,13 @@ pub struct FeatureOptions {
     pub layers_per_octave: usize,
     /// SIFT: the largest ratio of the principal curvatures, > 1. 10.
     pub edge_threshold: f32,
-    /// SIFT: at most so many directions per place, ≥ 1; each makes a feature. 2.
+    /// SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2.
     pub max_orientations: usize,
     /// SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
     pub orientation_peak_ratio: f32,
     /// ORB: levels of the pyramid, 1 to 16. 8.
     pub num_levels: usize,
-    /// ORB: size of one level over that of the next, above 1 and at most 2. 1.2.
+    /// ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2.
     pub scale_factor: f64,
     /// Harris: the constant k of the measure, 0 to below 0.25. 0.04.
     pub harris_k: f32,
@@ -111,7 +111,8 @@ impl Default for FeatureOptions {
 }
 
 impl FeatureOptions {
-    /// What they are for SIFT, in an image of that size, before it is known how many features a large one has.
+    /// Options of SIFT for an image of that size, before the number of features in a large one is
+    /// known.
     ///
     /// ```
     /// let options = epipole::feature::FeatureOptions::default();

@@ -23,12 +23,12 @@ pub struct TrackOptions {
     pub half_window: usize,
     /// Levels of the pyramid, 1 to 12; each doubles the motion that can be followed.
     pub num_levels: usize,
-    /// At most so many steps per level, ≥ 1.
+    /// Maximum number of steps per level, ≥ 1.
     pub max_iterations: usize,
     /// Done when a step is shorter than this, pixels, > 0.
     pub tolerance_px: f64,
-    /// Windows whose smaller eigenvalue per pixel is below this are too flat to follow; slopes of
-    /// gray values in [0, 1] per pixel, squared.
+    /// Minimum of the smaller eigenvalue per pixel, for slopes of gray values in [0, 1] per pixel,
+    /// squared; flatter windows are lost.
     pub min_eigenvalue: f64,
     /// Following back must end within this distance of the start, pixels; `None` leaves the
     /// check out.
@@ -56,17 +56,16 @@ pub struct Track {
     pub point: Point2<f64>,
     /// Mean absolute difference of gray values between the two windows.
     pub residual: f32,
-    /// Distance between its start and the point tracked back, pixels; `None` if that was not asked for.
+    /// Distance between its start and the point tracked back, pixels; `None` if not requested.
     pub forward_backward_px: Option<f64>,
 }
 
-/// Where points of one image are in the next, by matching the windows around them; `None` for a
-/// point that is lost.
+/// Tracks points from one image to the next by matching the windows around them; `None` for a lost
+/// point.
 ///
 /// At each level of the pyramid the displacement d minimizes `Σ (I₁(p) − I₂(p + d))²` over the
-/// window by Gauss–Newton steps with the gradient of the first image. A point is lost where its
-/// window is too flat or a single edge, where it leaves the image, or where following it back ends
-/// elsewhere.
+/// window by Gauss–Newton steps with the gradient of the first image. A point is lost if its window
+/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere.
 ///
 /// * `points`: pixels in the first image
 ///
@@ -171,7 +170,7 @@ fn follow(
     let mut shift = [0.0, 0.0];
     let mut residual = 0.0;
     for (k, (from, to)) in first.iter().zip(second).enumerate().rev() {
-        // Sample i of a level lies at 2i of the one below.
+        // Sample i of a level lies at 2i in the one below.
         let scale = (1u64 << k) as f64;
         let place = [point.x / scale, point.y / scale];
         shift = shift.map(|s| 2.0 * s);
@@ -181,7 +180,7 @@ fn follow(
     Some((there, residual))
 }
 
-/// The displacement at one level, from a first guess of it.
+/// The displacement at one level, from an initial guess.
 fn step_down(
     from: &Level,
     to: &Level,

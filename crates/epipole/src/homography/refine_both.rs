@@ -1,4 +1,4 @@
-//! Refinement of H by what the pixels of both images are off.
+//! Refinement of H by the errors in both images.
 
 use super::refine::{moved, tangent_basis};
 use super::sums_both::{Whitening, cost, linearize, whitenings};
@@ -6,8 +6,8 @@ use crate::epipolar::coordinates::Coordinates;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, minimize_fixed};
 use nalgebra::{Matrix3, SVector};
 
-/// Matches whose transfer errors are measured by the noise that both images bring about, as it is at the start: its change
-/// with H is left to who repeats the refinement.
+/// Matches with transfer errors whitened by the noise of both images. The whitening is fixed at its
+/// initial value; the caller repeats the refinement to update it.
 struct BothImages<'a> {
     coordinates: &'a Coordinates,
     whitenings: Vec<Whitening>,
@@ -57,7 +57,7 @@ mod tests {
     use crate::robust::MatchSet;
     use nalgebra::{DMatrix, DVector, Matrix2, Point2};
 
-    /// A plane that leans away: what it shows of image 1 is enlarged here and made smaller there.
+    /// A slanted plane: some parts of image 1 are enlarged, others reduced.
     fn leaning() -> Matrix3<f64> {
         let h = Matrix3::new(2.0, 0.3, 0.1, -0.2, 0.7, -0.2, 0.4, -0.3, 1.0);
         h / h.norm()
@@ -167,7 +167,8 @@ mod tests {
         assert!(refine_by_both_images(&coordinates, &h, &LmOptions::default()).is_none());
     }
 
-    /// Where both images are noisy and lengths change, it is nearer to the truth than the transfer error.
+    /// With noise in both images and a change of scale, the result is closer to the truth than that
+    /// of the transfer error.
     #[test]
     fn it_is_nearer_to_the_truth() {
         use super::super::refine::refine_in_frame;

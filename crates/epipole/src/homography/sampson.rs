@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// * `homography`: H, of any scale
 /// * `pixel1`, `pixel2`: a match
 ///
-/// Infinite if H sends pixel 1 infinitely far away, or so far that the squares are no numbers.
+/// Infinite if H sends pixel 1 infinitely far away, or so far that the squares overflow.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 ///
@@ -51,13 +51,13 @@ pub fn homography_sampson_sq(
     }
 }
 
-/// How far, in first order, the two pixels of a match must move together so that H maps one on the
-/// other: the length of the smallest change of (u1, v1, u2, v2), pixels.
+/// Sampson error: to first order, the smallest change of (u1, v1, u2, v2), in pixels, after which H
+/// maps one pixel of a match to the other.
 ///
 /// Unlike [`transfer_error_px`](super::transfer_error_px) it treats both images alike: for noise of
-/// the same size in both, its square divided by the variance has two degrees of freedom, whatever H
-/// does to lengths. Infinite if H sends the pixel infinitely far away, or so far that squares are no
-/// numbers; never NaN for finite input.
+/// the same size in both, its square divided by the variance has two degrees of freedom at any
+/// magnification. Infinite if H sends the pixel infinitely far away, or so far that squares
+/// overflow; never NaN for finite input.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 ///

@@ -8,12 +8,13 @@ use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use crate::math::simd::dispatched;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
-/// `w S⁻¹` of eight matches, where w is what a match counts, as `[w1, t, w2]`: it makes of a transfer error (du, dv) the square
-/// `w1 du² + w2 (dv − t du)²`. All are 0 for a match that does not count.
+/// `w S⁻¹` of eight matches, with w the weight of a match, as `[w1, t, w2]`: the squared error is
+/// `w1 du² + w2 (dv − t du)²` for a transfer error (du, dv). All are 0 for a match of weight 0.
 pub(super) type Whitening = [Lanes; 3];
 
 dispatched! {
-    /// How the transfer errors of all matches are measured at H; `None` if H sends one of the pixels infinitely far away.
+    /// The whitening of all matches' transfer errors at H; `None` if H sends a pixel infinitely far
+    /// away.
     pub(super) fn whitenings(coordinates: &Coordinates, homography: &Matrix3<f64>) -> Option<Vec<Whitening>> {
         let h = entries(homography);
         let mut whitenings = Vec::with_capacity(coordinates.len().div_ceil(LANES));
@@ -91,7 +92,7 @@ dispatched! {
             let [u1, v1, u2, v2] = *lanes;
             let [w1, t, w2] = *whitening;
             for l in 0..LANES {
-                // What does not count may be infinitely far away.
+                // A match of weight 0 may be infinitely far away.
                 let counts = w1[l] > 0.0;
                 let du = if counts { du[l] } else { 0.0 };
                 let dv = if counts { dv[l] } else { 0.0 };

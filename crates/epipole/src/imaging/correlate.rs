@@ -1,4 +1,4 @@
-//! Any small kernel over an image, without the shortcut of separable ones; and what kernels do to noise.
+//! Correlation with any small kernel, separable or not, and the noise gain of kernels.
 
 use super::{Border, GrayImage32};
 use crate::{Error, Result};
@@ -51,10 +51,10 @@ pub fn correlate(image: &GrayImage32, kernel: &GrayImage32, border: Border) -> R
     Ok(GrayImage32::from_fn(width, height, weighed))
 }
 
-/// What a filter does to noise that is independent from pixel to pixel: the standard deviation of its
-/// answers for noise of standard deviation 1, `√(Σ w²)`.
+/// Noise gain of a filter: the standard deviation of its response to noise of standard deviation 1,
+/// independent between pixels, `√(Σ w²)`.
 ///
-/// That of a separable kernel is the product of its two factors'.
+/// The gain of a separable kernel is the product of the gains of its two factors.
 ///
 /// ```
 /// // The centered difference: √(¼ + ¼).

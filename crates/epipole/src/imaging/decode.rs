@@ -23,7 +23,7 @@ use std::io::Cursor;
 pub struct DecodeOptions {
     /// The largest width × height; a file that promises more is refused before memory is taken.
     pub max_pixels: u64,
-    /// Turn the image upright as its EXIF orientation says.
+    /// Whether to turn the image upright by its EXIF orientation.
     pub apply_orientation: bool,
 }
 
@@ -37,17 +37,17 @@ impl Default for DecodeOptions {
     }
 }
 
-/// An image and what its file says about the camera.
+/// An image and its file's data about the camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decoded<I> {
     /// The pixels.
     pub image: I,
-    /// A first guess of the focal length from the EXIF data, pixels of this image; `None` where
-    /// the file says nothing. With the principal point in the middle it makes a first guess of K.
+    /// Initial guess of the focal length from the EXIF data, pixels of this image; `None` without
+    /// these data. With the principal point in the middle it gives an initial K.
     pub focal_px: Option<f64>,
-    /// Where the camera was, if it had a receiver of satellite navigation and said so.
+    /// Position of the camera, if the file has GPS data.
     pub place: Option<Geodetic>,
-    /// How the file wants to be turned to stand upright, whether or not it was.
+    /// Rotation to upright that the file asks for, applied or not.
     pub orientation: Orientation,
 }
 
@@ -60,10 +60,10 @@ pub struct Decoded<I> {
 /// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
 /// [`Error::TooManyPixels`] beyond the limit.
 ///
-/// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or are for
-/// more blocks than the picture has. It has no checksum: data that were changed and still make
-/// sense are another picture. Bytes too many between its parts or behind it do no harm, nor does an
-/// end-of-image marker that is missing behind the last block.
+/// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or have
+/// more blocks than the image. There is no checksum: changed data that still decode are another
+/// image. Extra bytes between its parts or at the end do no harm, nor does a missing end-of-image
+/// marker behind the last block.
 ///
 /// ```
 /// use epipole::imaging::{DecodeOptions, decode_gray};
@@ -121,7 +121,7 @@ fn bad(error: &image::ImageError) -> Error {
     use image::ImageError::{Limits, Unsupported};
     let why = match error {
         Unsupported(_) => "it is no PNG, JPEG or WebP file".to_owned(),
-        // A size that no memory here has room for, even before a limit can be asked.
+        // A size beyond memory, even before a limit can be checked.
         Limits(_) => "it promises more pixels than fit into memory".to_owned(),
         other => other.to_string(),
     };
@@ -163,7 +163,7 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
             why: "it has no pixels".to_owned(),
         });
     }
-    // Metadata that cannot be read is treated as absent: the picture matters more.
+    // Unreadable metadata are treated as absent: the image matters more.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let exif = decoder.exif_metadata().unwrap_or(None);
     let mut image = DynamicImage::from_decoder(decoder).map_err(|error| bad(&error))?;
@@ -244,17 +244,17 @@ mod tests {
         let image = sample();
         let mut bytes = Vec::new();
         let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-        // Orientation 6: the camera was turned; upright is a quarter turn clockwise.
+        // Orientation 6: the camera was rotated; a clockwise quarter turn makes it upright.
         encoder.set_exif_metadata(exif(6, 28)).unwrap();
         encoder
             .write_image(image.as_raw(), 40, 30, image::ExtendedColorType::L8)
             .unwrap();
         let decoded = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
         assert_eq!(decoded.image.dimensions(), (30, 40));
-        // The stored top-left pixel stands at the top right.
+        // The stored top-left pixel is at the top right.
         let stored = f32::from(image.get_pixel(0, 0).0[0]) / 255.0;
         assert_eq!(decoded.image.get_pixel(29, 0).0[0], stored);
-        // The diagonal is 50 pixels and stands for 43.2666 mm of film.
+        // The diagonal is 50 pixels, equivalent to 43.2666 mm of film.
         let focal_px = decoded.focal_px.unwrap();
         assert!(
             (focal_px - 28.0 * 50.0 / 1872f64.sqrt()).abs() < 1e-9,
@@ -303,7 +303,7 @@ mod tests {
                     "{keep}: {result:?}"
                 );
             }
-            // A flipped byte may pass as another picture, but never panics.
+            // A flipped byte may pass as another image, but never panics.
             for k in 0..bytes.len() {
                 let mut corrupt = bytes.clone();
                 corrupt[k] ^= 0x55;
@@ -321,7 +321,7 @@ mod tests {
             letter.ends_with("it is no PNG, JPEG or WebP file"),
             "{letter}"
         );
-        // A kind of picture that is known elsewhere.
+        // An image format that is known elsewhere.
         let gif = why(b"GIF89a\x01\0\x01\0\0\0\0").to_string();
         assert!(gif.ends_with("it is no PNG, JPEG or WebP file"), "{gif}");
     }

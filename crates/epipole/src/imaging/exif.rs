@@ -56,7 +56,8 @@ impl Facts {
                 5 => 0.001,
                 _ => return None,
             };
-            // The resolution is that of the sensor; a picture scaled down later says so by its width.
+            // The resolution is that of the sensor; an image downscaled later differs from it in
+            // width.
             let scale = self
                 .number(Tag::PixelXDimension)
                 .filter(|&x| x > 0.0)
@@ -73,8 +74,8 @@ impl Facts {
             .or_else(|| measured().filter(plausible))
     }
 
-    /// Where a receiver of satellite navigation was; at sea level if it says no height. `None` without latitude and
-    /// longitude, or if they make no sense.
+    /// GPS position, at sea level if there is no height. `None` without latitude and longitude, or
+    /// if they are invalid.
     ///
     /// Source: CIPA DC-008 (EXIF 2.32), §4.6.6.
     pub(crate) fn place(&self) -> Option<Geodetic> {

@@ -119,8 +119,9 @@ pub fn gaussian_pyramid(image: &GrayImage32, num_levels: usize) -> Vec<GrayImage
     levels
 }
 
-/// What each level of the Gaussian pyramid holds beyond the next one, `Lₖ = Gₖ − up(Gₖ₊₁)`, and
-/// at the end the smallest Gaussian level itself. [`from_laplacian_pyramid`] undoes it.
+/// The Laplacian pyramid: the difference of each Gaussian level and the upsampled next one,
+/// `Lₖ = Gₖ − up(Gₖ₊₁)`, and at the end the smallest Gaussian level. [`from_laplacian_pyramid`]
+/// inverts it.
 ///
 /// Source: Burt & Adelson 1983, §3.
 ///

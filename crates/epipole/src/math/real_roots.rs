@@ -5,8 +5,8 @@ use super::polynomial::quadratic_roots;
 /// The degree that [`real_roots`] is for.
 pub(crate) const DEGREE: usize = 10;
 
-/// Where a polynomial of exact coefficients only touches zero, its value is rounding: below this share of the
-/// sum of its terms' sizes.
+/// Value of a polynomial with exact coefficients at a double root, due to rounding, as a share of
+/// the sum of its terms' sizes.
 #[cfg(test)]
 const ROUNDING: f64 = 1e-14;
 
@@ -16,18 +16,18 @@ const MAX_STEPS: usize = 1200;
 
 /// The last step to a root, relative to it.
 const LAST: f64 = 4.0 * f64::EPSILON;
-/// Newton's last step to a root of a derivative: what is left is the square of it, and an extremum's value hears
-/// the square of that.
+/// Newton's last step to a root of a derivative: the remaining error is its square, and the effect
+/// on an extremum's value the square of that.
 const LAST_OF_DERIVATIVES: f64 = 1e-6;
 
 /// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were written.
 ///
-/// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the polynomial, the
-/// others as inverses of roots of the reversed one, and each in the scale of its own neighborhood. Roots
-/// closer together than about 1e-7 of their size may be reported as one.
+/// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the
+/// polynomial, the others as inverses of roots of the reversed one, each in the scale of its
+/// neighborhood. Roots closer together than about 1e-7 of their size may be reported as one.
 ///
-/// * `noise`: an extremum whose value is below this share of the sum of its terms' sizes counts as a root,
-///   the double one that there might be without errors of the coefficients. At least 1e-14
+/// * `noise`: an extremum whose value is below this share of the sum of its terms' sizes counts as
+///   a root, as errors of the coefficients may hide a double root there. At least 1e-14
 ///
 /// Source: Yuksel 2022, "High-performance polynomial root finding for graphics", §3 (between roots of the
 /// derivative a polynomial is monotone).
@@ -107,8 +107,8 @@ impl Ascending {
 /// A polynomial, with zeros for the powers that it does not have.
 type Row = [f64; DEGREE + 1];
 
-/// The value of a polynomial of at most this degree, by Estrin's scheme: it has four sums on its way where Horner's has
-/// ten, one waiting for the other.
+/// The value of a polynomial of at most this degree, by Estrin's scheme: a chain of four dependent
+/// sums, where Horner's scheme has ten.
 #[inline(always)]
 fn value(c: &Row, degree: usize, x: f64) -> f64 {
     let x2 = x * x;
@@ -201,7 +201,7 @@ fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
     roots
 }
 
-/// Shows the parts of [−1, 1] between extrema: where each begins and ends, with the values there.
+/// Visits the parts of [−1, 1] between extrema: both ends, with the values there.
 #[inline(always)]
 fn monotone_parts(
     c: &Row,
@@ -292,8 +292,9 @@ mod tests {
         }
     }
 
-    /// Real roots of any size and complex pairs: every root within what its condition allows, no more and
-    /// no fewer. Polynomials whose roots rounding the coefficients may join are passed over.
+    /// Real roots of any size and complex pairs: every root within the accuracy that its condition
+    /// allows, no more and no fewer. Polynomials whose roots may merge by rounding the coefficients
+    /// are skipped.
     fn lost_over_twelve_decades(trials: usize, seed: u64) -> (usize, usize) {
         let mut random = Random::new(seed);
         let (mut lost, mut judged) = (0, 0);

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 
-/// A power of two within a factor of two of `|x|`, for any x but NaN and infinities; as near as
-/// there is one at either end of the range of numbers.
+/// A power of two within a factor of two of `|x|`, for any finite x; clamped at either end of the
+/// range of numbers.
 ///
-/// What is divided by it has the digits it had, so sizes that would overflow, or vanish, when squared
-/// can be taken out of a computation and put back without a trace.
+/// Division by it is exact, so values whose squares would overflow or underflow can be scaled and
+/// scaled back without error.
 #[inline]
 pub(crate) fn power_of_two(x: f64) -> f64 {
     const EXPONENT_BITS: u64 = 0x7ff;
@@ -15,7 +15,7 @@ pub(crate) fn power_of_two(x: f64) -> f64 {
     f64::from_bits(exponent.clamp(1, EXPONENT_BITS - 2) << 52)
 }
 
-/// The vector of length 1 in a direction, whatever the length; `None` for zero, NaN and infinities.
+/// The unit vector in a direction of any length; `None` for zero, NaN and infinities.
 #[inline]
 pub(crate) fn unit(vector: &Vector3<f64>) -> Option<Vector3<f64>> {
     let largest = vector.amax();

@@ -1,4 +1,4 @@
-//! The one Levenberg–Marquardt loop.
+//! The Levenberg–Marquardt loop of all refinements.
 
 use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
@@ -58,7 +58,7 @@ pub(crate) struct DampedStep {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct LmOptions {
-    /// Steps tried at most, rejected ones included.
+    /// Maximum number of steps, including rejected ones.
     pub max_iterations: usize,
     /// Converged when no component of the gradient is larger.
     pub gradient_tolerance: f64,
@@ -75,7 +75,8 @@ pub struct LmOptions {
 }
 
 impl LmOptions {
-    /// A few steps amid robust estimation: the next round begins where they end, so they need not be exact.
+    /// A few steps within robust estimation: the next round starts from their result, so they need
+    /// not be exact.
     pub(crate) fn few_steps(max_iterations: usize) -> Self {
         Self {
             max_iterations,
@@ -106,7 +107,7 @@ pub struct Iteration {
     pub index: usize,
     /// The best cost so far.
     pub cost: f64,
-    /// λ, with which this step was computed.
+    /// Damping λ of this step.
     pub damping: f64,
     /// Whether the step lowered the cost and was kept.
     pub accepted: bool,
@@ -121,8 +122,7 @@ pub enum Termination {
     SmallStep,
     /// Converged: the cost hardly decreased.
     SmallCostChange,
-    /// The permitted number of iterations is used up. Whether the gradient vanished with the last
-    /// of them is not looked at.
+    /// The maximum number of iterations is reached. The gradient after the last one is not checked.
     MaxIterations,
     /// No damping gave a usable step: the problem is singular, or not finite around here.
     Stuck,
@@ -160,12 +160,13 @@ pub struct LmReport {
 const MAX_DAMPING: f64 = 1e24;
 const MIN_DAMPING: f64 = 1e-20;
 
-/// Minimizes `½ Σ ρ(‖r‖²)` from `parameters`, in place, and says how it went.
+/// Minimizes `½ Σ ρ(‖r‖²)` from `parameters`, in place, and returns a report.
 ///
 /// Each iteration solves `(JᵀJ + λ D) δ = −Jᵀr` and keeps `parameters ⊞ δ` if the true cost
 /// decreases. The damping λ falls when the quadratic model predicts well and rises otherwise.
 ///
-/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::Refinement`]
+/// * `monitor`: called before the first step and after each one, in the one stage
+///   [`Stage::Refinement`]
 ///
 /// # Errors
 /// [`Error::NotFinite`] if the cost or gradient at the start is not finite, [`Error::Canceled`] if the monitor
@@ -250,7 +251,7 @@ pub(super) fn minimize_visiting<S: System>(
                 converged = Some(Termination::SmallCostChange);
             }
             if improves && (converged.is_some() || report.iterations == options.max_iterations) {
-                // The last step: what the derivatives are there is of no use.
+                // The last step: derivatives there are not needed.
                 std::mem::swap(parameters, &mut candidate);
                 report.final_cost = cost;
                 accepted = true;
@@ -276,7 +277,7 @@ pub(super) fn minimize_visiting<S: System>(
                         steps_away += 1;
                     }
                 } else {
-                    // Where the derivatives are not finite the search cannot go on: undo.
+                    // Undo: the search cannot continue without finite derivatives.
                     system.linearize(parameters);
                 }
             }

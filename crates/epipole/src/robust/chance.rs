@@ -5,17 +5,18 @@ use crate::math::order::at_rank;
 /// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
 pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 
-/// How many models with so much support are to be expected among data that have nothing to do with
-/// one another: a bound on the number of false alarms, as its decimal logarithm.
+/// The expected number of models with at least this support among unrelated data: a bound on the
+/// number of false alarms, as its decimal logarithm.
 ///
 /// * `num_inliers` of `num_data` different data fit the model
 /// * `sample_size`: data that determine a model; these fit it anyway
 /// * `max_models`: models that one sample can give
-/// * `chance`: the probability that a datum which has nothing to do with a model fits it, in \[0, 1\]
+/// * `chance`: the probability that a datum unrelated to a model fits it, in \[0, 1\]
 ///
-/// Every sample is one try, `max_models · C(n, s)` in all, and each of the other data fits by chance;
-/// the tail of that binomial distribution is bounded by `exp(−m KL(k/m ‖ chance))`. Near or above 0,
-/// the support says nothing; at −10 it would come about once in 10¹⁰ such sets of data.
+/// Every sample is one trial, `max_models · C(n, s)` in all, and each of the other data fits by
+/// chance; the tail of that binomial distribution is bounded by `exp(−m KL(k/m ‖ chance))`. Near or
+/// above 0, the support is not significant; at −10 it would come about once in 10¹⁰ data sets of
+/// this kind.
 ///
 /// Source: Moisan & Stival 2004, "A probabilistic criterion to detect rigid point matches between two
 /// images and estimate the fundamental matrix" (the number of false alarms); Hoeffding 1963 (the
@@ -54,15 +55,15 @@ pub fn log10_false_alarms(
     (log_tries - others * divergence) / core::f64::consts::LN_10
 }
 
-/// The part of the data at either end that does not say how far the others reach: a stray pixel a
-/// million pixels away would make everything else unlikely to meet by chance.
+/// Share of the data at either end that is ignored for their extent: one outlier a million pixels
+/// away would make chance fits look impossible.
 const STRAY: f64 = 0.05;
 
-/// A box is taken to be so many times as high as wide, at least, and as wide as high: points in a row
-/// of pixels come from an image, too.
+/// Minimum ratio of the shorter to the longer side of a box: points in a row of pixels come from an
+/// image, too.
 const THINNEST: f64 = 0.1;
 
-/// How far values reach, without the strays at either end.
+/// Range of the values without the outliers at either end.
 fn reach(mut values: Vec<f64>) -> f64 {
     let count = values.len();
     if count < 2 {
@@ -83,7 +84,7 @@ fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
     if width > 0.0 {
         (area / (width * height)).min(1.0)
     } else {
-        // Equal data, or none, tell nothing.
+        // Equal data, or none, carry no information.
         1.0
     }
 }
@@ -160,7 +161,7 @@ mod tests {
                 assert!(value.is_finite(), "{k} of {n}, {chance}: {value}");
             }
         }
-        // Where anything fits, nothing is told.
+        // Nothing is significant if anything fits.
         assert!(log10_false_alarms(1000, 1000, 7, 3, 1.0) > 0.0);
     }
 
@@ -170,7 +171,7 @@ mod tests {
         assert!((chance_near_line(lists(&corners), 3.0) - 0.025).abs() < 1e-12);
         let disk = core::f64::consts::PI * 4.0 / 120_000.0;
         assert!((chance_near_point(lists(&corners), 2.0) - disk).abs() < 1e-12);
-        // Equal points, or none at all, say nothing.
+        // Equal points, or none, carry no information.
         assert_eq!(chance_near_line(lists(&[corners[0]; 5]), 3.0), 1.0);
         assert_eq!(chance_near_point(lists(&[]), 3.0), 1.0);
         // Points in a row come from an image a tenth as high as wide.

@@ -15,8 +15,8 @@ pub struct Support {
 
 /// The data of a robust problem, addressed by index `0..len()`.
 ///
-/// What the loop knows beyond the errors follows from the kind: which data repeat others, how much each counts, and
-/// how likely one fits by chance.
+/// The kind determines the loop's knowledge beyond the errors: repeated data, their weights, and
+/// the probability of a fit by chance.
 #[derive(Debug, Clone, Copy)]
 pub enum Data<'a> {
     /// Matches between two images.

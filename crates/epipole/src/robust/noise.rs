@@ -3,21 +3,21 @@
 use super::Estimator;
 use super::chance::UNKNOWN_CHANCE;
 
-/// How near data are to a model that they have nothing to do with.
+/// Distribution of the errors of data unrelated to a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Background {
     codimension: usize,
-    /// The chance that such a datum is within one pixel, were it so little. It grows with the error to the
-    /// power of `codimension`.
+    /// Probability that an unrelated datum is within one pixel, extrapolated from small errors. It
+    /// grows with the error to the power of `codimension`.
     chance_of_one_px: f64,
 }
 
 impl Background {
-    /// As an estimator has it.
+    /// Takes the chance of a fit from an estimator.
     ///
-    /// * `little_px`: an error within which hardly any of such data are
-    /// * `unknown_px`: the error within which [`UNKNOWN_CHANCE`] of them are, for an estimator that does not
-    ///   know
+    /// * `little_px`: an error that hardly any unrelated data are within
+    /// * `unknown_px`: the error that [`UNKNOWN_CHANCE`] of them are within, for an estimator that
+    ///   does not know
     pub(super) fn new<E: Estimator + ?Sized>(
         estimator: &E,
         little_px: f64,
@@ -38,12 +38,12 @@ impl Background {
         self.codimension
     }
 
-    /// The chance that such a datum is within this error.
+    /// The probability that an unrelated datum is within this error.
     pub(super) fn chance(&self, error_px: f64) -> f64 {
         (self.chance_of_one_px * to_the(self.codimension, error_px)).min(1.0)
     }
 
-    /// The error within which this share of such data is.
+    /// The error that this share of unrelated data is within.
     pub(super) fn reach_px(&self, share: f64) -> f64 {
         let power = share / self.chance_of_one_px;
         if self.codimension == 1 {
@@ -53,8 +53,7 @@ impl Background {
         }
     }
 
-    /// How much more often good data than others have an error near 0: their density over that of the
-    /// others.
+    /// Ratio of the densities of good and unrelated data at error 0.
     fn contrast(&self, scale_px: f64) -> f64 {
         // Half of a Gaussian over a constant, or Rayleigh's density over a straight line.
         let per_scale = match self.codimension {
@@ -69,25 +68,25 @@ fn to_the(codimension: usize, x: f64) -> f64 {
     if codimension == 1 { x } else { x * x }
 }
 
-/// The rounds of expectation and maximization end when the scale moves by less than this share, or after
-/// so many.
+/// Expectation and maximization end when the scale moves by less than this share, or after `ROUNDS`
+/// rounds.
 const STEADY: f64 = 1e-3;
 const ROUNDS: usize = 100;
 
-/// Where the search for the scale begins, as multiples of the one expected.
+/// Initial values of the search for the scale, as multiples of the expected one.
 const STARTS: [f64; 3] = [1.0, 4.0, 0.25];
 
-/// The standard deviation of the errors that good data have in each dimension, pixels. `None` if no data
-/// stand out from the others.
+/// The standard deviation of the errors that good data have in each dimension, pixels. `None` if no
+/// data are distinct from the background.
 ///
-/// Errors are a mixture: those of good data Gaussian, those of the others as `background` has them. Whoever
-/// took the deviation of the data within a threshold instead would find what he assumed: a threshold too small
-/// cuts off the larger errors, one too large lets in wrong data. And a model is nearer to the data that it was
-/// fitted to than the truth is: they have as many errors fewer as it has parameters.
+/// Errors are a mixture: those of good data Gaussian, those of the others as in `background`. The
+/// deviation of the data within a threshold would instead confirm the threshold: one too small cuts
+/// off the larger errors, one too large lets in wrong data. A model is also closer to the data that
+/// it was fitted to than the truth is: they have as many errors fewer as it has parameters.
 ///
 /// * `errors_sq`: of the data nearest to the model, px², all others being wrong
-/// * `num_data`: how many there are in all
-/// * `expected_px`: where to begin; others are tried, too
+/// * `num_data`: total number of data
+/// * `expected_px`: initial value; others are tried, too
 /// * `least_px`: no deviation is smaller
 /// * `num_parameters`: of the model
 ///
@@ -116,7 +115,7 @@ pub(super) fn noise_scale_px(
     }
     let num_errors = background.codimension as f64 * best.num_good;
     let left = num_errors - num_parameters as f64;
-    // Fewer data than another sample would take say nothing of their own.
+    // With less redundancy than one sample the estimate is meaningless.
     (left >= 1.0).then(|| best.scale_px * (num_errors / left).sqrt())
 }
 

@@ -39,7 +39,7 @@ pub enum ScoreKind {
     InlierCount,
 }
 
-/// Which formula says how many samples are enough.
+/// Formula for the sufficient number of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -63,10 +63,10 @@ pub enum Budget {
 pub enum ThresholdKind {
     /// It is [`RansacOptions::max_error_px`].
     Given,
-    /// It is found along with the model, from the noise that good data turn out to have: 99 of 100 of
-    /// them are within it. [`RansacOptions::max_error_px`] is not looked at, nor does the outcome depend
-    /// on any guess; [`RansacReport::max_error_px`] says what was found, at least a twentieth of a pixel. The
-    /// loop runs some five times, with [`RansacOptions::max_iterations`] for each run.
+    /// Estimated along with the model from the noise of the inliers: 99 of 100 of them are within
+    /// it. [`RansacOptions::max_error_px`] is ignored, and the outcome does not depend on any
+    /// guess; [`RansacReport::max_error_px`] is the estimated threshold, at least a twentieth of a
+    /// pixel. The loop runs some five times, with [`RansacOptions::max_iterations`] for each run.
     ///
     /// This is for [`ransac`](super::ransac) and all that call it; [`Ransac`](super::Ransac) by itself is
     /// one run, with the threshold given.
@@ -96,13 +96,13 @@ pub struct RansacOptions {
     pub max_error_px: f64,
     /// Source of the threshold. Given.
     pub threshold: ThresholdKind,
-    /// The probability that one sample at least is free of outliers, in (0, 1). 0.999.
+    /// The probability that at least one sample is free of outliers, in (0, 1). 0.999.
     pub confidence: f64,
-    /// Minimum number of samples, unless [`max_iterations`](Self::max_iterations) is
-    /// lower. 200: the number that the share of inliers asks for takes every sample without
-    /// outliers for a good start, but with noise only some of them lead to the best model.
+    /// Minimum number of samples, unless [`max_iterations`](Self::max_iterations) is lower. 200:
+    /// the number required by the inlier ratio takes every sample without outliers for a good
+    /// start, but with noise only some of them lead to the best model.
     pub min_iterations: usize,
-    /// Samples drawn at most, ≥ 1. 10 000.
+    /// Maximum number of samples, ≥ 1. 10 000.
     pub max_iterations: usize,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
@@ -115,7 +115,7 @@ pub struct RansacOptions {
     pub local_optimization: bool,
     /// Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4.
     pub inner_iterations: usize,
-    /// Which formula says how many samples are enough. Without replacement.
+    /// Formula for the sufficient number of samples. Without replacement.
     pub budget: Budget,
     /// Whether every model is compared with every datum, so that a figure can show its score.
     /// Otherwise a model is dropped as soon as it cannot win. False.
@@ -142,7 +142,8 @@ impl Default for RansacOptions {
 }
 
 impl RansacOptions {
-    /// The same with a threshold that is given: that of a report, for what follows from its inliers.
+    /// The same with a given threshold, such as that of a report, for steps that build on its
+    /// inliers.
     ///
     /// ```
     /// use epipole::robust::{RansacOptions, ThresholdKind};
@@ -195,7 +196,7 @@ impl RansacOptions {
 /// Why the loop ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopReason {
-    /// Enough samples for the confidence asked.
+    /// Enough samples for the required confidence.
     Confident,
     /// [`RansacOptions::max_iterations`] were drawn; the confidence was not reached.
     Exhausted,
@@ -213,23 +214,23 @@ pub struct RansacReport<M> {
     pub inliers: Vec<bool>,
     /// Number of `inliers` that are true.
     pub num_inliers: usize,
-    /// The same, with equal data counted once, and for F, E and H matches that meet in a pixel of an
-    /// image, too. This number, not `num_inliers`, says how well the model is supported.
+    /// The same, with equal data counted once, and for F, E and H also matches that meet in a pixel
+    /// of an image. This number, not `num_inliers`, measures the support of the model.
     pub num_unique_inliers: usize,
     /// Data that were left out, and so are no inliers: an infinite coordinate, or one beyond 10⁹ pixels.
     pub num_left_out: usize,
     /// Samples drawn.
     pub iterations: usize,
-    /// Samples that the final share of inliers asks for, with [`SamplerKind::Prosac`] that among the
-    /// best data; `u64::MAX` if no number is enough.
+    /// Number of samples required by the final inlier ratio, with [`SamplerKind::Prosac`] that
+    /// among the best data; `u64::MAX` if no number is enough.
     pub required_iterations: u64,
     /// The threshold T within which a datum is an inlier, pixels.
     pub max_error_px: f64,
     /// The model's score over different data, as [`ScoreKind`] defines it.
     pub score: f64,
-    /// How many models with so many inliers data without any structure would give, as a decimal
-    /// logarithm ([`log10_false_alarms`](super::log10_false_alarms)): below 0, or the support says
-    /// nothing. `None` if the estimator does not know the chance of a datum.
+    /// Expected number of models with this support in data without any structure, as a decimal
+    /// logarithm ([`log10_false_alarms`](super::log10_false_alarms)): the support is significant
+    /// only below 0. `None` if the estimator does not know the chance of a datum.
     pub log10_false_alarms: Option<f64>,
     /// Number of times a model was improved from its inliers.
     pub refinements: usize,

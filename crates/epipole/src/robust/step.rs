@@ -11,7 +11,7 @@ pub enum Step<'a, M> {
     Finished(StopReason),
 }
 
-/// One sample and what came of it.
+/// One sample and its outcome.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial<'a, M> {
     /// Counts from 1.
@@ -27,10 +27,10 @@ pub struct Trial<'a, M> {
     pub score: f64,
     /// Its inliers. A lower bound in the same case.
     pub num_inliers: usize,
-    /// Samples that the best model so far asks for; `u64::MAX` before there is one.
+    /// Number of samples required by the best model so far; `u64::MAX` before there is one.
     pub required_iterations: u64,
     /// Whether the best model so far came out of this step.
     pub is_best: bool,
-    /// That model, if local optimization improved it further.
+    /// The best model so far after local optimization, if that improved it further.
     pub refined: Option<M>,
 }

@@ -76,20 +76,22 @@ pub struct SfmResult {
 /// is refined by bundle adjustment; observations that fit badly are dropped, others picked up
 /// again. Images that cannot be added start further components.
 ///
-/// Where [`SfmImage::position`] is known for three images of a component that are not on one line, it is moved there
-/// in the end, and refined once more with these positions; some may be wrong.
+/// A component with three known [`SfmImage::position`]s that are not on one line is moved there in
+/// the end, and refined once more with these positions; some may be wrong.
 ///
 /// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`] and
 ///   [`Stage::BundleAdjustment`]
 ///
 /// The result can be empty: then no pair of photographs had enough matches in common.
-/// [`IncrementalReconstruction`] does the same step by step, and keeps what there is when it is canceled.
+/// [`IncrementalReconstruction`] does the same step by step, and keeps the partial result when it
+/// is canceled.
 ///
 /// # Errors
 /// [`TooFew`](crate::Error::TooFew) for fewer than two photographs, [`SizeMismatch`](crate::Error::SizeMismatch)
-/// unless there is one set of intrinsics or one a photograph, [`OutOfRange`](crate::Error::OutOfRange) for options
-/// out of range or matches that refer to what is not there, [`NotFinite`](crate::Error::NotFinite) for NaN and
-/// infinities, in a lens as well, [`Canceled`](crate::Error::Canceled).
+/// unless there is one set of intrinsics or one a photograph,
+/// [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with invalid
+/// indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, in a lens, too,
+/// [`Canceled`](crate::Error::Canceled).
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited".
 ///
@@ -113,8 +115,8 @@ pub fn reconstruct(
     Ok(run.finish())
 }
 
-/// Cameras and points from pairs that [`verify_matches`](super::verify_matches) has tested already, wherever and in
-/// whatever order: the rest of [`reconstruct`].
+/// Cameras and points from pairs that [`verify_matches`](super::verify_matches) has tested already,
+/// in any order: the rest of [`reconstruct`].
 ///
 /// * `images`, `intrinsics`: the photographs, and the intrinsics of each, or one for all
 ///
@@ -220,7 +222,8 @@ impl IncrementalReconstruction {
     /// * `monitor`: the stages are [`Stage::Registration`] and [`Stage::BundleAdjustment`]
     ///
     /// # Errors
-    /// [`Canceled`](crate::Error::Canceled); what there is so far is valid, and the next call goes on from there.
+    /// [`Canceled`](crate::Error::Canceled); the partial result is valid, and the next call
+    /// continues from there.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
         loop {
             let taken = match self.phase {
@@ -250,7 +253,7 @@ impl IncrementalReconstruction {
         (self.builder.num_registered() > 0).then(|| self.builder.so_far())
     }
 
-    /// All components, the one that grows now included.
+    /// All components, including the current one.
     pub fn finish(mut self) -> SfmResult {
         self.components.extend(self.current());
         (self.components).sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
@@ -375,8 +378,8 @@ impl IncrementalReconstruction {
             }
             self.components.push(component);
         } else {
-            // All fell away again, as where no point is seen by as many images as are asked for. The same two would
-            // end in the same way.
+            // No point survived, as if no point is seen by the required number of images. The same
+            // initial pair would end in the same way.
             for image in first_two {
                 self.builder.taken[image] = true;
             }

@@ -1,4 +1,4 @@
-//! Closing loops: what a camera sees again tells how far its path has drifted, in scale too.
+//! Loop closing: a revisited place reveals how far the path has drifted, in scale, too.
 
 use super::alignment::{AlignmentKind, align_points};
 use super::pose_graph::{Edge, Graph, GraphPose, PoseGraphReport};
@@ -8,7 +8,7 @@ use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Point3, SMatrix, Similarity3};
 
-/// A frame that shows again what an earlier one showed.
+/// A frame that shows part of an earlier one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopClosure {
     /// Index of the earlier frame.
@@ -33,11 +33,11 @@ pub struct ClosedPath {
     pub report: PoseGraphReport,
 }
 
-/// The similarity between two reconstructions of the same points, some of which are matched
-/// wrongly, and which agree: `to_from_from * from[i]` is within `max_distance` of `to[i]`.
+/// The similarity between two reconstructions of the same points, with some wrong matches, and
+/// which points agree: `to_from_from * from[i]` is within `max_distance` of `to[i]`.
 ///
-/// Samples of three points are aligned; the similarity that most points agree with is fitted to
-/// them again. A pair with a coordinate that is infinite is wrong in any case and left out.
+/// Samples of three points are aligned; the similarity with the most inliers is fitted to them
+/// again. A pair with an infinite coordinate is wrong in any case and left out.
 ///
 /// * `max_distance`: in the unit of `to`, > 0
 /// * `seed`: equal seeds give equal results
@@ -104,7 +104,7 @@ struct SimilarityOfPoints<'a> {
 
 impl<'a> SimilarityOfPoints<'a> {
     fn new(from: &'a [Point3<f64>], to: &'a [Point3<f64>]) -> Result<Self> {
-        // The alignment of all finds what is wrong with the lists.
+        // The alignment of all finds the error in the lists.
         align_points(from, to, AlignmentKind::Similarity).or_else(|error| match error {
             Error::Degenerate { .. } => Ok(Similarity3::identity()),
             other => Err(other),
@@ -152,7 +152,7 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
 pub enum LoopMotion {
     /// Position and orientation, SE(3): right where the scale is measured, as by a stereo rig.
     Rigid,
-    /// Position, orientation and scale, Sim(3), as for what one moving camera sees.
+    /// Position, orientation and scale, Sim(3), for a single moving camera.
     #[default]
     Similarity,
 }
@@ -161,9 +161,9 @@ pub enum LoopMotion {
 /// edge, each loop another.
 ///
 /// * `world_from_cam`: the path, frame after frame
-/// * `loops`: which frames meet again, and how
-/// * `motion`: what may change; [`LoopMotion::Rigid`] leaves every scale at 1 and does not read that
-///   of the loops
+/// * `loops`: pairs of frames that meet again, with their motion
+/// * `motion`: free components; [`LoopMotion::Rigid`] leaves every scale at 1 and ignores the
+///   scales of the loops
 /// * `loss`: robust to wrong loops; its width is in standard deviations of a step
 /// * `monitor`: as in [`Graph::optimize`]
 ///
@@ -365,7 +365,7 @@ mod tests {
         let count = 40;
         let (truth, path) = drifted(count, 1.01);
         let last = count - 1;
-        // What the last frame reconstructs is larger than what the first one does.
+        // The last frame's reconstruction is larger than the first one's.
         let drift = 1.01f64.sqrt() * (1..last).fold(1.0, |s, _| s * 1.01);
         let similar = close(&path, &truth, drift, LoopMotion::Similarity);
         let rigid = close(&path, &truth, drift, LoopMotion::Rigid);
@@ -378,7 +378,7 @@ mod tests {
             "{:?}",
             similar.scale
         );
-        // The ends meet as well, but the way between them keeps its wrong lengths.
+        // The ends meet, too, but the path between them keeps its wrong lengths.
         assert!(
             rigid_error > 3.0 * similar_error,
             "{rigid_error}, {similar_error}"
@@ -424,7 +424,7 @@ mod tests {
         let (found, inliers) = estimate_similarity_of_points(&from, &to, 0.05, 1).unwrap();
         assert!((found.scaling() - 1.7).abs() < 1e-9);
         assert_eq!(inliers.iter().filter(|inlier| **inlier).count(), 40);
-        // One infinite pair is left out, wherever it stands, and NaN is refused.
+        // One infinite pair is left out at any index, and NaN is refused.
         let (mut far_from, mut far_to) = (from.clone(), to.clone());
         far_from.insert(1, Point3::new(f64::INFINITY, 0.0, 1.0));
         far_to.insert(1, Point3::origin());

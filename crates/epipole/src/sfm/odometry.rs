@@ -15,7 +15,7 @@ use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use std::collections::VecDeque;
 
-/// What is asked for, as an error of too few says.
+/// Name of the result in [`Error::TooFew`].
 const OF_FRAMES: &str = "the path of a camera from frames";
 
 /// Maximum number of refinements at the end.
@@ -36,12 +36,12 @@ const VERIFIED: f32 = 0.5;
 ///
 /// The start comes from the essential matrix of the first two frames that see their points under
 /// a sufficient angle; each further frame is placed by P3P. Frames that show something new become
-/// keyframes: they give points, and the last of them are refined together. [`Odometry`] does the same step by step,
-/// and keeps what there is when it is canceled.
+/// keyframes: they give points, and the last of them are refined together. [`Odometry`] does the
+/// same step by step, and keeps the partial result when it is canceled.
 ///
 /// # Errors
-/// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames make a
-/// start, as when the camera only turns or stands still.
+/// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames make a start,
+/// as for a camera that only rotates or does not move.
 ///
 /// Source: Nistér, Naroditsky & Bergen 2004, "Visual odometry"; Mouragnon et al. 2006, "Real time
 /// localization and 3D reconstruction" (refining the last frames).
@@ -57,16 +57,15 @@ pub fn monocular_odometry(
 ///
 /// * `left`: frames of the left camera in order of time, and matches between them
 /// * `right`: the same frames of the right camera
-/// * `left_right`: matches between the two pictures of each frame, left first
-/// * `right_from_left`: the rig; its translation is minus the baseline along x if the pictures are
-///   rectified
+/// * `left_right`: matches between the two images of each frame, left first
+/// * `right_from_left`: the rig; for rectified images its translation is minus the baseline along x
 /// * `right_intrinsics`: of the right camera
 /// * `monitor`: as in [`monocular_odometry`]
 ///
 /// # Errors
-/// As [`monocular_odometry`]; [`Error::SizeMismatch`] unless there are as many right pictures and
-/// lists of matches as left pictures; [`Error::Degenerate`] for a rig without a baseline, or if
-/// the first frame has too few matches.
+/// As [`monocular_odometry`]; [`Error::SizeMismatch`] unless there are as many right images and
+/// lists of matches as left images; [`Error::Degenerate`] for a rig without a baseline, or if the
+/// first frame has too few matches.
 ///
 /// Source: Nistér, Naroditsky & Bergen 2004, "Visual odometry", §5.
 pub fn stereo_odometry(
@@ -172,7 +171,7 @@ impl Odometry {
         let mut input = left.clone();
         input.images.extend(right.iter().cloned());
         intrinsics.resize(2 * num_frames, *right_intrinsics);
-        // Right pictures take part through their left ones alone.
+        // Right images are linked to other frames only through their left ones.
         for (frame, matches) in left_right.iter().enumerate() {
             input.pairs.push(PairMatches {
                 image1: frame,
@@ -234,7 +233,7 @@ impl Odometry {
             options: options.clone(),
             num_frames,
             keyframes,
-            // Forward to the end, then back for what came before the start.
+            // Forward to the end, then back from the start.
             order: (first..num_frames).chain((0..first).rev()).collect(),
             num_adjustments: match options.final_adjustment {
                 true => FINAL_ADJUSTMENTS,
@@ -249,7 +248,7 @@ impl Odometry {
     /// * `monitor`: the stages are [`Stage::Registration`] and [`Stage::BundleAdjustment`]
     ///
     /// # Errors
-    /// [`Error::Canceled`]; what there is so far is valid.
+    /// [`Error::Canceled`]; the partial result is valid.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
         while let Some(&frame) = self.order.front() {
             report(monitor, Stage::Registration, self.share)?;
@@ -281,7 +280,7 @@ impl Odometry {
         Ok(None)
     }
 
-    /// The path as far as it is known.
+    /// The path so far.
     pub fn finish(self) -> OdometryResult {
         let is_complete = self.order.is_empty() && self.num_adjustments == 0;
         let cameras = &self.builder.cameras;
@@ -356,7 +355,7 @@ fn start_early(
     Ok(false)
 }
 
-/// Starts at the first frame whose two pictures share enough points.
+/// Starts at the first frame whose two images share enough points.
 fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
     for frame in 0..num_frames {
         let camera = PosedCamera {

@@ -30,8 +30,8 @@ pub struct SfmInput {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct SfmOptions {
-    /// How a pair's matches are tested, by E, and with a threshold and a sampler of its own how an image is
-    /// registered. Its threshold is 2 pixels, and its seed is not looked at.
+    /// RANSAC for the essential matrix of a pair, and, with a threshold and a sampler of its own,
+    /// for registering an image. Its threshold is 2 pixels, and its seed is ignored.
     pub ransac: RansacOptions,
     /// Largest reprojection error when an image is registered, pixels. 6.
     pub max_registration_error_px: f64,
@@ -81,12 +81,12 @@ impl Default for SfmOptions {
     }
 }
 
-/// What is asked for of photographs, as an error of too few says.
+/// Name of the result in [`TooFew`](crate::Error::TooFew).
 pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
 
 /// Checks images, intrinsics and options; returns the intrinsics of each image.
 ///
-/// * `what`: what is asked for, for the error of too few
+/// * `what`: name of the result, for the error of too few
 pub(super) fn check(
     what: &'static str,
     images: &[SfmImage],
@@ -166,7 +166,7 @@ pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
     }
 }
 
-/// Of each image, as it is at the start.
+/// The initial lens of each image.
 pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
     let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
     images.iter().map(of).collect()

@@ -18,7 +18,7 @@ use image::RgbImage;
 /// A photograph with a name.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Photo {
-    /// Its name, such as that of its file.
+    /// Name, such as the file name.
     pub name: String,
     /// Its pixels.
     pub image: RgbImage,
@@ -42,14 +42,15 @@ pub struct PhotoOptions {
     pub features: FeatureOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
-    /// Match each photograph with so many after it; 0 for all. For frames in order of time.
+    /// Number of following photographs to match each one with; 0 for all. For frames in order of
+    /// time.
     pub neighbors: usize,
     /// Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than in the
     /// order of the first photograph's keypoints. False.
     pub best_first: bool,
 }
 
-/// What [`match_features`] needs to know about a photograph; its pixels are no longer needed.
+/// Input of [`match_features`] for one photograph; its pixels are no longer needed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotoFeatures {
     /// Size, keypoints and their colors.
@@ -135,8 +136,8 @@ pub fn match_features(
     Ok(pairs)
 }
 
-/// Matches between the two pictures of a rectified stereo pair, left first: those that share a
-/// row to within 2 pixels and are further right in the left picture.
+/// Matches between the two images of a rectified stereo pair, left first: those that share a row to
+/// within 2 pixels and are further right in the left image.
 ///
 /// # Errors
 /// As [`match_any_descriptors`].
@@ -225,7 +226,7 @@ const MATCHED: f32 = 0.6;
 ///
 /// * `monitor`: the stages are those of [`match_photos`], then those of [`reconstruct`]
 ///
-/// Returns the keypoints and matches as well.
+/// Returns the keypoints and matches, too.
 ///
 /// # Errors
 /// As [`reconstruct`] and [`match_photos`].

@@ -1,4 +1,4 @@
-//! Two views whose motion is known: points for their matches, and all of it refined.
+//! Reconstruction from two views with known motion: triangulation and refinement.
 
 use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
@@ -23,9 +23,9 @@ const MAX_REPETITIONS: usize = 5;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct TwoViewReconstructionOptions {
-    /// Points whose rays meet at a smaller angle are left out, radians, ≥ 0.
+    /// Minimum triangulation angle, radians, ≥ 0.
     pub min_angle_rad: f64,
-    /// Points whose projection misses a pixel by more after the refinement are left out, pixels, > 0.
+    /// Maximum reprojection error of a point after the refinement, pixels, > 0.
     pub max_error_px: f64,
     /// Fewer points than this are no reconstruction.
     pub min_num_points: usize,
@@ -34,8 +34,8 @@ pub struct TwoViewReconstructionOptions {
 }
 
 impl Default for TwoViewReconstructionOptions {
-    /// Rays that meet at half a degree or more, errors of at most 4 pixels, at least 15 points, and
-    /// Huber's loss of 2 pixels.
+    /// A triangulation angle of at least half a degree, errors of at most 4 pixels, at least 15
+    /// points, and Huber's loss of 2 pixels.
     fn default() -> Self {
         Self {
             min_angle_rad: 0.5_f64.to_radians(),
@@ -57,16 +57,15 @@ pub struct TwoViewReconstruction {
     pub cam2_from_cam1: RigidTransform,
     /// The points.
     pub points: Vec<Point3<f64>>,
-    /// The same points as they were first triangulated from the motion given, whose translation was
-    /// scaled to the length 1.
+    /// The same points as first triangulated from the given motion, its translation scaled to
+    /// length 1.
     pub triangulated: Vec<Point3<f64>>,
     /// For each point, the index of its match; in increasing order.
     pub match_of_point: Vec<usize>,
-    /// How many of the matches each of the four motions of E puts in front of both cameras, most
+    /// Number of matches that each of the four motions of E puts in front of both cameras, most
     /// first: one motion has nearly all, unless something is wrong.
     pub num_in_front: [usize; 4],
-    /// Root mean square of the reprojection errors of these points as they were first
-    /// triangulated, pixels.
+    /// Root mean square of the reprojection errors of these points as first triangulated, pixels.
     pub rms_before_px: f64,
     /// The same after the refinement.
     pub rms_px: f64,
@@ -77,9 +76,9 @@ pub struct TwoViewReconstruction {
 /// Points for the matches of two views, refined together with the motion between the views.
 ///
 /// Each match is triangulated. Points that are behind a camera, or whose rays meet at a narrow
-/// angle, are left out; the others and the motion are refined by bundle adjustment. Points that then
-/// are behind a camera, too narrow, or far from their pixels are left out as well, and the rest is
-/// refined again.
+/// angle, are left out; the others and the motion are refined by bundle adjustment. Points that
+/// then are behind a camera, too narrow, or far from their pixels are also left out, and the rest
+/// is refined again.
 ///
 /// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
 /// * `intrinsics1`, `intrinsics2`: of the two cameras, without lens distortion
@@ -175,9 +174,9 @@ pub fn two_view_reconstruction(
         }
         matches = kept.iter().map(|&point| matches[point]).collect();
         (start, bundle) = (only(&start, &kept), only(&bundle, &kept));
-        // What has just been left out had pulled at all the others.
+        // The points just removed had pulled at all the others.
         if round < MAX_REPETITIONS {
-            // Each repetition is half of what is left.
+            // Each repetition takes half of the remaining progress.
             let next = 0.5 * (1.0 + share);
             let mut part = Part::new(monitor, share, next);
             report = adjust_bundle(&mut bundle, &options.bundle, &mut part)?;
@@ -311,7 +310,7 @@ fn is_good(bundle: &Bundle, point: usize, options: &TwoViewReconstructionOptions
         && angle_rad(bundle, place) >= options.min_angle_rad
 }
 
-/// Root mean square of the reprojection errors of some points, of which there is one.
+/// Root mean square of the reprojection errors of some points, at least one.
 fn rms_px(bundle: &Bundle, points: &[usize]) -> f64 {
     let squares = points
         .iter()
@@ -320,7 +319,7 @@ fn rms_px(bundle: &Bundle, points: &[usize]) -> f64 {
     (squares.sum::<f64>() / (2 * points.len()) as f64).sqrt()
 }
 
-/// How many matches each of the four motions of E puts in front of both cameras, most first.
+/// Number of matches that each of the four motions of E puts in front of both cameras, most first.
 fn four_counts(
     motion: &RigidTransform,
     pixels1: &[Point2<f64>],

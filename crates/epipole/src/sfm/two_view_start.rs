@@ -15,7 +15,7 @@ use crate::two_view::{
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// A pair of images whose matches passed the test of epipolar geometry.
+/// A pair of images that passed the test of epipolar geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifiedPair {
     /// The matches that passed.
@@ -26,8 +26,8 @@ pub struct VerifiedPair {
     /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane and a pure
     /// rotation explains them, by the focal length given or by another one.
     pub median_angle_rad: f64,
-    /// A homography explains most matches: the scene is flat or the camera only turned. A pair
-    /// that shows depth makes the safer start.
+    /// A homography explains most matches: the scene is flat or the camera only rotated. A pair
+    /// with depth makes the safer start.
     pub is_flat: bool,
 }
 
@@ -161,7 +161,7 @@ pub(super) fn verify_pair(
         ..TwoViewOptions::default()
     };
     let flat = find_plane(&pixels1, &pixels2, cameras, &judging);
-    // What a turn explains has no depth, and by a wrong focal length a turn passes for a plane.
+    // A rotation gives no depth, and with a wrong focal length a rotation passes for a plane.
     let only_turned = flat.as_ref().is_some_and(|flat| {
         find_explaining_turn(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
             .is_ok_and(|turn| turn.is_some())
@@ -179,7 +179,7 @@ pub(super) fn verify_pair(
     })
 }
 
-/// Maximum number of samples in search of a plane or a turn among inliers.
+/// Maximum number of samples in search of a plane or a rotation among inliers.
 const MAX_SAMPLES: usize = 500;
 
 /// The homography that explains nearly all inliers of a motion, if there is one.
@@ -200,8 +200,8 @@ fn find_plane(
 /// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
 const NARROW: f64 = 0.642_787_609_686_539_3;
 
-/// Whether a turn by another focal length explains what lies on a plane. Of matches seen far to the side nothing is said:
-/// [`find_turn_and_focal`] knows pinhole cameras.
+/// Whether a rotation with another focal length explains matches on a plane. False for wide lenses,
+/// as [`find_turn_and_focal`] assumes pinhole cameras.
 fn turned_otherwise(
     pixels: [&[Point2<f64>]; 2],
     cameras: [&Camera; 2],

@@ -44,7 +44,7 @@ pub struct DepthInterval {
 /// * `focal_px`, `baseline_m`, `disparity_px`: as for [`depth_from_disparity`]
 /// * `error_px`: δ, the largest error of the disparity, pixels, ≥ 0
 ///
-/// Where `d − δ <= 0` even parallel rays are possible and [`DepthInterval::far_m`] is `None`.
+/// If `d − δ <= 0`, even parallel rays are possible, and [`DepthInterval::far_m`] is `None`.
 ///
 /// # Errors
 /// [`Error::PointAtInfinity`] if `disparity_px + error_px <= 0`: no depth is possible.

@@ -1,4 +1,4 @@
-//! What block matching compares instead of gray values: details, without slow changes of light.
+//! Filters before block matching: they keep details and remove slow changes of light.
 
 use crate::math::simd::dispatched;
 use image::GrayImage;
@@ -22,7 +22,7 @@ pub enum StereoPrefilter {
 const MEAN_RADIUS: usize = 4;
 
 impl StereoPrefilter {
-    /// The filtered picture plus `cap`, so 0 to 2 cap. Border pixels are repeated outside.
+    /// The filtered image plus `cap`, thus from 0 to 2 cap. Border pixels are repeated outside.
     pub(super) fn apply(self, image: &GrayImage, cap: u8) -> Vec<u8> {
         match self {
             Self::XSobel => x_sobel(image, cap),

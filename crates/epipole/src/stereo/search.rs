@@ -1,4 +1,4 @@
-//! What every matcher asks of its input: a pair of pictures and a range of disparities.
+//! Input checks shared by all matchers: a pair of images and a range of disparities.
 
 use super::DisparityImage;
 use crate::{Error, Result};
@@ -92,7 +92,7 @@ impl<'a> Search<'a> {
             })
     }
 
-    /// Row v of a picture of the pair's size.
+    /// Row v of an image of the pair's size.
     pub(super) fn row_of<'b>(&self, pixels: &'b [u8], v: usize) -> &'b [u8] {
         &pixels[v * self.width..(v + 1) * self.width]
     }
@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The cells of column u whose right pixel lies inside the picture.
+    /// The cells of column u whose right pixel lies inside the image.
     pub(super) fn cells_inside(&self, u: usize) -> std::ops::Range<usize> {
         let nearest = u as i64 - i64::from(self.min_disparity);
         let begin = (nearest - self.width as i64 + 1).clamp(0, self.num_disparities as i64);

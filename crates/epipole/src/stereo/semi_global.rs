@@ -33,13 +33,13 @@ pub enum StereoPaths {
 
 /// Dense disparity of a rectified pair by semi-global matching.
 ///
-/// The answer minimizes, along straight paths from 4, 5 or 8 directions,
+/// The result minimizes, along straight paths from 4, 5 or 8 directions,
 /// `Σ_p C(p, d_p) + P1 [|d_p − d_q| = 1] + P2 [|d_p − d_q| > 1]` over neighbors p, q, where C is
 /// the [`StereoCost`] between the left pixel and the right pixel `u − d`.
 ///
-/// A pixel has no answer (NaN) where its best match lies outside the right picture, another
-/// disparity fits nearly as well, the right picture disagrees, or only a small speckle of pixels
-/// holds it. Pictures without texture get one smooth surface or no answers, not an error.
+/// A pixel has no disparity (NaN) if its best match lies outside the right image, another disparity
+/// fits nearly as well, the right image disagrees, or the disparity is that of a small speckle.
+/// Images without texture get one smooth surface or no disparities, not an error.
 ///
 /// Source: Hirschmüller 2008, "Stereo processing by semiglobal matching and mutual information".
 ///
@@ -81,7 +81,7 @@ pub struct StereoSgm {
     /// P2: the penalty for a larger change; at least P1, at most 150.
     pub large_step_penalty: u8,
     /// The difference of gray values between two neighbors that halves P2 (never below P1), since
-    /// the edges of objects are mostly edges of the picture. 0: P2 is the same everywhere.
+    /// the edges of objects are mostly edges of the image. 0: P2 is the same everywhere.
     pub edge_gray: u8,
     /// Which answers are kept.
     pub filter: DisparityFilter,
@@ -106,8 +106,8 @@ impl Default for StereoSgm {
 
 /// P2 does not fall below this for a step of gray values, or textures would tear surfaces apart.
 const MIN_LARGE_STEP_PENALTY: u8 = 20;
-/// The cost of a candidate outside the right picture: more than a good match, less than a bad
-/// one, so that disparities continue beyond the border.
+/// The cost of a candidate outside the right image: more than a good match, less than a bad one, so
+/// that disparities continue beyond the border.
 const OUTSIDE_COST: u8 = 12;
 
 impl StereoSgm {
@@ -117,9 +117,9 @@ impl StereoSgm {
     /// * `monitor`: the one stage is [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
-    /// pictures, [`Error::OutOfRange`] for an option outside its range or a volume (pixels ×
-    /// disparities) too large for memory, [`Error::Canceled`].
+    /// [`Error::SizeMismatch`] for images of different size, [`Error::TooFew`] for empty images,
+    /// [`Error::OutOfRange`] for an option outside its range or a volume (pixels × disparities) too
+    /// large for memory, [`Error::Canceled`].
     pub fn compute(
         &self,
         left: &GrayImage,
@@ -141,8 +141,8 @@ impl StereoSgm {
         self.filter.clean(search.image(values))
     }
 
-    /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest
-    /// value of both pictures become 0 and 255.
+    /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest value
+    /// of both images become 0 and 255.
     ///
     /// # Errors
     /// As [`StereoSgm::compute`], and [`Error::NotFinite`] for NaN or infinities.
@@ -208,7 +208,7 @@ impl Task<'_> {
         self.search.width * self.search.num_cells
     }
 
-    /// Down the picture and along the row both ways, with the memory of a few rows.
+    /// Down the image and along the row both ways, with the memory of a few rows.
     fn five_paths(&self, reporter: &mut Reporter) -> Result<Vec<f32>> {
         let search = self.search;
         let mut cost_rows = self.cost_rows();
@@ -232,9 +232,9 @@ impl Task<'_> {
         Ok(values)
     }
 
-    /// N paths down and N paths up the picture.
+    /// N paths down and N paths up the image.
     ///
-    /// Both sweeps first go to the middle and store what they find. Then each goes on through the
+    /// Both sweeps first go to the middle and store their sums. Then each continues through the
     /// other's half, where the sums are now complete. So one volume serves two threads, and the
     /// result is the same with one.
     fn both_ways<const N: usize>(&self, monitor: &mut dyn Monitor) -> Result<Vec<f32>> {
@@ -269,8 +269,8 @@ impl Task<'_> {
     }
 }
 
-/// What one sweep leaves for the other: costs, and the means of N path costs, each rows × width ×
-/// `num_cells`.
+/// Data that one sweep leaves for the other: costs, and the means of N path costs, each rows ×
+/// width × `num_cells`.
 struct Volume {
     costs: Vec<u8>,
     means: Vec<u8>,
@@ -299,7 +299,7 @@ struct VolumePart<'a> {
     means: &'a mut [u8],
 }
 
-/// N paths down the picture, or up.
+/// N paths down the image, or up.
 struct HalfSweep<'a, const N: usize> {
     task: &'a Task<'a>,
     cost_rows: CostRows<'a>,
@@ -353,7 +353,7 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
         Ok(())
     }
 
-    /// The second half: adds to what the other sweep stored, and selects.
+    /// The second half: adds to the other sweep's sums, and selects.
     fn complete(
         &mut self,
         rows: Range<usize>,

@@ -120,7 +120,7 @@ dispatched! {
     }
 }
 
-/// No other disparity, apart from the winner's neighbors, comes within so many percent.
+/// No other disparity, apart from the winner's neighbors, comes within this percentage.
 #[inline(always)]
 fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
     if percent == 0 {
@@ -136,7 +136,7 @@ fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
     below as usize <= expected
 }
 
-/// Where a sum is smaller than the best so far, it and its place replace them.
+/// Replaces the best sums and their places by smaller ones.
 #[inline(always)]
 fn keep_smaller(sums: &[i16], best: &mut [i16], places: &mut [i16]) {
     let n = sums.len();
@@ -162,9 +162,9 @@ fn minimum(cells: &[i16]) -> (i16, usize) {
     (lowest, place as usize)
 }
 
-/// How far the true minimum lies from the winner, −½ to ½: where two lines of opposite slope meet
-/// that pass through the winner and its neighbors. Sums of absolute differences and of bits are
-/// such wedges; a parabola would draw fractions towards the whole numbers.
+/// Offset of the true minimum from the winner, −½ to ½: the intersection of two lines of opposite
+/// slope through the winner and its neighbors. Sums of absolute differences and of bits are wedges
+/// of this kind; a parabola would bias fractions towards integers.
 ///
 /// Source: Shimizu & Okutomi 2001, "Precise sub-pixel estimation on area-based matching".
 #[inline(always)]

@@ -5,7 +5,7 @@ use crate::{Error, Result};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a worker calls as it goes on: reports to the caller, or only learns of cancellation.
+/// Progress callback of a worker: reports to the caller, or only checks for cancellation.
 pub(super) struct Reporter<'a> {
     monitor: Option<&'a mut dyn Monitor>,
     canceled: &'a AtomicBool,
@@ -87,7 +87,7 @@ pub(super) fn in_two(
     })
 }
 
-/// Rows of a picture, shared out.
+/// Rows of an image, divided between threads.
 #[cfg_attr(
     not(feature = "parallel"),
     allow(dead_code, reason = "one thread does not cut its work into strips")

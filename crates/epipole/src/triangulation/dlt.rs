@@ -8,11 +8,11 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// The point that two cameras see at two pixels, minimizing the algebraic error
 /// `Σ ‖x × P X‖²` over homogeneous X of length 1.
 ///
-/// Where the pixels are not exact, what is minimal depends on the world's origin and unit of length. Best
-/// are an origin near the cameras and a unit about as long as the baseline.
+/// For inexact pixels, the minimum depends on the world's origin and unit of length. Best are an
+/// origin near the cameras and a unit about as long as the baseline.
 ///
 /// * `p1`, `p2`: 3×4 projection matrices, such as [`PosedCamera::projection_matrix`](crate::camera::PosedCamera::projection_matrix)
-/// * `pixel1`, `pixel2`: where the point is seen
+/// * `pixel1`, `pixel2`: projections of the point
 ///
 /// # Errors
 /// [`Error::PointAtInfinity`] for parallel rays, those that meet 10¹² baselines away or farther,
@@ -203,8 +203,8 @@ fn solve(p1: &[Row; 3], p2: &[Row; 3], pixel1: &Point2<f64>, pixel2: &Point2<f64
         }
     }
     let r = a;
-    // A zero on the diagonal is an exact null vector; a tiny number in its place leads there. The last
-    // column has a unit of its own, that of length in the world.
+    // A zero on the diagonal is an exact null vector; a tiny number in its place leads there. The
+    // last column has another unit, that of length in the world.
     let size = r[0][0].abs() + r[1][1].abs() + r[2][2].abs();
     let last_size = r[0][3].abs() + r[1][3].abs() + r[2][3].abs() + r[3][3].abs();
     let tiny = [size, size, size, last_size].map(|size| 1e-30 * size.max(f64::MIN_POSITIVE));
@@ -416,7 +416,7 @@ mod tests {
                 let cameras = [camera(&center), camera(&center)];
                 let [p1, p2] = cameras.map(|c| c.projection_matrix());
                 for pixel2 in [o, other] {
-                    // Turned, and computed, so that the centers are equal only up to rounding.
+                    // Rotated, and computed, so that the centers are equal only up to rounding.
                     assert_eq!(triangulate_dlt(&p1, &p2, &o, &pixel2), Err(NO_BASELINE));
                     assert_eq!(triangulate_dlt(&p1, &p1, &o, &pixel2), Err(NO_BASELINE));
                     let scaled = p2 * -1e-3;

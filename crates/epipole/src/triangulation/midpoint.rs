@@ -7,7 +7,7 @@ use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// The point halfway between two rays where they pass each other nearest, in the frame of camera 1.
+/// The midpoint of the shortest segment between two rays, in the frame of camera 1.
 ///
 /// It minimizes distances in space, not in the images: for a point near one camera and far from
 /// the other, [`triangulate_optimal`](super::triangulate_optimal) is much better.
@@ -64,7 +64,7 @@ struct Meeting {
 }
 
 impl Meeting {
-    /// Refuses what cannot be triangulated.
+    /// Refuses degenerate input.
     fn new(
         cam2_from_cam1: &RigidTransform,
         ray1: &Vector3<f64>,
@@ -176,12 +176,12 @@ pub fn triangulate_weighted_midpoint(
     meeting.enlarged(ray1 * depth1 * share1 + meeting.on_ray2(depth2) * (1.0 - share1))
 }
 
-/// The point for which the rays need to turn least, in the frame of camera 1: it minimizes
-/// `sin² θ1 + sin² θ2`, θi being the angle between ray i and the direction to the point.
+/// The point with the smallest angular corrections of the rays, in the frame of camera 1: it
+/// minimizes `sin² θ1 + sin² θ2`, θi being the angle between ray i and the direction to the point.
 ///
-/// Exact, in closed form: the plane through both centers that the rays leave least, `min ‖A n‖` over
-/// unit normals n with the rays, less their part along the baseline, as rows of A.
-/// Angles make sense in any camera, also where pixels do not.
+/// Exact, in closed form: the plane through both centers closest to the rays, `min ‖A n‖` over unit
+/// normals n with the rays, less their part along the baseline, as rows of A. Angles are meaningful
+/// for any camera, pixels are not.
 ///
 /// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
 ///
@@ -239,7 +239,7 @@ pub fn triangulate_angular(
     if !(depth1 > 0.0 && depth2 > 0.0) {
         return Err(Error::PointBehindCamera);
     }
-    // What separates the rays there is shared so that both turn by what they must.
+    // The gap between the rays is shared so that both turn by the required angle.
     let gap = turned * depth1 + t - ray2 * depth2;
     let share1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
     meeting.enlarged(rotation.transpose() * (turned * depth1 - gap * share1))
@@ -265,7 +265,7 @@ mod tests {
         let plain = triangulate_midpoint(&relative, &ray1, &ray2).unwrap();
         assert!((plain - Point3::new(-1.0, 0.0, 5.0 * 4.0 / 4.04)).norm() < 0.02);
         assert!((plain.z - 5.0 * 4.0 / 4.04).abs() < 1e-12);
-        // What COLMAP expects, within 1e-3 of its length there.
+        // COLMAP's expected point, within 1e-3 of its length there.
         let angular = triangulate_angular(&relative, &ray1, &ray2).unwrap();
         assert!((angular - expected).norm() < 1e-12);
         let right = shift(1.0, 0.0, 0.0);
@@ -309,7 +309,7 @@ mod tests {
         }
     }
 
-    /// No point nearby needs smaller turns of the rays.
+    /// No point nearby has smaller angular corrections.
     #[test]
     fn angles_are_least() {
         let mut random = Random::new(2);

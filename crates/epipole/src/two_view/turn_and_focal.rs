@@ -1,4 +1,4 @@
-//! Cameras that only turned and whose focal length is wrong: homographies that pass for those of planes.
+//! Rotation-only motion with a wrong focal length: homographies that pass for those of planes.
 
 use super::TwoViewOptions;
 use super::explaining_turn::{homography_of_turn, motion_of_turn};
@@ -18,21 +18,22 @@ const WIDEST: f64 = 4.0;
 const NUM_TRIED: usize = 33;
 /// Steps of golden sections from there: the factor is then good to six digits.
 const NUM_NARROWED: usize = 26;
-/// A turn and a focal length have four unknowns, which two matches fit always. H has eight, so more than four say
-/// something.
+/// A rotation and a focal length have four unknowns, so they fit any two matches. H has eight, so
+/// more than four matches are informative.
 const MIN_NUM_MATCHES: usize = 6;
-/// The root mean square of the errors may be so many times that of the best homography: noise in four unknowns less
-/// is within a few percent of it, and so is what is left of a lens, while planes miss by half as much again and more.
+/// Maximum ratio of the RMS error to that of the best homography. Noise with four unknowns less,
+/// and the rest of a distortion, stay within a few percent, while planes miss by half as much again
+/// and more.
 const MAX_RMS_RATIO: f64 = 1.1;
 /// … and this part of the threshold more, for matches without noise.
 const RMS_SLACK: f64 = 0.02;
 
-/// A turn of the camera, with the focal length that goes with it, which explains nearly all of some matches.
+/// A rotation of the camera, with its focal length, that explains nearly all of some matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TurnAndFocal {
-    /// The turn; its translation is zero.
+    /// The rotation, as a motion without translation.
     pub cam2_from_cam1: RigidTransform,
-    /// The focal lengths of both cameras are so many times those given.
+    /// Factor by which both focal lengths differ from those given.
     pub focal_factor: f64,
     /// Number of different matches that it explains.
     pub num_explained: usize,
@@ -40,11 +41,11 @@ pub struct TurnAndFocal {
     pub num_inliers: usize,
 }
 
-/// The best turn for one focal length.
+/// The best rotation for one focal length.
 struct Candidate {
     rotation: Matrix3<f64>,
     homography: Matrix3<f64>,
-    /// Sum of the squared errors, each at most that at which a match is no inlier, px².
+    /// Sum of the squared errors, each clipped at the square of the inlier threshold, px².
     cost: f64,
 }
 
@@ -54,8 +55,9 @@ struct Search<'a> {
     options: &'a TwoViewOptions,
 }
 
-/// The turn that explains the inliers of a homography as well as that does, if the focal lengths given are wrong, and
-/// by which factor they are: then the matches are not of a plane, and there is no depth to be had.
+/// Finds the rotation that explains the inliers of a homography equally well if the focal lengths
+/// given are off by a common factor, and that factor: then the matches are not of a plane, and
+/// there is no depth.
 ///
 /// `x2 ∝ K2 R K1⁻¹ x1`, where the focal lengths in K1 and K2 are `focal_factor` times those given. The factor is
 /// looked for from ¼ to 4; for each the rotation that aligns the rays best is taken.
@@ -63,20 +65,22 @@ struct Search<'a> {
 /// * `pixels1`, `pixels2`: the matches that H was found from
 /// * `k1`, `k2`: intrinsics of the two cameras, pixels; the principal points are believed, the focal lengths are not
 /// * `inliers`: for each match, whether it is an inlier of H
-/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
-///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of the search
+/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
+///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of
+///   the search
 ///
-/// `None` if the turn misses nearly as many matches, or misses them by more than 1.1 times what the best homography
-/// does: this is what planes do. `None`, too, if the longest focal length does as well, since a turn then moves the
-/// image by the same everywhere, as a step aside before a wall does. What cannot be told from a turn by anything is a
-/// camera that looks straight at a wall, and turns a little while it steps aside.
+/// `None` if the rotation misses nearly as many matches, or misses them by more than 1.1 times the
+/// error of the best homography, as for planes. Also `None` if the longest focal length fits
+/// equally well, since a rotation then moves the image by the same everywhere, as a step aside
+/// before a wall does. A camera that looks straight at a wall, and turns a little while it steps
+/// aside, cannot be distinguished from a rotation.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`](crate::Error::SizeMismatch) if the lists differ in length, and as [`TwoViewOptions::check`] and
 /// [`MatchSet::new`].
 ///
-/// Source: Hartley & Zisserman 2004, §8.4 (what a turn does to pixels); Szeliski 2022, §8.2 (focal lengths from
-/// the homographies of panoramas, which the search takes the place of, for it needs no good H).
+/// Source: Hartley & Zisserman 2004, §8.4 (rotations in pixels); Szeliski 2022, §8.2 (focal lengths
+/// from the homographies of panoramas; the search replaces it, as it needs no good H).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -120,7 +124,7 @@ pub fn find_turn_and_focal(
     if set.len() < MIN_NUM_MATCHES {
         return Ok(None);
     }
-    // Matches on a line have none, and are explained by too many turns.
+    // Matches on a line have no homography, and too many rotations fit.
     let homography = search.homography().ok();
     Ok(homography.and_then(|homography| search.turn(search.cost(&homography))))
 }
@@ -133,7 +137,7 @@ impl Search<'_> {
         refine_homography(&start, &pixels1, &pixels2, RobustLoss::Trivial)
     }
 
-    /// The turn, if it is as good as a homography of some cost.
+    /// The rotation, if it is as good as a homography of some cost.
     fn turn(&self, cost: f64) -> Option<TurnAndFocal> {
         let count = self.pairs.len() as f64;
         let needed = self.options.max_homography_share * count;
@@ -168,7 +172,7 @@ impl Search<'_> {
             .sum()
     }
 
-    /// The turn that explains the matches best with so many times the focal lengths.
+    /// The rotation that explains the matches best with this factor of the focal lengths.
     fn at(&self, factor: f64) -> Option<Candidate> {
         let [k1, k2] = self.intrinsics;
         let (k1, k2) = (k1.zoomed(factor).ok()?, k2.zoomed(factor).ok()?);
@@ -248,10 +252,10 @@ mod tests {
         Intrinsics::centered(focal_px, 800, 600).unwrap()
     }
 
-    /// 200 matches within photographs of 800 × 600, every fifth of them wrong. `None` if the motion leaves none in
-    /// sight.
+    /// 200 matches within photographs of 800 × 600, every fifth of them wrong. `None` if the motion
+    /// leaves none in sight.
     ///
-    /// * `normal`: of the plane at distance 1; whatever it is for a turn
+    /// * `normal`: of the plane at distance 1; ignored for a rotation
     fn matches(
         random: &mut Random,
         k: &Intrinsics,
@@ -288,7 +292,7 @@ mod tests {
         None
     }
 
-    /// What is made of matches of a homography by somebody who guesses the focal length.
+    /// The result for matches of a homography with a guessed focal length.
     fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<TurnAndFocal> {
         let (guess, options) = (intrinsics(GUESS_PX), options());
         let h = estimate_homography(p1, p2, &options.in_two_dimensions(), &mut ()).unwrap();
@@ -313,7 +317,7 @@ mod tests {
             (0.3, 0.0, 0.02, 34),
             (0.7, 0.0, 0.05, 34),
             (1.0, 0.0, 0.07, 34),
-            // A lens makes the focal length another one, and the turn remains one.
+            // Distortion changes the estimated focal length, but the motion remains a rotation.
             (0.3, -0.04, 0.35, 34),
             (0.7, -0.04, 0.35, 34),
         ] {
@@ -348,12 +352,12 @@ mod tests {
                 assert!(off < 1.5 * most_off, "{noise_px} {k1} {seed}: {off}");
                 assert!(found.num_explained <= found.num_inliers);
             }
-            // Of small turns with long focal lengths nobody can tell.
+            // Small rotations with long focal lengths are ambiguous.
             assert!(num_found >= least, "{noise_px} {k1}: {num_found} of 40");
         }
     }
 
-    /// Planes tilted by up to so much, seen by cameras that step and turn.
+    /// Planes tilted by up to this angle, seen by cameras that translate and rotate.
     #[test]
     fn planes_are_no_turns() {
         for noise_px in [0.0, 0.3, 0.7, 1.0] {
@@ -380,7 +384,7 @@ mod tests {
         }
     }
 
-    /// The image moves by the same everywhere, as it does for ever smaller turns with ever longer focal lengths.
+    /// The image moves uniformly, as for ever smaller rotations with ever longer focal lengths.
     #[test]
     fn a_step_aside_before_a_wall_is_no_turn() {
         for noise_px in [0.0, 0.3, 0.7] {

@@ -111,7 +111,7 @@ fn refinement_does_not_depend_on_where_the_origin_is() {
         for size in [1e3, 1e5, 5e6] {
             let shift = Vector3::new(0.1, 1.0, 0.3) * size;
             let far = refined(&shift);
-            // What the rounding of the coordinates changes, and no more.
+            // Only the rounding of the coordinates makes a difference.
             assert!(far.rotation.angle_to(&near.rotation) < 1e-15 * size + 1e-7);
             let center = center_of(&far) - shift;
             assert!((center - center_of(&near)).norm() < 1e-14 * size + 1e-6);

@@ -60,7 +60,7 @@ fn scene(seed: u64, depth: f64, noise_px: f64, wrong: f64) -> Scene {
     }
 }
 
-/// The share by which the focal length is off, and the distance of the camera's center from the truth as a share of that
+/// Relative error of the focal length, and error of the camera's center relative to its distance
 /// from the points.
 fn errors(scene: &Scene, focal_px: f64, pose: &RigidTransform) -> (f64, f64) {
     let center = |pose: &RigidTransform| pose.inverse().translation.vector;
@@ -95,7 +95,7 @@ fn half_of_the_points_are_wrong() {
                 errors(&scene, report.model.focal_px, &report.model.cam_from_world);
             focals.push(focal);
             centers.push(center);
-            // What it says of itself holds: within four standard deviations, but for one in a thousand.
+            // The reported standard deviation holds: errors stay below five of them.
             let std_px = report.model.focal_std_px.unwrap();
             let off_px = (report.model.focal_px - scene.k.fu_px()).abs();
             assert!(

@@ -77,7 +77,7 @@ fn triangulate_runs() {
     triangulate::run().expect("the example runs");
 }
 
-/// What `source` names of other crates than this one, which gives `nalgebra` and `image` along.
+/// Crates that `source` names directly, not through `epipole::`.
 fn foreign(source: &str) -> Vec<String> {
     let crates = ["arrayvec", "image", "libm", "nalgebra", "rayon"];
     let mut named = Vec::new();

@@ -1,4 +1,5 @@
-//! Many wrong matches that lead to nearly one pixel: each model that takes everything there fits all of them.
+//! Many wrong matches that lead to nearly one pixel: a model that maps everything there fits all of
+//! them.
 
 use epipole::math::random::Random;
 use epipole::robust::{RansacOptions, RansacReport, ThresholdKind, estimate_similarity};
@@ -41,7 +42,7 @@ fn options(seed: u64) -> RansacOptions {
     RansacOptions::default().with_seed(seed)
 }
 
-/// Nearly all honest matches are inliers, and of the others no more than happen to lie right.
+/// Nearly all true matches are inliers, and of the others only those that fit by chance.
 fn is_true<M>(found: &Result<RansacReport<M>>) -> bool {
     let report = found.as_ref().unwrap();
     let count = |mask: &[bool]| mask.iter().filter(|fits| **fits).count();
@@ -109,7 +110,7 @@ fn one_place_wins_with_no_threshold() {
     }
 }
 
-/// From pixels to meters and back, the size of the map says nothing: the inliers' own spread does.
+/// The spread of the inliers matters, not the size of the map from pixels to meters and back.
 #[test]
 fn maps_to_meters_and_from_them_are_as_good() {
     for (unit, size_m) in [(1e-3, 0.6), (1e-2, 6.0), (1.0, 600.0)] {
@@ -127,7 +128,8 @@ fn maps_to_meters_and_from_them_are_as_good() {
     }
 }
 
-/// Points of which all lie within the threshold are a small picture, not one place, if the model says where each is.
+/// Points that all lie within the threshold are a small image, not one place, if the model
+/// distinguishes their positions.
 #[test]
 fn a_picture_smaller_than_the_threshold_is_no_place() {
     let at = |i: usize| Point2::new((i * 37 % 64) as f64 / 640.0, (i * 71 % 48) as f64 / 480.0);
@@ -140,7 +142,8 @@ fn a_picture_smaller_than_the_threshold_is_no_place() {
     assert_eq!(report.num_inliers, 40);
 }
 
-/// Where there is nothing else, the place does not pass as a model, and what is found instead says how little it is worth.
+/// With no other structure, a cluster does not pass as a model, and the report of the best model
+/// marks it as not significant.
 #[test]
 fn a_place_alone_is_no_model() {
     fn says_little<M>(found: &Result<RansacReport<M>>) -> bool {

@@ -1,5 +1,5 @@
-//! What may not depend on where the world's origin is, on the unit of length, on the order of matches, or
-//! on which view is called the first.
+//! Invariance to the world's origin, the unit of length, the order of matches, and the order of
+//! views.
 
 use epipole::absolute_pose::{estimate_absolute_pose, pose_dlt, pose_p3p, refine_absolute_pose};
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
@@ -75,7 +75,7 @@ fn point(random: &mut Random) -> Point3<f64> {
     Point3::new(near(random, 1.5), near(random, 1.2), near(random, 1.2))
 }
 
-/// Where a camera sees a point, with normal noise.
+/// Projection of a point, with Gaussian noise.
 fn seen(random: &mut Random, camera: &PosedCamera, x: &Point3<f64>, noise_px: f64) -> Point2<f64> {
     let p = camera.project(x).unwrap();
     Point2::new(
@@ -84,7 +84,7 @@ fn seen(random: &mut Random, camera: &PosedCamera, x: &Point3<f64>, noise_px: f6
     )
 }
 
-/// Frobenius distance, of matrices whose sign means nothing.
+/// Frobenius distance of matrices up to sign.
 fn apart(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
     let (a, b) = (a / a.norm(), b / b.norm());
     (a - b).norm().min((a + b).norm())
@@ -106,7 +106,7 @@ const TRIVIAL: RobustLoss = RobustLoss::Trivial;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// A triangulated point moves with the world, and its covariance turns with it.
+    /// A triangulated point moves with the world, and its covariance is rotated with it.
     #[test]
     fn points_move_with_the_world(
         seed in 0_u64..1000,
@@ -212,7 +212,7 @@ proptest! {
         let pixels: Vec<_> = points.iter().map(|x| seen(&mut random, &truth, x, 0.5)).collect();
         let moved: Vec<_> = points.iter().map(|x| change.point(x)).collect();
         let k = truth.intrinsics;
-        // The world's origin may be far away, and a turn moves it.
+        // The world's origin may be far away, and a rotation moves it.
         let length = change.scale * (5.0 + change.shift.norm() / change.scale);
 
         let before = pose_dlt(&points, &pixels, &k).unwrap();
@@ -253,7 +253,7 @@ proptest! {
         let change = Change::new(turn, shift, libm::exp10(scale_exponent));
         let mut random = Random::new(seed);
         let truth = camera(&mut random, 0.0);
-        // A triangle that is neither small nor flat, whatever the seed.
+        // A triangle that is neither small nor flat, for any seed.
         let points = [(-1.0, -0.8), (1.0, -0.6), (0.2, 1.0)].map(|(x, y)| {
             Point3::new(x + near(&mut random, 0.2), y + near(&mut random, 0.2), near(&mut random, 0.5))
         });

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// What a room makes public: the names of its `pub use` declarations.
+/// The public names of a module: those of its `pub use` declarations.
 fn public_names(room: &str) -> Vec<String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("src")
@@ -13,7 +13,7 @@ fn public_names(room: &str) -> Vec<String> {
     let mut names = Vec::new();
     for declaration in text.split("pub use ").skip(1) {
         let list = declaration.split(';').next().unwrap_or_default();
-        // What stands before the last `::` is where it comes from.
+        // The part before the last `::` is the path.
         let list = list.rsplit("::").next().unwrap_or_default();
         let words = list.split(|c: char| !c.is_alphanumeric() && c != '_');
         names.extend(words.filter(|word| !word.is_empty()).map(str::to_owned));

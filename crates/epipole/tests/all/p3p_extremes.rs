@@ -25,15 +25,15 @@ struct Triple {
     points: [Point3<f64>; 3],
 }
 
-/// What became of many problems of a kind.
+/// Counts over many problems of a kind.
 #[derive(Debug, Default)]
 struct Tally {
     problems: usize,
-    /// Problems of which the true pose is among the solutions.
+    /// Problems whose true pose is among the solutions.
     found: usize,
     /// Solutions from which a point is off its ray by more than 10⁻⁶ radians, or behind.
     off_their_rays: usize,
-    /// Solutions whose rotation is that of another one, within 10⁻⁷.
+    /// Solutions with the rotation of another one, within 10⁻⁷.
     twice: usize,
 }
 

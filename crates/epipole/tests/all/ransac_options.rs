@@ -1,4 +1,4 @@
-//! What each option of the RANSAC loop does, seen from outside.
+//! Effects of each option of the RANSAC loop, through the public interface.
 
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
@@ -117,14 +117,14 @@ fn a_finished_run_draws_no_more() {
     assert_eq!(run.finish().unwrap().stop, StopReason::Confident);
 }
 
-/// After each sample the loop asks for what the formula says of the best model's inliers, and it
-/// ends with the first sample that makes so many.
+/// After each sample, the required number of samples is the formula's for the best model's inliers;
+/// the loop ends with the first sample that reaches it.
 #[test]
 fn the_loop_follows_the_formula_of_its_budget() {
     for budget in [Budget::WithReplacement, Budget::WithoutReplacement] {
         for score in [ScoreKind::Msac, ScoreKind::InlierCount] {
             for seed in 0..10 {
-                // So few that both formulas differ.
+                // Few enough for a difference between both formulas.
                 let points = points(60, 12, 0.2, seed);
                 let options = RansacOptions::default()
                     .with_budget(budget)
@@ -228,7 +228,7 @@ fn without_local_optimization_the_model_is_that_of_a_sample() {
     }
     let improved = fit(&points, &RansacOptions::default());
     assert!(improved.refinements > 0);
-    // How far from the true line at both ends of the picture.
+    // Distance from the true line at both ends of the image.
     let off = |line: &Line2| -> f64 {
         [(0.0, 100.0), (1000.0, 600.0)]
             .map(|(u, v)| line.signed_distance(&Point2::new(u, v)).abs())
@@ -354,8 +354,8 @@ fn a_count_of_inliers_never_falls_at_the_end() {
     }
 }
 
-/// What chance can do depends on where the data are: neither on a few that strayed far away, nor on
-/// whether a line happens to be a row of pixels.
+/// The chance of a fit depends on the location of most data: neither a few outliers far away nor a
+/// line along a row of pixels changes it.
 #[test]
 fn chance_is_judged_by_where_most_of_the_data_are() {
     let mut random = Random::new(1);

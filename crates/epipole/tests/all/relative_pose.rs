@@ -1,5 +1,5 @@
-//! Relative poses among many wrong matches: what is behind a camera supports none, and a plane's other
-//! motion is not taken for the true one.
+//! Relative poses among many wrong matches: points behind a camera support none, and a plane's
+//! other motion is not taken for the true one.
 
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{RelativePose, refine_relative_pose};
@@ -89,7 +89,7 @@ impl Scene {
         .unwrap()
     }
 
-    /// What least squares makes of the right matches alone, from the pose given on.
+    /// Least-squares fit to the right matches alone, from the given pose.
     fn by_the_true_ones(&self, start: &RelativePose) -> RelativePose {
         let only = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
             let kept = pixels.iter().zip(&self.is_true).filter(|(_, is)| **is);
@@ -122,7 +122,7 @@ fn what_is_behind_a_camera_supports_no_pose() {
         best += error_deg(&s.by_the_true_ones(&report.model), &s.motion);
         for i in (0..s.p1.len()).filter(|&i| report.inliers[i]) {
             wrong += usize::from(!s.is_true[i]);
-            // a + d b = −t up to noise: b is turned from a towards t, unless both are the same.
+            // a + d b = −t up to noise: b is rotated from a towards t, unless both are the same.
             let a = (report.model.rotation * s.k.ray(&s.p1[i])).normalize();
             let b = s.k.ray(&s.p2[i]).normalize();
             let t = report.model.direction;
@@ -160,8 +160,8 @@ fn a_plane_does_not_hide_the_motion() {
     }
 }
 
-/// So little motion that a wrong turn may stand for the parallax of most points, with the direction
-/// reversed.
+/// A motion so small that a wrong rotation can account for the parallax of most points, with the
+/// direction reversed.
 #[test]
 fn a_small_step_is_not_reversed() {
     for seed in 0..30 {

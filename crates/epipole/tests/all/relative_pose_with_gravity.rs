@@ -90,7 +90,7 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
         .unwrap();
         with.push(error(&s, &report.model));
         samples += report.iterations;
-        // What it makes of gravity is what it was given.
+        // The rotation maps one gravity direction exactly to the other.
         let kept = report.model.rotation * g1;
         assert!(kept.angle(g2) < 1e-6, "{}", kept.angle(g2));
         let free = estimate_relative_pose(
@@ -185,7 +185,7 @@ fn bad_input_is_refused() {
             "{nowhere}"
         );
     }
-    // A camera that only turned: any direction, or a sentence, and never a number that is none.
+    // A camera that only rotated gives any direction or an error, but never NaN.
     let turned: Vec<_> = (s.p1.iter())
         .map(|p| {
             s.k.project(&Point3::from(s.motion.rotation * s.k.ray(p)))

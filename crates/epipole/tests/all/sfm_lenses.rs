@@ -1,4 +1,4 @@
-//! Reconstruction through lenses that no pinhole camera stands for, against exact truth.
+//! Reconstruction through lenses that no pinhole camera approximates, against exact truth.
 
 use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
@@ -15,7 +15,7 @@ struct World {
     input: SfmInput,
 }
 
-/// What a photograph is made like.
+/// Parameters of a synthetic photograph.
 #[derive(Clone, Copy)]
 struct Making {
     lens: Lens,
@@ -24,7 +24,7 @@ struct Making {
     noise_px: f64,
     /// Share of matches that lead to another keypoint.
     wrong: f64,
-    /// How far apart the cameras are.
+    /// Distance between neighboring cameras.
     step: f64,
 }
 
@@ -120,7 +120,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
 fn fisheye() -> Making {
     Making {
         lens: lens(LensKind::Fisheye),
-        // The picture ends at 95° in its corners.
+        // The image corners are at 95°.
         half_deg: 95.0,
         noise_px: 0.3,
         wrong: 0.1,
@@ -160,7 +160,7 @@ fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     let mean_px = found.mean_reprojection_px(&world.input.images);
     // Of noise with 0.3 px along each axis the mean is 0.376 px.
     assert!((0.3..0.4).contains(&mean_px), "{mean_px}");
-    // What is beside the cameras and behind is there, too.
+    // Points beside and behind the cameras are reconstructed, too.
     let behind = |element: &epipole::sfm::TrackElement, point: &Point3<f64>| {
         let camera = found.cameras[element.image as usize].unwrap();
         (camera.cam_from_world * point).z < 0.0
@@ -198,7 +198,7 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     assert_eq!(found.num_registered(), 9);
     let focal_px = found.cameras[4].unwrap().intrinsics.fu_px();
     assert!((focal_px - 300.0).abs() < 0.5, "{focal_px}");
-    // The coefficients stand for each other, so what counts is where rays are seen.
+    // The coefficients compensate each other, so the rays are compared.
     let truth = lens(LensKind::Fisheye);
     for degrees in [20.0f64, 50.0, 80.0, 90.0] {
         let (sine, cosine) = libm::sincos(degrees.to_radians());
@@ -257,7 +257,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             let ray = lens(LensKind::Fisheye)
                 .ray(&k.ray(pixel).xy().into())
                 .unwrap();
-            // Beyond 50° it sees nothing; such keypoints are anywhere.
+            // Beyond 50° there is no projection; keypoints there are random.
             let seen = brown
                 .project(&ray)
                 .filter(|_| ray.angle(&Vector3::z()) < 50f64.to_radians());
@@ -337,7 +337,7 @@ fn k_of(factor: f64) -> Intrinsics {
     k().zoomed(factor).unwrap()
 }
 
-/// A bundle whose points are all behind an ordinary lens ends in words or in numbers.
+/// A bundle whose points are all behind an ordinary lens gives an error or a result.
 #[test]
 fn points_behind_a_lens_are_mirrored_or_refused() {
     let world = hall(3, fisheye(), 7);
@@ -356,10 +356,10 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     }
 }
 
-/// What a pair of photographs of random points on a plane, or of points with depth, is taken for.
+/// Verifies a pair of photographs of random points, on a plane or with depth.
 fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool) -> VerifiedPair {
     let mut random = Random::new(12);
-    // A narrow picture is one by a long lens.
+    // A narrow field of view comes from a long lens.
     let zoom = 45.0 / half_deg;
     let k = k().zoomed(zoom).unwrap();
     let reach = 3.0 * libm::tan(half_deg.to_radians().min(1.2));
@@ -371,7 +371,8 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     });
     while images[0].keypoints.len() < 300 {
         let aside = [(); 2].map(|()| random.uniform(-reach, reach));
-        // Straight ahead, through a long lens, nobody could tell a step before a wall from a turn.
+        // Straight ahead, through a long lens, a step before a wall cannot be distinguished from a
+        // rotation.
         let depth = match is_wall {
             true => 3.0 + 0.5 * aside[0],
             false => random.uniform(2.5, 6.0),
@@ -400,7 +401,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     found.unwrap().unwrap()
 }
 
-/// Narrow lenses of every model are asked what pinhole cameras are, and wide ones as well.
+/// Narrow lenses of every model pass the same checks as pinhole cameras, and so do wide ones.
 #[test]
 fn planes_and_turns_are_told_from_depth_through_every_lens() {
     let turn = Vector3::new(0.04, -0.06, 0.03);
@@ -424,7 +425,8 @@ fn planes_and_turns_are_told_from_depth_through_every_lens() {
             "{kind:?} {half_deg} {:?}",
             (deep.is_flat, deep.median_angle_rad)
         );
-        // Which of two motions past it is right, a plane alone does not tell; that there was one, it does.
+        // A plane alone does not determine which of two motions is right, but it does show a
+        // motion.
         let wall = told(&step, true);
         assert!(
             wall.is_flat && wall.median_angle_rad > 0.0,

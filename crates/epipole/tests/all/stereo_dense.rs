@@ -155,7 +155,7 @@ fn a_wall_is_found_to_a_fraction_of_a_pixel() {
             );
             assert!(good > 0.99, "{name} at {disparity}: {good} within 1 px");
             assert!(error < most, "{name} at {disparity}: off by {error}");
-            // Where the right picture ends there is nothing to find.
+            // No disparity reaches beyond the border of the right image.
             for v in 0..60 {
                 for u in 0..(disparity as u32).saturating_sub(2) {
                     let value = found.get(u, v);
@@ -181,8 +181,8 @@ fn a_slanted_plane_is_followed() {
     }
 }
 
-/// A board at disparity 14 before a wall at 4: the left picture sees 10 columns of wall beside
-/// the board that the right one does not.
+/// A board at disparity 14 before a wall at 4: the left image shows 10 columns of wall beside the
+/// board that the right one does not.
 #[test]
 fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
     let (width, height) = (200, 80);
@@ -447,7 +447,7 @@ fn results_are_the_same_everywhere() {
     assert_eq!(found.join("\n"), expected.trim());
 }
 
-/// Ground truth and pictures of a real pair, or none where there are no data.
+/// Ground truth and images of a real pair, or none without data.
 fn real_pair(name: &str) -> Option<(GrayImage, GrayImage, Vec<f32>)> {
     let root = std::env::var("EPIPOLE_DATA").unwrap_or_else(|_| {
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data").to_string()

@@ -1,4 +1,4 @@
-//! The threshold that the data themselves give, on worlds whose noise is known.
+//! The threshold estimated from the data, on scenes with known noise.
 
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{decompose_essential, select_pose};
@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 800.0;
 
-/// What thresholds are of standard deviations: 99 % of errors in one dimension, and in two.
+/// Thresholds in standard deviations: 99 % of errors in one dimension, and in two.
 const IN_ONE: f64 = 2.576;
 const IN_TWO: f64 = 3.035;
 
@@ -87,7 +87,7 @@ fn from_noise() -> RansacOptions {
     RansacOptions::default().with_threshold(ThresholdKind::Noise)
 }
 
-/// How far off a model is, and the threshold that it was found with.
+/// Error of a model, and the threshold that it was found with.
 type Outcome = (f64, f64);
 
 impl Scene {
@@ -151,10 +151,10 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// One noise, three shares of wrong matches: models as good as with the best of six thresholds, and the noise
-/// is found.
+/// For one noise level and three outlier ratios, models are as good as with the best of six
+/// thresholds, and the noise is found.
 ///
-/// * `num_scenes`: enough for their mean to tell two points
+/// * `num_scenes`: enough for their mean to separate two points
 /// * `scale`: the threshold of a standard deviation in each image's pixels
 fn compare(
     num_scenes: u64,
@@ -171,7 +171,8 @@ fn compare(
     let found: Vec<Outcome> = scenes.iter().map(|s| estimate(s, &from_noise())).collect();
     let ours = auc(found.iter().map(|(error, _)| *error), limit);
     for max_error_px in [0.25, 0.5, 1.0, 2.0, 4.0, 10.0] {
-        // Those that cut off most of the right matches, or let in many wrong ones, cost time only.
+        // Thresholds that cut off most of the right matches, or let in many wrong ones, cost time
+        // only.
         if max_error_px < noise_px || max_error_px > 10.0 * noise_px {
             continue;
         }
@@ -271,7 +272,7 @@ fn inliers_are_within_the_threshold_found() {
     assert!(!report.could_be_chance());
 }
 
-/// E, F, H and the turn are compared within one threshold.
+/// E, F, H and the rotation are compared within one threshold.
 #[test]
 fn two_views_share_the_threshold_of_the_fundamental_matrix() {
     let options = TwoViewOptions::default().with_ransac(from_noise());
@@ -322,7 +323,7 @@ fn bad_input_is_refused_and_never_gives_a_strange_threshold() {
     assert!(estimate_fundamental(&same, &same, &options, &mut ()).is_err());
     assert!(estimate_homography(&same, &same, &options, &mut ()).is_err());
     let sane = |px: f64| (0.05..1000.0).contains(&px);
-    // As many as a sample, and one more: nothing is left over to tell the noise from.
+    // A sample and at most a few more leave no redundancy to estimate the noise from.
     for count in [7, 8, 9, 12] {
         if let Ok(report) =
             estimate_fundamental(&few.p1[..count], &few.p2[..count], &options, &mut ())

@@ -23,7 +23,7 @@ fn same_up_to_sign(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
-/// Two random cameras around a cloud of points, all of which both see.
+/// Two random cameras around a cloud of points that both see.
 struct Pair {
     cameras: [PosedCamera; 2],
     points: Vec<Point3<f64>>,
@@ -124,7 +124,7 @@ fn a_hundred_pairs_with_unknown_intrinsics() {
         let report = estimate_two_view(p1, p2, &choice, &mut ()).unwrap();
         check_general(&report, seed);
         assert!(matches!(report.model, TwoViewModel::Fundamental(_)));
-        // What only intrinsics could tell is left open.
+        // Results that need intrinsics are left open.
         assert_eq!(report.cam2_from_cam1, None);
         assert_eq!(report.median_triangulation_angle_rad, None);
         let e = essential_from_fundamental(&report.fundamental.unwrap(), &k1, &k2).unwrap();
@@ -237,7 +237,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
     }
 }
 
-/// Where the same matches are listed many times over, nothing else is seen.
+/// Repeated matches do not change the result.
 #[test]
 fn repeated_matches_do_not_change_what_is_seen() {
     let k = Intrinsics::centered(700.0, 800, 600).unwrap();

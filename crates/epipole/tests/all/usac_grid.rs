@@ -1,10 +1,9 @@
-//! OpenCV's test of its USAC framework: shares of inliers from few to nearly all, and hardly more
-//! samples than theory asks for.
+//! OpenCV's test of its USAC framework: inlier ratios from low to nearly 1, and hardly more samples
+//! than theory requires.
 //!
-//! Source: opencv/opencv, modules/calib3d/test/test_usac.cpp. Its numbers are taken over: how the
-//! scenes are drawn, how many points, the noise, the thresholds, the budgets. The true matches come
-//! first, as there, which is what PROSAC hopes for. Stricter than there: only true matches count as
-//! found.
+//! Source: opencv/opencv, modules/calib3d/test/test_usac.cpp, with its scenes, numbers of points,
+//! noise, thresholds and budgets. The true matches come first, as there, as PROSAC assumes.
+//! Stricter than there: only true matches count as found.
 
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::sampson_px;
@@ -103,7 +102,7 @@ fn shares(first: f64) -> impl Iterator<Item = f64> {
         .filter(|share| *share < 0.91)
 }
 
-/// So many samples as theory asks for, and some more.
+/// Number of samples that theory asks for, and some more.
 fn budget(inlier_share: f64, sample_size: i32, tolerance: f64) -> usize {
     let all_true = libm::pow(inlier_share, f64::from(sample_size));
     (tolerance * libm::log(1.0 - CONFIDENCE) / libm::log1p(-all_true)) as usize
@@ -112,7 +111,7 @@ fn budget(inlier_share: f64, sample_size: i32, tolerance: f64) -> usize {
 /// Which data an estimator takes for inliers, and how far each is from its model.
 type Found = Result<(Vec<bool>, Vec<f64>)>;
 
-/// Runs every sampler and score on a scene: what is told to fit fits, and more than 80 % of the true
+/// Runs every sampler and score on a scene: reported inliers fit, and more than 80 % of the true
 /// matches are found.
 fn check(
     name: &str,

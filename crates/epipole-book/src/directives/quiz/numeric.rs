@@ -4,9 +4,9 @@ use crate::resolve::numbers::{self, Number as Computed};
 
 /// A numeric answer as it is written.
 pub(super) struct Number {
-    /// What the core computes, written as in `{{#value …}}`.
+    /// Expression computed by the core, written as in `{{#value …}}`.
     pub(super) value: Option<String>,
-    /// What only the question defines.
+    /// Answer defined by the question itself.
     pub(super) answer: Option<f64>,
     pub(super) tolerance: f64,
     pub(super) unit: Option<String>,

@@ -6,7 +6,7 @@ use epipole::feature::{Scaling, StructureTensorOptions, Window, WindowTensor, ha
 use epipole::imaging::gray_from_values;
 use nalgebra::Vector2;
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "corners.a",

@@ -13,11 +13,11 @@ pub enum Number {
 
 /// One line of the registry.
 pub struct Entry {
-    /// What a chapter calls it.
+    /// Name in chapters.
     pub name: &'static str,
     /// The parameters; all must be given.
     pub parameters: &'static [&'static str],
-    /// What it is, for authors.
+    /// Description for authors.
     pub summary: &'static str,
     pub(super) compute: fn(&Arguments) -> Result<Number, String>,
 }

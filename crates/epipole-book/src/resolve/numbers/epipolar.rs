@@ -10,7 +10,7 @@ use epipole::epipolar::{
 };
 use nalgebra::{Matrix3, Point2};
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "epipolar.epipole2-u",

@@ -7,7 +7,7 @@ use epipole::imaging::{
     gaussian_derivative_kernels, gray_from_values, noise_gain, separable_filter, sobel,
 };
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "gradients.slope",

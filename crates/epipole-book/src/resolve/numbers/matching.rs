@@ -5,7 +5,7 @@ use super::entry::{Entry, sentence};
 use epipole::feature::{Descriptors, Keypoint, describe_patches, nearest_few, nearest_two};
 use epipole::imaging::gray_from_values;
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "matching.patch-distance",

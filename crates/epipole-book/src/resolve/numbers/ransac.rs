@@ -4,7 +4,7 @@ use super::entry::Number::{Count, Real};
 use super::entry::{Arguments, Entry, sentence};
 use epipole::robust::{num_trials_with_replacement, num_trials_without_replacement};
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "ransac.trials",

@@ -5,7 +5,7 @@ use super::entry::{Arguments, Entry, sentence};
 use epipole::camera::Intrinsics;
 use nalgebra::{Matrix2, Matrix3, Point2, Point3, RowVector3};
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "camera.project-u",
@@ -76,7 +76,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// What three equal cameras side by side see of one point: their columns.
+/// Columns of one point in three equal cameras side by side.
 const THREE_COLUMNS: &[&str] = &["u1", "u2", "u3"];
 
 /// The smallest singular value of the rows (1, −m, −B), m = (u − 320) / 500, of cameras at B = 0, 0.4

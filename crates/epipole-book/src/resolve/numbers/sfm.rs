@@ -5,7 +5,7 @@ use super::entry::{Arguments, Entry};
 use epipole::camera::RigidTransform;
 use nalgebra::Vector3;
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "sfm.depth",

@@ -4,7 +4,7 @@ use super::entry::Number::Real;
 use super::entry::{Entry, sentence};
 use epipole::stereo::depth_from_disparity;
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "stereo.disparity",

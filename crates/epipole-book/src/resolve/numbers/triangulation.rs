@@ -9,7 +9,7 @@ use epipole::triangulation::{
 };
 use nalgebra::{Point2, Point3, Vector3};
 
-/// What chapters may print.
+/// Numbers that chapters can print.
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         name: "triangulation.point",

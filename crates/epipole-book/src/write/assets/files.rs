@@ -1,4 +1,4 @@
-//! What is made: files of the site, and their paths for the templates.
+//! Generated files of the site, and their paths for the templates.
 
 use crate::hash::fnv;
 use serde::Serialize;

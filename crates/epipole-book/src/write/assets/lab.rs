@@ -51,11 +51,10 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     Ok(assets.files.len())
 }
 
-/// What the Lab computes of the sample that it opens with, computed now so that no reader has to wait for it.
+/// Results of the Lab's initial sample, precomputed so that no reader has to wait for them.
 fn solved(tools: &Tools) -> Result<Vec<u8>> {
     let target = target_folder(&tools.project);
-    // The whole workspace is named, so that the core is the one that this builder was compiled with, and need not be
-    // compiled once more.
+    // The whole workspace is named, to reuse the core that this builder was compiled with.
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--quiet", "--locked", "--workspace"])
         .args(["--no-default-features", "--features"])

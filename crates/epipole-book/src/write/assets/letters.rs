@@ -15,7 +15,7 @@ pub struct Letters {
 /// The letters of all pages.
 pub fn used_letters(pages: &[Page]) -> Letters {
     let mut letters = Letters::default();
-    // What the theme, the scripts and the readers' own numbers need.
+    // Characters of the theme, the scripts and the readers' own numbers.
     letters.text.extend(' '..='~');
     letters
         .text

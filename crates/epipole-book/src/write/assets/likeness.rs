@@ -1,6 +1,6 @@
-//! The functions of a WebAssembly module, put in another order: what is alike stands together. A compressor finds what
-//! it has seen before only if that is near (gzip looks back 32 KB), so the module that travels is smaller, by some 6 %
-//! as gzip and 3 % as Brotli; what it does is the same.
+//! Reorders the functions of a WebAssembly module so that similar ones are adjacent. A compressor
+//! finds repetitions only nearby (gzip looks back 32 KB), so the download is smaller, by some 6 %
+//! as gzip and 3 % as Brotli; the behavior is the same.
 
 use anyhow::{Context, Result, anyhow, ensure};
 use std::collections::{HashMap, VecDeque};
@@ -9,11 +9,11 @@ use wasm_encoder::reencode::{Error, Reencode};
 use wasm_encoder::{CodeSection, FunctionSection, Module};
 use wasmparser::{CodeSectionReader, FunctionSectionReader, Parser, Payload, TypeRef};
 
-/// How many bytes in a row are compared.
+/// Length of the compared byte sequences.
 const RUN: usize = 6;
-/// What more functions than that have in common says little of any of them.
+/// Sequences shared by more functions than this are ignored as uninformative.
 const COMMON: usize = 200;
-/// How far back a function is compared with others: somewhat less than what gzip remembers.
+/// Distance in bytes over which functions are compared: somewhat less than gzip's window.
 const WINDOW: usize = 30_000;
 
 /// The same module with its functions in an order that compresses well. The order depends on the bytes alone.
@@ -69,7 +69,7 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
             }
         }
     }
-    // A number for each run that says something, in the order in which runs are met.
+    // A number for each informative run, in order of first occurrence.
     let mut telling: Vec<Vec<usize>> = Vec::new();
     let mut runs: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
     for (index, body) in bodies.iter().enumerate() {
@@ -193,7 +193,7 @@ mod tests {
 
     const NUM_FUNCTIONS: u32 = 8;
 
-    /// Functions of two kinds that take turns, each calling the next one, behind an imported one.
+    /// Functions of two kinds that alternate, each calling the next one, behind an imported one.
     fn two_kinds() -> Vec<u8> {
         let mut types = TypeSection::new();
         types.ty().function([], []);
@@ -250,13 +250,13 @@ mod tests {
         module.finish()
     }
 
-    /// What a module is to whoever follows its calls.
+    /// A module as seen by following its calls.
     struct Followed {
         /// Types and last numbers of functions, from the export on.
         met: Vec<(u32, i32)>,
         /// Numbers of those in the table.
         table: Vec<Option<i32>>,
-        /// Types in the order in which functions stand.
+        /// Types in the order of the functions.
         kinds: Vec<u32>,
     }
 

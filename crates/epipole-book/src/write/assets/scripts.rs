@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// How the style sheet names fonts, before they have their hashed names.
+/// Prefix of fonts in the style sheet, before they have their hashed names.
 const FONT: &str = "stix-two:";
 
-/// How scripts name the figures' style sheet.
+/// Name of the figures' style sheet in scripts.
 const LOOK: &str = "epipole-look";
 
 /// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
@@ -198,7 +198,7 @@ fn bundle(
             "--bundle",
             "--target=es2022,chrome107,firefox104,safari16",
             "--log-level=warning",
-            // What is imported for what it does must not be left out.
+            // Imports for side effects must not be dropped.
             "--log-override:ignored-bare-import=error",
         ])
         .args([

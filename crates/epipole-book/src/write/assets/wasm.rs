@@ -18,11 +18,11 @@ pub(crate) struct Module {
     pub(super) glue: PathBuf,
 }
 
-/// What the elements load.
+/// WebAssembly modules of the elements.
 pub(crate) struct Modules {
-    /// What a page calls; the elements import its script as `epipole-web`.
+    /// Module for the page; the elements import its script as `epipole-web`.
     pub(super) figures: Module,
-    /// What a worker calls; it imports the script as `epipole-jobs`.
+    /// Module for workers; they import its script as `epipole-jobs`.
     pub(super) jobs: Module,
 }
 
@@ -34,10 +34,11 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
     })
 }
 
-/// A setting of cargo: what the compiler is told of every crate. Cargo joins it to what `.cargo/config.toml` says.
+/// Compiler flags for every crate, as a setting of cargo. Cargo joins them to those of
+/// `.cargo/config.toml`.
 ///
-/// By it the paths of this machine stay out of the modules, where panics name the file that they come from: the same
-/// source gives the same bytes wherever it is built.
+/// They keep the paths of this machine out of the modules, where panics name their source file: the
+/// same source gives the same bytes on every machine.
 fn for_every_crate(project: &Path, more: &[&str]) -> String {
     let home = std::env::var_os("CARGO_HOME")
         .map(PathBuf::from)
@@ -56,7 +57,8 @@ fn for_every_crate(project: &Path, more: &[&str]) -> String {
     )
 }
 
-/// The profile of cargo for a module: what a page draws with is small, what a worker computes with is fast.
+/// The cargo profile of a module: small for the page's drawing code, fast for the worker's
+/// computations.
 fn profile(feature: &str) -> &'static str {
     match feature == "jobs" || feature.ends_with("-worker") {
         true => "web-worker",
@@ -64,7 +66,7 @@ fn profile(feature: &str) -> &'static str {
     }
 }
 
-/// How a module is compiled beyond its profile.
+/// Compilation settings of a module beyond its profile.
 #[derive(Default)]
 struct Way {
     /// Arguments of `cargo rustc`.
@@ -75,13 +77,13 @@ struct Way {
     of_linking: &'static [&'static str],
 }
 
-/// How the module of a feature is compiled.
+/// Compilation settings for the module of a feature.
 ///
-/// Cargo leaves link-time optimization out where a library is an rlib as well as a cdylib, so the figures and their
-/// computations are asked for as a cdylib alone. The whole is optimized once more then, in which nalgebra's small
-/// functions, compiled for size, go into the loops that call them. Computations are compiled for speed; limits for
-/// inlining and unrolling, in every crate, since most of both is done before the whole is linked, give back what makes
-/// the module large and hardly faster.
+/// Cargo skips link-time optimization for a library that is both an rlib and a cdylib, so the
+/// figures and their computations are built as a cdylib alone. Link-time optimization then inlines
+/// nalgebra's small functions, compiled for size, into the loops that call them. Computations are
+/// compiled for speed. Limits on inlining and unrolling save size at hardly any cost in speed; they
+/// are set in every crate, since most of both happens before linking.
 fn way(package: &str, feature: &str) -> Way {
     const AS_ONE: &[&str] = &["--crate-type", "cdylib"];
     match (package, feature) {

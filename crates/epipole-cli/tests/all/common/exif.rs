@@ -1,4 +1,4 @@
-//! Photographs that say how they were held and where they were taken.
+//! Photographs with EXIF data on orientation and position.
 
 use epipole::math::Geodetic;
 use image::codecs::png::PngEncoder;
@@ -28,7 +28,7 @@ fn directory(data: &mut Vec<u8>, entries: &[(u16, u16, u32, u32)]) {
     data.extend([0; 4]);
 }
 
-/// How the camera was held, 1 to 8.
+/// EXIF block with an orientation, 1 to 8.
 pub(crate) fn orientation(orientation: u16) -> Vec<u8> {
     block(0x0112, SHORT, u32::from(orientation))
 }
@@ -64,7 +64,7 @@ pub(crate) fn place(place: &Geodetic) -> Vec<u8> {
     data
 }
 
-/// Writes a picture as a PNG file that says so.
+/// Writes a PNG file with EXIF data.
 pub(crate) fn write_png(file: &Path, image: &RgbImage, exif: Vec<u8>) {
     let mut bytes = Vec::new();
     let mut encoder = PngEncoder::new(&mut bytes);

@@ -28,7 +28,7 @@ pub(crate) fn camera(kind: LensKind) -> Camera {
     }
 }
 
-/// All of them.
+/// All lens models.
 pub(crate) const KINDS: [LensKind; 4] = [
     LensKind::Brown,
     LensKind::Rational,
@@ -36,7 +36,7 @@ pub(crate) const KINDS: [LensKind; 4] = [
     LensKind::Division,
 ];
 
-/// What a file says of a camera.
+/// A camera as in its JSON file.
 pub(crate) fn camera_json(camera: &Camera) -> Value {
     let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
     json!({
@@ -58,7 +58,7 @@ fn sides() -> [Matrix3<f64>; 5] {
         .map(|axes| Matrix3::from_rows(&axes.map(|axis| axis.transpose())))
 }
 
-/// Where a pixel looks: a side of the cube, and the pixel of it.
+/// Side of the cube that a pixel sees, and the pixel there.
 type Sight = Option<(usize, Point2<f64>)>;
 
 fn sight(camera: &Camera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
@@ -72,8 +72,8 @@ fn sight(camera: &Camera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
     Some((side, k.project(&turned.into()).unwrap()))
 }
 
-/// What a camera sees of the still life through its lens from some places: the sides of a cube, each rendered by a pinhole
-/// camera, and read where the rays of its pixels meet them.
+/// Photographs of the still life through a camera's lens from several poses: the sides of a cube,
+/// each rendered by a pinhole camera, and sampled where the rays of the camera's pixels meet them.
 pub(crate) fn photographs<const N: usize>(
     camera: &Camera,
     poses: [RigidTransform; N],
@@ -95,7 +95,7 @@ pub(crate) fn photographs<const N: usize>(
             let shown = scene.render(&side_camera, side, side, Sampling::Full);
             shown.unwrap().image
         };
-        // Most lenses see the one in front alone.
+        // Most lenses see only the front side.
         let shown: [OnceCell<RgbImage>; 5] = Default::default();
         RgbImage::from_fn(camera.width, camera.height, |u, v| {
             let Some((n, place)) = sights[(v * camera.width + u) as usize] else {
@@ -122,7 +122,7 @@ fn between(image: &RgbImage, place: Point2<f64>) -> Rgb<u8> {
     Rgb(color.map(|value: f64| value as u8))
 }
 
-/// Gray that changes smoothly with the place, in details of any size: some of it is found again from any distance.
+/// Smooth gray pattern with details of all sizes, to have features at any distance.
 fn gray(x: f64, y: f64) -> f64 {
     let at = |i: i64, j: i64, octave: u64| {
         let mixed = (i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
@@ -145,7 +145,7 @@ fn gray(x: f64, y: f64) -> f64 {
     sum
 }
 
-/// What a camera sees through its lens of a wall, the plane z = 0 of the world.
+/// Photograph of a wall through a camera's lens; the wall is the plane z = 0 of the world.
 pub(crate) fn wall_photograph(camera: &Camera, cam_from_world: &RigidTransform) -> RgbImage {
     let world_from_cam = cam_from_world.inverse();
     let center = world_from_cam.translation.vector;

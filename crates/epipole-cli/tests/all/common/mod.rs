@@ -1,4 +1,4 @@
-//! What the tests of the command line share: folders, rendered photographs, runs of the binary.
+//! Shared by the tests of the command line: folders, rendered photographs, runs of the binary.
 
 pub(crate) mod exif;
 pub(crate) mod lens;

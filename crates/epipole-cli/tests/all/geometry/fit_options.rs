@@ -56,7 +56,7 @@ fn fit_finds_the_threshold_from_the_noise() {
     }
 }
 
-/// Each option of the core's loop can be said, and does what it says.
+/// Each option of the core's loop is available, and takes effect.
 #[test]
 fn fit_says_how_the_loop_is_to_run() {
     let folder = Folder::new("fit-loop");
@@ -82,7 +82,7 @@ fn fit_says_how_the_loop_is_to_run() {
     }
 }
 
-/// What would be left unused is refused, and so is half of what is needed.
+/// Options without effect are refused, and so are incomplete ones.
 #[test]
 fn intrinsics_where_none_are_needed_are_refused() {
     let folder = Folder::new("fit-k");
@@ -139,8 +139,8 @@ fn a_byte_order_mark_is_no_part_of_a_row() {
     fails(&folder, &arguments, 1, ":4: here should be 4 numbers");
 }
 
-/// A run says why it ended, how many samples so many inliers ask for, and warns if these were not
-/// allowed.
+/// The output gives the reason for the end and the required number of samples, with a warning if
+/// that exceeds the limit.
 #[test]
 fn fits_tell_whether_they_are_confident() {
     let folder = Folder::new("fit-stop");
@@ -198,8 +198,7 @@ fn fits_tell_whether_they_are_confident() {
     assert!(result["required_iterations"].as_u64().unwrap() > 1_000_000);
 }
 
-/// Rows that come best first give PROSAC its answer while uniform samples are still searching.
-/// Rows that have nothing to do with one another: some agree nevertheless, and that is said.
+/// Unrelated rows: some agree nevertheless, and there is a warning.
 #[test]
 fn chance_is_told_from_a_model() {
     let folder = Folder::new("fit-chance");
@@ -224,6 +223,7 @@ fn chance_is_told_from_a_model() {
     assert_eq!(result["could_be_chance"], false);
 }
 
+/// Rows sorted by quality let PROSAC finish while uniform samples are still searching.
 #[test]
 fn the_sampler_can_be_chosen() {
     let folder = Folder::new("fit-sampler");

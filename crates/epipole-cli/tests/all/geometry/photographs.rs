@@ -1,4 +1,4 @@
-//! `epipole two-view` and `rectify` on photographs whose truth is exact.
+//! `epipole two-view` and `rectify` on photographs with exact ground truth.
 
 use super::*;
 
@@ -14,7 +14,7 @@ fn pair(folder: &Folder, motion: &RigidTransform) -> [PosedCamera; 2] {
     cameras
 }
 
-/// A step to the right with a turn back to the table.
+/// A translation to the right with a rotation back to the table.
 fn step() -> RigidTransform {
     RigidTransform::new(
         Vector3::new(-0.25, 0.02, 0.03),
@@ -22,7 +22,7 @@ fn step() -> RigidTransform {
     )
 }
 
-/// Where the second camera sees what the first sees at every 32nd pixel.
+/// True matches of every 32nd pixel of the first camera.
 fn true_matches(cameras: &[PosedCamera; 2]) -> Vec<(Point2<f64>, Point2<f64>)> {
     let scene = Scene::still_life();
     let mut matches = Vec::new();
@@ -129,8 +129,8 @@ fn two_photographs_give_the_motion_of_the_camera() {
     assert!(typical < 1.0, "{typical}");
 }
 
-/// Nobody says how long the lens is. Where the camera rolls and rises on its way, the matches tell; where it only
-/// steps aside, they do not, and the guess of 1.2 times the longer side stands.
+/// Without a given focal length, the matches determine it if the camera rolls and rises; for a step
+/// aside they do not, and the guess of 1.2 times the longer side remains.
 #[test]
 fn matches_tell_a_focal_length_that_nobody_gave() {
     let folder = Folder::new("two-view-focal");
@@ -294,7 +294,7 @@ fn rectified_photographs_share_their_rows() {
             assert_eq!(result["q"], Value::Null);
             continue;
         }
-        // Q makes a point of a pixel and its disparity: check it on what is really there.
+        // Q maps a pixel and its disparity to a point: compare with the ground truth.
         let q = nalgebra::Matrix4::from_row_slice(&numbers(&result["q"]));
         let scene = Scene::still_life();
         let errors = true_matches(&cameras).into_iter().map(|(p, other)| {
@@ -343,7 +343,7 @@ fn rectified_photographs_share_their_rows() {
         1,
         "must have the same size, but one is 640 × 480 and the other 100 × 80",
     );
-    // Without a motion there is nothing to turn to, with intrinsics or without.
+    // Without motion there is nothing to rectify, with intrinsics or without.
     for known in [&[][..], &["--focal-px", "500"]] {
         let arguments = ["rectify", path(&a), path(&a), "-o", path(&out)];
         let output = epipole(&[&arguments[..], known].concat());

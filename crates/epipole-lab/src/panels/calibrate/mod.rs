@@ -14,7 +14,7 @@ use epipole_canvas::theme::{Role, Theme};
 /// Width of a small picture, points.
 const SMALL: f32 = 112.0;
 
-/// What is remembered of this step.
+/// State of this step's view.
 #[derive(Default)]
 pub(super) struct BoardView {
     lens: photo::Lens,
@@ -22,7 +22,7 @@ pub(super) struct BoardView {
     all_marks: bool,
 }
 
-/// The photograph that is looked at, and all of them small.
+/// The selected photograph, and thumbnails of all.
 pub(super) fn picture(
     project: &Project,
     memory: &mut Memory,

@@ -1,4 +1,4 @@
-//! What comes from the place where the Lab runs: videos, the solved sample, and that computing broke down.
+//! Arrivals from the host: videos, the solved sample, and failed workers.
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
@@ -41,7 +41,7 @@ fn a_video_gives_its_sharpest_frames() {
     };
     frames(&mut bench, 3, vec![soft.clone(), sharp.clone()]);
     assert_eq!(bench.state_mut().host().frames[1..], [(3, 1, 3)]);
-    // What nobody asked for is not looked at.
+    // Frames that were not requested are ignored.
     frames(&mut bench, 4, vec![sharp.clone()]);
     frames(&mut bench, 3, vec![vec![1_u8, 2, 3].into()]);
     assert_eq!(
@@ -60,7 +60,7 @@ fn a_video_gives_its_sharpest_frames() {
         said.contains("2 frames were taken from the video."),
         "{said}"
     );
-    // Then the next one has its turn, and fails.
+    // Then the next video is read, and fails.
     assert_eq!(bench.state_mut().host().frames[2..], [(3, 2, 3), (4, 0, 3)]);
     let refused = "walk.mp4 cannot be decoded here.".to_owned();
     bring(&mut bench, Arrival::NoFrames(4, refused.clone()));

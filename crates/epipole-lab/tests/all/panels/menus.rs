@@ -95,7 +95,7 @@ fn what_opens_a_list_tells_whether_it_is_open() {
         way.press(&mut bench, name);
         assert_eq!(is_open(&bench, role, name), Some(false), "{name}");
     }
-    // What opens nothing says nothing.
+    // A plain button has no expanded state.
     let undo = bench.get_by_role_and_label(Role::Button, "Undo");
     assert_eq!(undo.accesskit_node().data().is_expanded(), None);
 }

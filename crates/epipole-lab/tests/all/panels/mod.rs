@@ -1,4 +1,4 @@
-//! The panels, operated by what they say: labels that a screen reader hears.
+//! The panels, operated by their accessible labels.
 
 #![cfg(all(feature = "panels", feature = "compute"))]
 
@@ -103,7 +103,7 @@ fn a_board_gives_a_camera_and_its_file() {
     assert!(bench.state().project().document().camera.is_some());
     click(&mut bench, "Stop using it");
     assert!(bench.state().project().document().camera.is_none());
-    // What comes while this step is open is of a board, and the sample makes room.
+    // Photographs that arrive during this step are of a board, and replace the sample.
     let broken = vec![("broken.png".to_owned(), vec![1_u8, 2, 3].into())];
     let arrival = Arrival::Photographs(broken);
     bench.state_mut().host().arrivals.push(arrival);

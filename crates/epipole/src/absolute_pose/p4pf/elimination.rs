@@ -4,7 +4,7 @@ use crate::math::real_roots::{DEGREE as ROOT_DEGREE, real_roots};
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, SMatrix, Vector2, Vector3, Vector4};
 
-/// The degree of the polynomial that is left, and so the number of solutions at most.
+/// Degree of the remaining polynomial, the maximum number of solutions.
 const DEGREE: usize = 6;
 
 /// A polynomial in the ratio that is eliminated last, from the constant term upwards.
@@ -22,7 +22,7 @@ const NEARLY_TOUCHING: f64 = 1e-6;
 /// Steps of the Gauss–Newton iteration.
 const STEPS: usize = 8;
 
-/// The depths of four points, the first of which is 1, all positive.
+/// The depths of four points, all positive, relative to the first.
 ///
 /// * `pixels`: about the principal point
 /// * `inverse`: that of the sides from the first point to the others, in columns
@@ -34,8 +34,8 @@ pub(super) fn depth_ratios(
     let Some(quadrics) = quadrics(pixels, inverse) else {
         return solutions;
     };
-    // Each of the three unknowns may be the one that is eliminated last: the others' squares and their product must
-    // be told apart well.
+    // Each of the three unknowns may be the one eliminated last; the squares and the product of the
+    // other two must be well separated.
     let orders = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3]];
     let eliminations = orders.map(|order| Elimination::new(&quadrics, order));
     let Some(best) =
@@ -62,9 +62,9 @@ pub(super) fn depth_ratios(
     solutions
 }
 
-/// The quadrics in (z₂, z₃, z₄, 1) that say that the first two rows of `diag(1, 1, f) s R` are orthogonal to each
-/// other and to the third, and equally long; `None` if they are not finite. The differences of what the camera
-/// sees, times the inverse of the sides, are that matrix, linear in the depths.
+/// The quadrics in (z₂, z₃, z₄, 1) that make the first two rows of `diag(1, 1, f) s R` orthogonal
+/// to each other and to the third, and equally long; `None` if they are not finite. The matrix is
+/// the product of the image differences and the inverse of the sides, linear in the depths.
 fn quadrics(pixels: &[Vector2<f64>; 4], inverse: &Matrix3<f64>) -> Option<[Quadric; 4]> {
     let row = |c: [f64; 4]| {
         SMatrix::<f64, 3, 4>::from_fn(|i, j| match j {
@@ -129,7 +129,7 @@ impl Elimination {
                 })
             })
         });
-        // What no combination of the leading columns reaches: the longest remainder of a unit vector.
+        // Direction that the leading columns span least: the longest remainder of a unit vector.
         let remainder = |e: usize| -> Vector4<f64> {
             let unit = Vector4::from_fn(|i, _| f64::from(u8::from(i == e)));
             unit - q * (q.transpose() * unit)
@@ -148,7 +148,7 @@ impl Elimination {
         })
     }
 
-    /// `(y²) w = y (y w)` and `y (w²) = w (y w)`, with the products replaced by what they are.
+    /// `(y²) w = y (y w)` and `y (w²) = w (y w)`, with the products substituted.
     fn identities(&self) -> [Row; 2] {
         let [yy, yw, ww] = &self.products;
         let y_and_1 = minus(&yy[0], &yw[1]);
@@ -236,7 +236,7 @@ fn minus(a: &Polynomial, b: &Polynomial) -> Polynomial {
     core::array::from_fn(|k| a[k] - b[k])
 }
 
-/// No product here goes beyond degree six.
+/// Products here have degree six or less.
 fn times(a: &Polynomial, b: &Polynomial) -> Polynomial {
     core::array::from_fn(|k| (0..=k).map(|i| a[i] * b[k - i]).sum())
 }

@@ -11,39 +11,40 @@ use crate::math::svd3;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2, Point3, Vector3, Vector4};
 
-/// At most so many solutions: six of points in space, one of points on a plane.
+/// Maximum number of solutions: six for points in space, one for points on a plane.
 pub(super) const MAX_SOLUTIONS: usize = 7;
 
 /// Four points are on a line if they are broader than this share of their length in no direction.
 const LINE: f64 = 1e-6;
 
-/// Four points are as good as on a plane if they are thinner than this share of their length: what tells
-/// the thickness is lost among the rest.
+/// Four points thinner than this share of their length count as coplanar: rounding hides the
+/// thickness.
 const FLAT: f64 = 1e-7;
 
 /// Points thinner than this are tried as points on a plane, too.
 const THIN: f64 = 0.15;
 
-/// A solution that is off by more, as a share of the picture's reach, is none.
+/// Solutions with a larger error, as a share of the image's extent, are dropped.
 const FAR_OFF: f64 = 0.25;
 
-/// The poses, each with its focal length, from which four known points are seen at four pixels; at most seven.
+/// The poses, each with its focal length, that project four known points to four pixels; at most
+/// seven.
 ///
-/// Pixels are square, without skew. The four depths, up to a common factor, and the focal length are unknown, and the
-/// camera sees a copy of the four points in another size: that their differences have the same angles and lengths
-/// are four quadratic equations in three ratios of depths, from which f is eliminated. Three of their
-/// combinations give the squares and the product of two ratios, the fourth is linear in them, and a determinant
-/// of degree six in the third is left. Four points on a plane give the ratios at once, and points near a plane are tried
-/// both ways.
+/// Pixels are square, without skew. The unknowns are the four depths, up to a common factor, and
+/// the focal length. The camera sees a scaled copy of the four points; equal angles and length
+/// ratios of their differences are four quadratic equations in three ratios of depths, after f is
+/// eliminated. Three of their combinations give the squares and the product of two ratios, the
+/// fourth is linear in them, and a determinant of degree six in the third ratio remains. Four
+/// points on a plane give the ratios at once; points near a plane are tried both ways.
 ///
-/// * `pixels`, `points_in_world`: where the points are seen, and where they are
+/// * `pixels`, `points_in_world`: projections of the points, and the points
 /// * `principal`: the principal point, pixels: the middle of the image, for most cameras
 ///
-/// Four points are one equation more than there are unknowns: where pixels are exact the true solution fits
-/// exactly, and where they are not, solutions nearly fit. They come in the order of their errors, the best first.
-/// Returns an empty list if there is none, and for equal points or pixels, three points of a plane on a line,
-/// input that is not finite, and a plane that faces the camera squarely, which looks the same from every
-/// distance with its focal length.
+/// Four points give one equation more than there are unknowns: for exact pixels the true solution
+/// fits exactly, for others the solutions fit approximately. They are sorted by error, the best
+/// first. Returns an empty list if there is none, and for equal points or pixels, three points of a
+/// plane on a line, input that is not finite, and a plane parallel to the image, which looks the
+/// same at every distance with its focal length.
 ///
 /// Source: the equations of Bujnak, Kukelova & Pajdla 2008, "A general solution to the P4P problem for camera with
 /// unknown focal length"; their elimination as in Kukelova, Heller & Fitzgibbon 2016, "Efficient intersection of three
@@ -99,7 +100,7 @@ pub(super) fn solve(
         sides: Matrix3::from_columns(&sides) / length,
     };
     let svd = svd3(&problem.sides);
-    // Points on a line leave the camera free to turn about it.
+    // Points on a line leave the rotation about it free.
     if svd.singular_values[1] < LINE * svd.singular_values[0] {
         return;
     }
@@ -109,7 +110,7 @@ pub(super) fn solve(
         let Some((mut pose, mirrored)) = problem.pose_of(depths) else {
             return;
         };
-        // Of points on a plane the mirror image is the same as a turn.
+        // The mirror image of points on a plane is also a rotation.
         if mirrored && thickness > THIN {
             return;
         }
@@ -152,10 +153,10 @@ pub(super) fn solve(
 /// Solutions that differ by less are one.
 const SAME: f64 = 1e-7;
 
-/// Where depths differ by no more, squared and relative to the first, every focal length fits.
+/// Depths that differ by no more, squared and relative to the first, leave the focal length free.
 const SAME_DEPTH: f64 = 1e-12;
 
-/// Four points in units that suit them, the first of them at the origin.
+/// Four points in normalized units, the first at the origin.
 struct Sample {
     /// About the principal point.
     pixels: [nalgebra::Vector2<f64>; 4],
@@ -171,8 +172,8 @@ impl Sample {
 
     /// The pose, its focal length, and whether the camera would have to see a mirror image.
     ///
-    /// A distance between two points gives `‖uᵢzᵢ − uⱼzⱼ‖² + f² (zᵢ − zⱼ)² = s² d²`: six equations, linear in f² and
-    /// s². Then R is the turn from one set of points to the other.
+    /// A distance between two points gives `‖uᵢzᵢ − uⱼzⱼ‖² + f² (zᵢ − zⱼ)² = s² d²`: six equations,
+    /// linear in f² and s². Then R is the rotation that aligns the two sets of points.
     ///
     /// Source: Arun, Huang & Blostein 1987, "Least-squares fitting of two 3-D point sets".
     fn pose_of(&self, z: &Vector4<f64>) -> Option<(PoseFocal, bool)> {

@@ -53,7 +53,7 @@ fn ten_thousand_problems() {
     assert!(first >= 9985, "{first}");
 }
 
-/// Four points on a plane that is turned away from the camera by 10° and more.
+/// Four points on a plane that is tilted by 10° or more.
 fn tilted(random: &mut Random) -> (RigidTransform, [Point3<f64>; 4]) {
     let turn = Vector3::from_fn(|_, _| random.normal());
     let t = Vector3::from_fn(|_, _| random.normal());
@@ -169,7 +169,7 @@ fn degenerate_input_has_no_solution_or_finite_ones() {
     let side = square.map(|(x, y)| Point3::new(0.0, x + 0.2 * y, 5.0 + y));
     let seen = side.map(|x| camera(700.0).project(&x).unwrap());
     assert!(pose_p4pf(&seen, &side, &CENTER).is_empty());
-    // What is not a number, and what is far too large.
+    // Coordinates that are not finite, or far too large.
     for bad in [f64::NAN, f64::INFINITY, 1e300, -1e200] {
         for place in 0..4 {
             let (mut p, mut x) = (pixels, points);

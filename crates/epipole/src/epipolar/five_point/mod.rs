@@ -19,10 +19,10 @@ use nalgebra::{Matrix3, Vector3};
 ///
 /// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
 ///
-/// Every matrix satisfies `2 E Eᵀ E = tr(E Eᵀ) E` to within 10⁻⁸: one that rounding has led further astray, as
-/// near double solutions, is brought back, or left out. Returns an empty list if there is no real solution.
-/// Degenerate rays, such as those of a camera that only turned, have a whole family of solutions: of
-/// these some are returned, or none.
+/// Every matrix satisfies `2 E Eᵀ E = tr(E Eᵀ) E` to within 10⁻⁸: matrices with larger rounding
+/// errors, as near double solutions, are polished, or left out. Returns an empty list if there is
+/// no real solution. Degenerate rays, such as those of a camera that only rotated, have a whole
+/// family of solutions: some of these are returned, or none.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem"; another basis of
 /// the null space where this one hides solutions at infinity, and Gauss–Newton at the end, are ours.
@@ -56,11 +56,12 @@ pub fn essential_5point(
     solutions.into_iter().take(count).collect()
 }
 
-/// Another orthonormal basis of the same space: the mirror image in a plane that is askew to everything.
+/// Another orthonormal basis of the same space: the mirror image in a plane that is oblique to all
+/// axes.
 ///
-/// The solutions are sought with a coefficient of 1 for the last vector of the basis, as roots of a
-/// polynomial in that of the third. Rays in special positions, such as those of a camera that moved along its
-/// rows, have solutions for which this cannot be.
+/// The solver sets the coefficient of the last basis vector to 1 and finds roots of a polynomial in
+/// that of the third. Rays in special positions, such as those of a camera that moved along its
+/// rows, have solutions whose last coefficient is 0.
 fn mirrored(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
     // Of length 1, and no entry is the sum or difference of others.
     const NORMAL: [f64; 4] = [0.36, -0.48, 0.64, 0.48];
@@ -77,7 +78,8 @@ fn mirrored(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
     mirrored
 }
 
-/// Where the equations depend on each other, solutions form a curve or more: those near the basis.
+/// Polishes the basis vectors into solutions, for dependent equations whose solutions form a curve
+/// or more. Returns their number.
 #[cold]
 fn some_of_many(basis: &[[f64; 9]; 4], solutions: &mut [Matrix3<f64>; 10]) -> usize {
     let mut count = 0;
@@ -143,7 +145,7 @@ pub(crate) fn solve(
     solutions.count
 }
 
-/// What was not found in the first basis.
+/// Adds the solutions that were not found in the first basis.
 #[cold]
 fn in_another_basis(basis: &[[f64; 9]; 4], solutions: &mut Solutions<'_>) {
     if let Some(resolvent) = Resolvent::new(basis) {
@@ -156,8 +158,8 @@ fn in_another_basis(basis: &[[f64; 9]; 4], solutions: &mut Solutions<'_>) {
 /// The polynomial's coefficients are exact to this share, at worst.
 const NOISE: f64 = 1e-8;
 
-/// A root whose matrix misses the constraints by more was led astray: by a small pivot, or because two
-/// solutions nearly agree in it; or it is an extremum that might have been two roots.
+/// A root whose matrix misses the constraints by more is inaccurate: because of a small pivot, or
+/// because two solutions nearly agree in it; or it is an extremum that might have been two roots.
 const DOUBTFUL: f64 = 1e-7;
 
 /// Takes the matrix of each real root; whether these seem to be all solutions.
@@ -200,7 +202,7 @@ fn take_roots(basis: &[[f64; 9]; 4], resolvent: &Resolvent, solutions: &mut Solu
     complete
 }
 
-/// Depths of a point whose rays are parallel but for rounding.
+/// Depth of a point whose rays are parallel up to rounding.
 const NO_DEPTH: f64 = 1e-12;
 
 /// The motion (R, t) of an essential matrix that puts all points in front of both cameras. Points
@@ -330,8 +332,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// How far the true solution is from being one of many: the smallest singular value of the five
-    /// equations' derivatives along the five directions that E can move in.
+    /// Distance of the true solution from a degenerate one: the smallest singular value of the five
+    /// equations' derivatives along the five directions in which E can move.
     fn isolation(
         motion: &RigidTransform,
         rays1: &[Vector3<f64>; 5],
@@ -418,7 +420,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Steps along the axes after turns that map axes on axes: many entries of E are zero.
+    /// Translations along the axes after rotations that map axes on axes: many entries of E are
+    /// zero.
     #[test]
     fn aligned_cameras_are_found() {
         let mut random = Random::new(3);

@@ -1,4 +1,4 @@
-//! What rounding has taken from a matrix that should be essential.
+//! Removal of rounding errors from nearly essential matrices.
 
 use nalgebra::{Matrix3, Matrix4, Vector4};
 
@@ -8,7 +8,8 @@ const GOOD: f64 = 5e-9;
 /// Nothing is left to polish.
 const EXACT: f64 = 1e-14;
 
-/// Steps of polishing at most: one doubles the digits, but at double solutions wins a bit or so.
+/// Maximum number of polishing steps: one doubles the digits, but gains only a bit or so at double
+/// solutions.
 const MAX_STEPS: usize = 10;
 
 /// Along a family of solutions the equations are singular, and any member will do.
@@ -46,7 +47,7 @@ fn constraint(e: &Matrix3<f64>) -> Matrix3<f64> {
     eet * e
 }
 
-/// Gauss–Newton on the four coefficients: what roots have lost by rounding, and only few have.
+/// Gauss–Newton on the four coefficients, against the rounding errors that a few roots have.
 #[cold]
 fn sought(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
     let basis = basis.map(|vector| Matrix3::from_row_slice(&vector));

@@ -19,7 +19,7 @@ pub struct EssentialWithFocal {
     pub focal_px: f64,
 }
 
-/// At most so many solutions.
+/// Maximum number of solutions.
 pub(crate) const MAX_SOLUTIONS: usize = 15;
 
 /// The essential matrices, each with its focal length, that six matches of two cameras with one focal length
@@ -33,10 +33,10 @@ pub(crate) const MAX_SOLUTIONS: usize = 15;
 /// * `pixels1`, `pixels2`: matching pixels
 /// * `principal1`, `principal2`: the principal points of the two images, pixels
 ///
-/// Returns an empty list if there is no real solution or input is not finite. Of random problems, up to one in two
-/// thousand loses its true solution to rounding. Where the axes of the cameras are parallel, or meet at the same
-/// distance from both, every focal length fits: then some solutions are returned, or none. A camera that only turned
-/// is degenerate as well.
+/// Returns an empty list if there is no real solution or input is not finite. Up to one in two
+/// thousand random problems loses its true solution to rounding. If the axes of the cameras are
+/// parallel, or meet at the same distance from both, every focal length fits: then some solutions
+/// are returned, or none. A camera that only rotated is degenerate, too.
 ///
 /// Source: Stewénius, Nistér, Kahl & Schaffalitzky 2005, "A minimal solution for relative pose with unknown focal
 /// length" (the equations); Kukelova, Bujnak & Pajdla 2012, "Polynomial eigenvalue solutions to minimal
@@ -267,7 +267,7 @@ mod tests {
         assert!(num_solutions < 60_000, "{num_solutions}");
     }
 
-    /// Whatever is returned is an essential matrix and fits the matches.
+    /// All returned matrices are essential and fit the matches.
     #[test]
     fn every_solution_satisfies_all_equations() {
         let mut random = Random::new(2);

@@ -9,7 +9,8 @@ use crate::math::order::{at_rank, order_by};
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// For each descriptor of `first` its two nearest in `second`, by Euclidean distance, exactly.
+/// For each descriptor of `first` its two nearest in `second`, by Euclidean distance, without
+/// approximation.
 ///
 /// Empty lists give an empty result. Whole numbers from 0 to 255, such as SIFT's, are compared in
 /// integers, whether kept as bytes or as floats; other numbers in `f32`. The one stage is
@@ -39,9 +40,9 @@ pub fn nearest_two(
 /// distances, nearest first, of equally near ones the lowest index first.
 ///
 /// * `query`: a descriptor, as long as those of the list
-/// * `count`: at most so many
+/// * `count`: maximum number of entries
 ///
-/// Where [`nearest_two`] tells how far the second nearest is, this tells which one it is.
+/// [`nearest_two`] gives the distance of the second nearest, this function also its index.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for a query of another length, [`Error::NotFinite`] for one with NaN or
@@ -92,7 +93,8 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
 
 /// Matches between two lists of descriptors, in the order of the first list.
 ///
-/// Empty lists give no matches. See [`Match`] for what becomes of a lone candidate. The one stage is
+/// Empty lists give no matches. See [`Match`] for the treatment of a lone candidate. The one stage
+/// is
 /// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors

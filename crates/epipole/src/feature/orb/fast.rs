@@ -41,7 +41,7 @@ const CIRCLE_AT: [(usize, usize); 16] = {
 /// Neighbors in a row that make a corner.
 const ARC: usize = 9;
 
-/// Corners at least `margin` (≥ 5) pixels inside, the strongest of each 3×3 pixels, with Harris'
+/// Corners at least `margin` (≥ 5) pixels inside, the strongest of each 3×3 pixels, with the Harris
 /// measure as their response.
 pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Keypoint> {
     let (width, height) = (image.width() as usize, image.height() as usize);
@@ -134,7 +134,7 @@ dispatched! {
                 x += 1;
             }
         }
-        // A block may reach beyond the columns that were asked for.
+        // A block may extend beyond the requested columns.
         scores[columns.end..].fill(0);
     }
 }
@@ -170,7 +170,7 @@ fn score_block<const L: usize>(rows: &[u8], width: usize, threshold: u8, x: usiz
     if any == 0 {
         return [0; L];
     }
-    // How much brighter, and how much darker, each pixel of the circle is; no less than 0.
+    // Excess and deficit in brightness of each pixel of the circle over the center, at least 0.
     let (mut bright, mut dark) = ([[0u8; L]; 16], [[0u8; L]; 16]);
     for k in 0..16 {
         let ring = ring::<L>(rows, width, x, k);
@@ -227,7 +227,7 @@ fn score(values: &[u8], center: usize, offsets: &[isize; 16]) -> i16 {
 
 /// Harris' measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
 fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
-    // Each product is at most 1020², 49 of them fit.
+    // Each product is at most 1020², and 49 of them do not overflow.
     let (mut a, mut b, mut c) = (0i32, 0i32, 0i32);
     for row in y - 3..=y + 3 {
         let nine = |row: usize| -> [i32; 9] {

@@ -25,9 +25,9 @@ const MARGIN: u32 = RADIUS as u32 + 2;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct OrbOptions {
-    /// At most so many features over all levels, ≥ 1.
+    /// Maximum number of features over all levels, ≥ 1.
     pub max_features: usize,
-    /// Size of one level over that of the next, above 1 and at most 2.
+    /// Ratio of the sizes of successive levels, above 1 and at most 2.
     pub scale_factor: f64,
     /// Levels of the pyramid, 1 to 16.
     pub num_levels: usize,
@@ -53,7 +53,7 @@ impl Default for OrbOptions {
 /// Keypoints and their descriptors of bits; entry k of one belongs to entry k of the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BinaryFeatures {
-    /// Where.
+    /// Keypoints.
     pub keypoints: Vec<Keypoint>,
     /// Its descriptor.
     pub descriptors: BinaryDescriptors,

@@ -9,14 +9,14 @@ use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::order_by;
 use crate::{Error, Result};
 
-/// SIFT descriptors at given places, scales and directions, one for each keypoint: what
-/// [`detect_sift`](super::detect_sift) computes at the places that it finds.
+/// SIFT descriptors at given places, scales and directions, one for each keypoint, as
+/// [`detect_sift`](super::detect_sift) computes at its keypoints.
 ///
-/// * `keypoints`: `u`, `v`, `scale_px` (> 0) and `angle_rad` count. Where two octaves hold layers of
-///   this blur, `octave` says which; a blur beyond all layers takes the nearest one.
+/// * `keypoints`: `u`, `v`, `scale_px` (> 0) and `angle_rad` count. If two octaves hold layers of
+///   this blur, `octave` selects one; a blur beyond all layers takes the nearest layer.
 ///
-/// What lies outside the image counts as without gradient, so a place far outside gives zeros. An
-/// image too small for an octave gives zeros everywhere.
+/// There is no gradient outside the image, so a place far outside gives zeros. An image too small
+/// for an octave gives zeros everywhere.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for an option or a scale outside its range, [`Error::NotFinite`] for a bad
@@ -56,11 +56,11 @@ pub fn describe_sift(
     Descriptors::from_bytes(128, bytes)
 }
 
-/// The directions of the gradients around given places, strongest first, in (−π, π]: what
-/// [`detect_sift`](super::detect_sift) makes features of. At most `options.max_orientations` each.
+/// The dominant gradient directions around given places, strongest first, in (−π, π], from which
+/// [`detect_sift`](super::detect_sift) makes features. At most `options.max_orientations` each.
 ///
-/// Arguments, errors and what is outside as for [`describe_sift`]; where there is no gradient at all,
-/// the direction is 0.
+/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient the
+/// direction is 0.
 ///
 /// Source: Lowe 2004, §5.
 ///
@@ -91,7 +91,8 @@ pub fn sift_directions(
     Ok(found)
 }
 
-/// Visits each keypoint with the layer of its blur: index, layer, place and blur in samples of it.
+/// Visits each keypoint with the layer of its blur: index, layer, and place and blur in samples of
+/// the layer.
 fn at_layers(
     image: &GrayImage32,
     keypoints: &[Keypoint],

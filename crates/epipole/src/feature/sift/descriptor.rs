@@ -29,7 +29,7 @@ pub(super) fn histogram(
     angle_rad: f32,
     scratch: &mut Samples,
 ) -> [f32; 128] {
-    // One cell of margin all around takes what is shared outwards.
+    // One cell of margin all around receives the outward shares.
     let mut sums = Aligned([0.0f32; NUM_SUMS]);
     let cell = CELL_SIGMAS * sigma;
     let (cos, sin) = (libm::cosf(angle_rad) / cell, libm::sinf(angle_rad) / cell);
@@ -98,8 +98,8 @@ fn lanes_sum(values: &[f32; 128], f: impl Fn(f32) -> f32) -> f32 {
     lanes.iter().sum()
 }
 
-/// The samples of a layer around a place: gradients and what is made of them. Lists are filled
-/// first and worked on as a whole, so that the loops run in vectors.
+/// The samples of a layer around a place: gradients and values derived from them. Lists are filled
+/// first and processed as a whole, so that the loops vectorize.
 #[derive(Default)]
 pub(super) struct Samples {
     /// Twice the derivatives.
@@ -112,12 +112,12 @@ pub(super) struct Samples {
     pub(super) weight: Vec<f32>,
     /// Direction in [−π, π].
     pub(super) angle: Vec<f32>,
-    /// Where the first of the cells that share a sample begins among the sums, and how much of it
-    /// goes one further along u and v.
+    /// Index into the sums of the first cell that a sample contributes to, and the fractions that
+    /// go to the next cell along u and v.
     cell: Vec<u32>,
     right: Vec<f32>,
     down: Vec<f32>,
-    /// The first of the two directions, and how much goes to the next.
+    /// The first of the two directions, and the fraction that goes to the next.
     bin: Vec<u32>,
     ahead: Vec<f32>,
 }
@@ -210,8 +210,8 @@ static ONE_OF: Aligned<[[f32; BINS]; BINS]> = {
     Aligned(table)
 };
 
-/// The whole number below x and what is left, for x in [0, 8]. A whole x may come as x − 1 and 1,
-/// which shares a sample in the same way. Adding 1.5 · 2²³ rounds without a call.
+/// Splits x in [0, 8] into integer and fraction. An integer x may come as x − 1 and 1, which
+/// distributes a sample in the same way. Adding 1.5 · 2²³ rounds without a call.
 #[inline(always)]
 fn whole_and_rest(x: f32) -> (u32, f32) {
     const ROUND: f32 = 12_582_912.0;

@@ -16,7 +16,7 @@ use crate::progress::{self, Monitor, Stage};
 /// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
-    /// Where.
+    /// Keypoints.
     pub keypoints: Vec<Keypoint>,
     /// Its descriptor.
     pub descriptors: Descriptors,
@@ -65,7 +65,7 @@ pub fn detect_sift(
     tell(0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();
     let mut strongest = Strongest::new(options.max_features);
-    // Each octave has a quarter of the pixels of the one before it.
+    // Each octave has a quarter of the previous one's pixels.
     let (mut done, mut share) = (0.0, 0.75 / options.layers_per_octave as f64);
     let mut next = OctaveGrid::first(image, options);
     let mut memory = Default::default();
@@ -73,8 +73,8 @@ pub fn detect_sift(
         let mut octave = Octave::new(grid, memory, options);
         next = None;
         for layer in 1..=options.layers_per_octave {
-            // A blur of the first octave takes as long as all that follows from a small one, and so do
-            // some hundred descriptors: who wants to stop is asked after each.
+            // A blur of the first octave takes as long as all the rest of a small image, and so do
+            // some hundred descriptors: cancellation is checked after each.
             while octave.advance_towards(layer) {
                 tell(done)?;
             }

@@ -1,4 +1,4 @@
-//! The whole scale space, for those who want to look at it.
+//! The whole scale space, for inspection.
 
 use super::options::{SiftOptions, check};
 use super::scale_space::{Octave, OctaveGrid};
@@ -9,7 +9,7 @@ use crate::imaging::{Border, GrayImage32, from_vec, require_finite, sample_bilin
 /// [`detect_sift`](super::detect_sift) looks for extrema.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScaleSpace {
-    /// Each with half as many samples along an axis as the one before it.
+    /// Octaves, each with half as many samples along an axis as the previous one.
     pub octaves: Vec<ScaleOctave>,
 }
 
@@ -26,7 +26,7 @@ pub struct ScaleOctave {
     pub blurred: Vec<GrayImage32>,
     /// Standard deviation of each one's blur, pixels of the image.
     pub sigmas_px: Vec<f64>,
-    /// Each blurred image less the one before it: one fewer.
+    /// Each blurred image minus the previous one: one fewer.
     pub differences: Vec<GrayImage32>,
 }
 
@@ -93,8 +93,8 @@ fn difference(pair: &[GrayImage32]) -> GrayImage32 {
 }
 
 impl ScaleSpace {
-    /// How the differences answer at a place of the image: pairs of the blur in pixels and the
-    /// difference there, by growing blur. Each octave gives the layers in which it looks for extrema.
+    /// Responses of the differences at a pixel: pairs of the blur in pixels and the difference, by
+    /// growing blur. Each octave gives the layers that it searches for extrema.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

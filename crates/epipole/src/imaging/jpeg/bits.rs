@@ -12,14 +12,14 @@ pub(super) struct Huffman {
     lookup: Vec<u16>,
     /// By length: the first 16-bit window that is beyond the codes of this length.
     end: [u32; 17],
-    /// By length: where the symbols of this length begin, less the first code.
+    /// By length: index of the first symbol of this length, minus the first code.
     offset: [i32; 17],
     symbols: Vec<u8>,
 }
 
 impl Huffman {
-    /// From what a file says: how many codes of each length, and their symbols in order.
-    /// `None` if these are no codes.
+    /// Builds the table from the number of codes of each length, and their symbols in order, as the
+    /// file lists them. `None` if these are no codes.
     pub(super) fn new(counts: &[u8], symbols: &[u8]) -> Option<Self> {
         let mut table = Self {
             lookup: vec![0; 1 << LOOKUP_BITS],
@@ -58,7 +58,8 @@ pub(super) struct Bits<'a> {
     pub(super) at: usize,
     /// The next bits, the first of them on top.
     window: u64,
-    /// How many of these are of the file. Below zero, more were taken than there were.
+    /// Number of bits in the window that come from the file. Negative if more were taken than there
+    /// were.
     left: i32,
     ended: bool,
 }
@@ -74,7 +75,7 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// At least 32 bits in the window; zeros where the data have ended.
+    /// Ensures at least 32 bits in the window; zeros after the end of the data.
     #[inline(always)]
     fn fill(&mut self) {
         if self.left >= 32 || self.ended {
@@ -167,13 +168,13 @@ impl<'a> Bits<'a> {
         Ok(value as u32)
     }
 
-    /// Whether nothing is left but what fills the last byte up: ones.
+    /// Whether only the padding of the last byte is left: ones.
     pub(super) fn only_padding(&mut self) -> bool {
         self.fill();
         self.ended && self.left < 8 && self.window.leading_ones() >= self.left as u32
     }
 
-    /// Drops what is left before the next marker, and gives where that is.
+    /// Drops the rest before the next marker, and returns the marker's offset.
     pub(super) fn into_marker(mut self) -> usize {
         while !self.ended {
             self.left = 0;

@@ -13,7 +13,7 @@ pub(super) struct Scan {
     from: u32,
     /// The last one.
     to: u32,
-    /// Whether it refines what an earlier scan brought.
+    /// Whether the scan refines an earlier one.
     refines: bool,
 }
 
@@ -55,7 +55,7 @@ impl Scan {
                 parts,
             }
         } else {
-            // Sequential files have one kind of scan, whatever they write here.
+            // Sequential files have one kind of scan, so these values are ignored.
             Self {
                 from: 0,
                 to: 63,
@@ -71,8 +71,8 @@ impl Scan {
         (fits && (1..=4).contains(&count)).then_some(scan)
     }
 
-    /// Passes over the data at `at`: where they end, or what is wrong and after how many rows.
-    /// `None` without the tables it takes.
+    /// Skips the data at `at`; returns their end, or the error and the number of rows before it.
+    /// `None` without the tables it needs.
     pub(super) fn pass_over(
         &self,
         file: &[u8],
@@ -137,7 +137,7 @@ impl Scan {
         Some(Ok(at))
     }
 
-    /// How many units there are across and down, and how many rows of pixels one has.
+    /// Number of units across and down, and height of a unit in rows of pixels.
     fn units(&self, frame: &Frame) -> (u32, u32, u32) {
         let (wide, high) = frame.unit();
         if let [part] = self.parts.as_slice() {
@@ -168,13 +168,13 @@ struct Walk<'a> {
     scan: &'a Scan,
     progressive: bool,
     parts: Vec<Blocks<'a>>,
-    /// Of a progressive scan of alternating currents: what is known of each block.
+    /// State of each block in a progressive scan of AC coefficients.
     known: &'a mut [u64],
     idle_blocks: u32,
 }
 
 impl Walk<'_> {
-    /// From one restart to the next: where it ends, or what is wrong and at which unit.
+    /// Skips one restart interval; returns its end, or the error and the unit where it occurred.
     fn interval(
         &mut self,
         file: &[u8],
@@ -232,10 +232,10 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Whether what is left are more units, to the last bit: a code was lost, and blocks are
-    /// where they do not belong. Anything else behind the last unit is no harm, as some cameras
-    /// write a few bytes too many. In progressive files a bit may be a block: of those, nothing
-    /// can be said.
+    /// Whether the remaining bytes are further units, to the last bit: then a code was lost, and
+    /// blocks are misplaced. Anything else behind the last unit is harmless, as some cameras write
+    /// a few bytes too many. In progressive files a single bit may be a block, so those cannot be
+    /// judged.
     fn goes_on(&mut self, bits: &mut Bits<'_>) -> bool {
         if self.progressive || bits.only_padding() {
             return false;

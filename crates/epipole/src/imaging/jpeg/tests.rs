@@ -1,5 +1,5 @@
-//! Files of 45 × 37 pixels, as `libjpeg` writes them with tables of their own, and what happens
-//! to files.
+//! Files of 45 × 37 pixels, as `libjpeg` writes them with tables of their own, and damaged
+//! variants.
 
 use super::{End, check};
 use crate::imaging::{DecodeOptions, decode_rgb};
@@ -56,7 +56,7 @@ fn file(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(digit).collect()
 }
 
-/// Where the data of the first scan begin.
+/// Offset of the first scan's data.
 fn data_at(file: &[u8]) -> usize {
     let scan = file.windows(2).position(|two| two == [0xFF, 0xDA]).unwrap();
     scan + 2 + usize::from(file[scan + 3])
@@ -98,7 +98,8 @@ fn data_that_end_early_are_found_wherever_they_end() {
         passed += usize::from(check_all(&[&whole[..at], &END].concat()).is_ok());
         assert!(check_all(&whole[..at]).is_err());
     }
-    // A scan fewer is a picture, too: there were ten. Tables may have come before the scan.
+    // A file without its last scan is an image, too: there were ten. Tables may have come before
+    // the scan.
     assert!(passed < 600, "{passed}");
 }
 
@@ -113,7 +114,8 @@ fn what_is_missing_in_the_middle_is_found() {
             found += u32::from(check_all(&hole).is_err());
             tried += 1;
         }
-        // In so small a picture, many a scan of a progressive file is shorter than what is cut out.
+        // In an image this small, many scans of a progressive file are shorter than the part cut
+        // out.
         let share = if hex == PROGRESSIVE { 5 } else { 9 };
         assert!(found * 10 > tried * share, "{found} of {tried}");
     }
@@ -150,7 +152,8 @@ fn bytes_that_changed_are_found_where_they_make_no_sense() {
             tried += 1;
         }
     }
-    // Tables made for this picture alone have next to no codes to spare: in photographs it is half.
+    // Tables made for this image alone leave hardly any code unused: in photographs half of the
+    // changes are found.
     assert!(senseless > 20, "{senseless}");
     assert!(found * 5 > tried, "{found} of {tried}");
 }
@@ -164,7 +167,7 @@ fn what_does_no_harm_is_no_damage() {
         let body = &whole[..whole.len() - 2];
         let junk: Vec<u8> = (0..18).map(|k| k * 11 + 3).collect();
         let mut odd = vec![
-            // Behind the picture: another one, as some cameras write, or anything.
+            // Extra data after the image: another image, as some cameras write, or anything.
             [&whole[..], &whole].concat(),
             [&whole[..], &junk].concat(),
             // Before the last marker.
@@ -188,7 +191,7 @@ fn what_does_no_harm_is_no_damage() {
 
 #[test]
 fn what_is_unknown_is_left_to_the_decoder() {
-    // Arithmetic coding, and a file larger than asked for.
+    // Arithmetic coding, and a file larger than the limit.
     let mut whole = file(SEQUENTIAL);
     let at = data_at(&whole);
     whole.drain(at + 60..whole.len() - 2);

@@ -3,7 +3,7 @@
 use crate::optim::loss::RobustLoss;
 
 /// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
-/// freedom), what the cameras of its group share (`S`), and its point.
+/// freedom), the shared parameters of the camera's group (`S`), and its point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ObservationTerms<const C: usize, const S: usize> {
     /// Predicted minus observed.
@@ -27,8 +27,7 @@ pub(crate) struct BundleStep<const C: usize, const S: usize> {
     pub(crate) points: Vec<[f64; 3]>,
 }
 
-/// What is known of a camera besides what it saw, linearized: a residual and its Jacobian with respect to the
-/// camera.
+/// A linearized prior of a camera: residual and Jacobian with respect to the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PriorTerms<const C: usize> {
     /// Estimated minus known, in standard deviations.
@@ -37,8 +36,8 @@ pub(crate) struct PriorTerms<const C: usize> {
     pub(crate) camera: [[f64; C]; 3],
 }
 
-/// A problem of cameras and points, where every residual of an observation has one of each. What several cameras
-/// share, as their lens, is a group; an observation belongs to one.
+/// A problem of cameras and points, where every residual belongs to one camera and one point.
+/// Cameras that share parameters, such as a lens, form a group; an observation belongs to one.
 pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     /// Cameras, groups and points.
     type Parameters: Clone + Sync;
@@ -83,7 +82,7 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn prior(&self, _parameters: &Self::Parameters, _camera: usize) -> Option<PriorTerms<C>> {
         None
     }
-    /// The loss of what is known of cameras.
+    /// The loss of the priors on cameras.
     fn prior_loss(&self) -> RobustLoss {
         RobustLoss::Trivial
     }

@@ -7,11 +7,12 @@ use crate::robust::{Estimator, ScoreKind};
 struct Tuning {
     /// Maximum number of restarts around the best model.
     restarts: usize,
-    /// Where errors fill the threshold and a wider look follows, this many restarts in a row without success end the
-    /// search. On photographs and drawn planes 10 do as well as all, 6 do worse.
+    /// Number of restarts without success in a row that ends the search, if errors fill the
+    /// threshold and a wider look follows. On photographs and drawn planes 10 do as well as all, 6
+    /// do worse.
     patience: usize,
-    /// Restarts fit data within this many thresholds of the best model: those outside of one are what another model
-    /// would claim.
+    /// Restarts fit data within this many thresholds of the best model: those outside of one could
+    /// be inliers of another model.
     reach: f64,
     /// Minimum number of restarts that lead back before the search ends early,
     returns: usize,
@@ -24,9 +25,9 @@ struct Tuning {
     /// Models are compared within this many medians of the inliers' errors: two standard deviations, if errors of one
     /// dimension are Gaussian.
     sharp_medians: f64,
-    /// Upper bounds of that reach in thresholds, look by look, for errors of one dimension and of two. Two homographies
-    /// whose errors fill the threshold differ only by what lies behind it, but a wide look alone would leave a sharp
-    /// optimum.
+    /// Upper bounds of `sharp_medians`, in thresholds, look by look, for errors of one dimension
+    /// and of two. Two homographies whose errors fill the threshold differ only beyond it, but a
+    /// wide look alone would leave a sharp optimum.
     sharp_thresholds: [&'static [f64]; 2],
 }
 
@@ -43,8 +44,8 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Looks for a better optimum nearby, within the errors that the inliers really have: a threshold far above them lets
-    /// in wrong data and cannot tell which model the right ones fit best.
+    /// Looks for a better optimum nearby, within the actual errors of the inliers: a threshold far
+    /// above them admits wrong data and cannot separate models by their fit to the right ones.
     pub(super) fn search_neighborhood(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         let mut explored = true;
@@ -76,9 +77,9 @@ impl<E: Estimator> Ransac<E> {
         }
     }
 
-    /// Restarts from least-squares fits to a few of the nearest data, which local optimization leads back or elsewhere.
-    /// Ends early where several lead back, or `patience` of them in a row find nothing better. False where there are too
-    /// few such data, or the estimator has no such fit.
+    /// Restarts from least-squares fits to a few of the nearest data; local optimization leads back
+    /// or elsewhere. Ends early if several lead back, or `patience` in a row find nothing better.
+    /// Returns false if there are too few data nearby, or the estimator has no least-squares fit.
     ///
     /// Source: Chum, Matas & Kittler 2003, "Locally optimized RANSAC" (inner sampling).
     fn explore(&mut self, best: &mut Candidate<E::Model>, patience: usize) -> bool {

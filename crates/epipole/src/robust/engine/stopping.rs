@@ -9,10 +9,10 @@ use crate::robust::{Budget, Estimator, StopReason};
 impl<E: Estimator> Ransac<E> {
     /// Number of samples that the new best model requires.
     ///
-    /// Where the data come in order of quality, the samples of the best of them are enough as soon as
-    /// all-inlier samples of these are as likely as asked. Any first part of the data will do in which
-    /// the model has more inliers than chance would give it; samples need not come from beyond the part
-    /// that needs the fewest.
+    /// For data in order of quality, the samples of the best of them are enough as soon as an
+    /// all-inlier sample among these is as likely as required. Any prefix of the data will do in
+    /// which the model has more inliers than expected by chance; samples need not come from beyond
+    /// the prefix that needs the fewest.
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC", §2.2 (maximality and non-randomness).
     pub(super) fn require(&mut self, best: &Candidate<E::Model>) {

@@ -39,7 +39,7 @@ pub(super) struct Builder {
     pub(super) track_of: Vec<Vec<u32>>,
     /// Images that earlier components have.
     pub(super) taken: Vec<bool>,
-    /// Of a stereo rig: the second half of the images is what the right camera saw.
+    /// Second sensor of a stereo rig: the second half of the images are those of the right camera.
     pub(super) rig: Option<Sensor>,
     pub(super) cameras: Vec<Option<PosedCamera>>,
     pub(super) points: Vec<Option<TrackPoint>>,
@@ -144,7 +144,7 @@ impl Builder {
     ) -> Result<Option<[usize; 2]>> {
         let mut wanted_rad = self.options.min_start_angle_deg.to_radians();
         let mut tried = vec![false; verified.len()];
-        // Below a quarter of a degree a pair says nothing about depth.
+        // Below a quarter of a degree a pair has no depth information.
         while wanted_rad > 0.25f64.to_radians() {
             let mut order: Vec<usize> = (0..verified.len())
                 .filter(|&n| {
@@ -215,7 +215,7 @@ impl Builder {
         visible
     }
 
-    /// The image whose view of the points is best: many, and spread over the picture.
+    /// The image with the best view of the points: many, and well spread.
     ///
     /// Source: Schönberger & Frahm 2016, §4.2.
     pub(super) fn next_image(&self, failed_with: &[usize]) -> Option<usize> {
@@ -289,7 +289,7 @@ impl Builder {
         Some(found.num_inliers)
     }
 
-    /// What there is.
+    /// The reconstruction so far.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
             lenses: self.lenses.clone(),

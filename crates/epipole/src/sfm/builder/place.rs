@@ -1,16 +1,16 @@
-//! Where photographs were taken is known: the world that they say.
+//! Alignment of the reconstruction with known camera positions.
 
 use super::Builder;
 use crate::sfm::alignment::{AlignmentKind, align_points};
 use crate::sfm::loop_closure::estimate_similarity_of_points;
 use crate::sfm::reconstruction::moved_pose;
 
-/// A known position counts as wrong where it is so many standard deviations off.
+/// Number of standard deviations beyond which a known position counts as wrong.
 const WRONG_SIGMAS: f64 = 4.0;
 
 impl Builder {
-    /// Moves cameras and points to where the known positions say, if these are enough to say it: three that are not
-    /// on one line. Some may be wrong.
+    /// Aligns cameras and points with the known positions, if at least three of them are not on one
+    /// line. Some may be wrong.
     pub(in crate::sfm) fn place_in_world(&mut self) -> bool {
         if self.rig.is_some() {
             return false;
@@ -23,7 +23,7 @@ impl Builder {
                 sigma = sigma.max(position.sigma.norm());
             }
         }
-        // Where no four agree, all are asked.
+        // Falls back to all positions if no four agree.
         let to_from_world =
             estimate_similarity_of_points(&found, &known, WRONG_SIGMAS * sigma, self.options.seed)
                 .map(|(to_from_world, _)| to_from_world)

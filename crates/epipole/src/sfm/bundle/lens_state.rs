@@ -6,15 +6,16 @@ use crate::Result;
 use crate::camera::{Intrinsics, Lens, MAX_COEFFICIENTS};
 use nalgebra::Vector2;
 
-/// Room for what is refined of a lens: a factor of the focal lengths, its first coefficients, the principal point's
-/// shift. Four are enough for Brown's model, of which k1, k2, p1 and p2 are refined, a fisheye and the division model.
-/// What is refined more often comes first: what is behind it costs nothing.
+/// Capacity for the refined parameters of a lens: a factor of the focal lengths, its first
+/// coefficients, the principal point's shift. Four coefficients are enough for Brown's model (k1,
+/// k2, p1, p2), a fisheye and the division model. Parameters refined more often come first, as the
+/// unused tail costs nothing.
 pub(super) const OF_BROWN: usize = 4 + BESIDE_COEFFICIENTS;
 /// The same for the rational model, too.
 pub(super) const OF_ANY: usize = MAX_COEFFICIENTS + BESIDE_COEFFICIENTS;
 const BESIDE_COEFFICIENTS: usize = 3;
 
-/// A lens, as far as it is refined.
+/// The refined parameters of a lens.
 #[derive(Clone)]
 pub(super) struct LensState {
     /// A factor of the focal lengths.
@@ -25,7 +26,7 @@ pub(super) struct LensState {
 }
 
 impl LensState {
-    /// As it is before it is refined.
+    /// The state before refinement.
     pub(super) fn new(lens: Lens) -> Self {
         Self {
             focal: 1.0,
@@ -34,7 +35,7 @@ impl LensState {
         }
     }
 
-    /// The intrinsics that became of these.
+    /// The intrinsics after refinement.
     pub(super) fn refined(&self, k: &Intrinsics) -> Result<Intrinsics> {
         let center = k.principal_point() + self.shift_px;
         Intrinsics::new(

@@ -6,8 +6,7 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::{Point3, Vector3};
 
-/// What keeps the reconstruction from drifting: position, orientation and scale of the world are
-/// not observable.
+/// Fixes the gauge: position, orientation and scale of the world are not observable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -52,10 +51,10 @@ pub struct BundleOptions {
     pub refine_distortion: bool,
     /// Refine the tangential terms p1 and p2 of each lens; fisheyes and the division model have none.
     pub refine_tangential: bool,
-    /// What is known of where cameras are, by index; missing entries are unknown. Where there is any, no camera is
-    /// held by the gauge.
+    /// Priors of camera positions, by index; missing entries are unknown. With any prior, no camera
+    /// is held by the gauge.
     pub position_priors: Vec<Option<PositionPrior>>,
-    /// The loss of what is known of positions; its width is in standard deviations.
+    /// The loss of the position priors; its width is in standard deviations.
     pub position_loss: RobustLoss,
 }
 
@@ -95,8 +94,8 @@ impl BundleOptions {
     }
 }
 
-/// Where a camera is, as something else has measured it, such as a receiver of satellite navigation: see
-/// [`local_from_geodetic`](crate::math::local_from_geodetic) for its degrees.
+/// A camera position measured otherwise, such as by GPS: see
+/// [`local_from_geodetic`](crate::math::local_from_geodetic) for converting its degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -111,7 +110,7 @@ pub struct PositionPrior {
 }
 
 impl PositionPrior {
-    /// Refuses what is not finite or of no width.
+    /// Refuses values that are not finite or of no width.
     pub(in crate::sfm) fn check(&self) -> Result<()> {
         if !self.center_in_world.iter().all(|x| x.is_finite()) {
             return Err(Error::NotFinite {

@@ -231,7 +231,7 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
         let bend = distortion.jacobian(&ray);
         let (x, y) = (ray.x, ray.y);
         let r_sq = x * x + y * y;
-        // What k1, k2, p1 and p2 move, before the focal length.
+        // Derivatives by k1, k2, p1 and p2, before the focal length.
         let by_distortion = [
             [r_sq * x, r_sq * r_sq * x, 2.0 * x * y, r_sq + 2.0 * x * x],
             [r_sq * y, r_sq * r_sq * y, r_sq + 2.0 * y * y, 2.0 * x * y],

@@ -4,7 +4,7 @@ use super::observation::BundleObservation;
 use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
 use nalgebra::{Point3, Vector2};
 
-/// A further camera that is bolted to each camera of a bundle, such as the right one of a stereo
+/// A further camera rigidly mounted on each camera of a bundle, such as the right one of a stereo
 /// rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
@@ -18,8 +18,9 @@ pub struct Sensor {
 
 /// Cameras, points and observations.
 ///
-/// Cameras of one lens share what is refined of it: a factor for their focal lengths, a shift of their principal
-/// points, and its coefficients. One lens for all is the default; as many lenses as cameras give each its own.
+/// Cameras of one lens share its refined parameters: a factor for their focal lengths, a shift of
+/// their principal points, and its coefficients. One lens for all is the default; as many lenses as
+/// cameras give each its own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
@@ -40,7 +41,7 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// How an observation was made: by the camera itself, or by a sensor.
+    /// The optics of an observation: the camera itself, or a sensor.
     pub(super) fn eye(&self, observation: usize) -> Eye<'_> {
         let sensor = match self.sensor_of_observation.get(observation) {
             Some(&k) if k > 0 => self.sensors.get(k - 1),

@@ -156,7 +156,7 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
             step.cameras[o.camera].copy_from_slice(&d[..6]);
             let group = problem.group(index);
             step.shared[group].copy_from_slice(&d[6..6 + S]);
-            // What is not refined is not to be moved.
+            // Fixed parameters must not move.
             for (step, refined) in step.shared[group][1..]
                 .iter_mut()
                 .zip(problem.refined[group])
@@ -174,7 +174,7 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
     if options.position_priors.is_empty() {
         return;
     }
-    // What is known of the second camera's position.
+    // The prior of the second camera's position.
     assert!(problem.prior(&state, 0).is_none() && problem.prior(&state, 2).is_none());
     let prior = problem.prior(&state, 1).unwrap();
     let analytic = DMatrix::from_fn(3, 6, |row, column| prior.camera[row][column]);
@@ -186,7 +186,7 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
     assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
 }
 
-/// That a camera stands where it does, to within so much.
+/// A prior at the camera's true position.
 fn known(camera: &PosedCamera, sigma: f64) -> Option<PositionPrior> {
     Some(PositionPrior {
         center_in_world: camera.center_in_world(),
@@ -194,7 +194,7 @@ fn known(camera: &PosedCamera, sigma: f64) -> Option<PositionPrior> {
     })
 }
 
-/// The pixels of a bundle as it says that they are.
+/// Sets the observed pixels of a bundle to their projections.
 pub(super) fn photograph(bundle: &mut Bundle) {
     for index in 0..bundle.observations.len() {
         let off = bundle.residual_px(index);
@@ -259,7 +259,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         }
         assert_eq!(got.k3, 0.01);
     }
-    // What all share is not what three lenses need.
+    // One shared lens does not fit three lenses.
     let mut shared = truth.clone();
     shared.lens_of_camera = Vec::new();
     shared.lenses = vec![only_third.into()];
@@ -297,7 +297,7 @@ fn known_positions_move_the_world_there_and_wrong_ones_do_not() {
     // One receiver is wrong by far, one camera has none.
     priors[3].as_mut().unwrap().center_in_world.x += 40.0;
     priors[5] = None;
-    // All is turned, larger and elsewhere, as a reconstruction is.
+    // A similarity transform of everything, as a reconstruction has its own frame.
     let elsewhere = nalgebra::Similarity3::new(
         Vector3::new(0.3, -0.2, 0.1),
         Vector3::new(0.02, 0.05, 0.01),

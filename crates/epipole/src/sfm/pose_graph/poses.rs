@@ -20,7 +20,7 @@ pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
     fn is_finite(&self) -> bool;
     /// The same in space, with a scale: a pose in the plane lies in x and y.
     fn to_similarity(&self) -> Similarity3<f64>;
-    /// What a pose of this kind has of it.
+    /// The part of a similarity that a pose of this kind represents.
     fn from_similarity(pose: &Similarity3<f64>) -> Self;
 }
 
@@ -47,7 +47,7 @@ impl GraphPose<3> for Isometry2<f64> {
         let mut from = SMatrix::<f64, 3, 3>::zeros();
         let mut to = SMatrix::<f64, 3, 3>::zeros();
         from.fixed_view_mut::<2, 2>(0, 0).copy_from(&-undo.matrix());
-        // Turning a by ω moves what it sees by −ω × x, where ω × (x, y) = ω (−y, x).
+        // A rotation of a by ω moves points in its frame by −ω × x, where ω × (x, y) = ω (−y, x).
         let t = b_in_a.translation.vector;
         let swept: Vector2<f64> = undo * Vector2::new(t.y, -t.x);
         from[(0, 2)] = swept.x;

@@ -6,16 +6,16 @@ use super::slanted::inscribed;
 use crate::{Error, Result};
 use nalgebra::Vector2;
 
-/// The results may be enlarged so many times as much as they have to be, for principal points in the middle and for what
-/// is shown reaching from side to side.
+/// Maximum extra magnification of the results, to keep principal points in the middle and the
+/// content reaching from side to side.
 pub(super) const LARGEST_CROP: f64 = 2.0;
 
 /// A focal length and the principal points that go with it.
 pub(super) type Framing = (f64, [Vector2<f64>; 2]);
 
-/// The principal points stay where the photographs' middles are shown in the middle, and the focal length,
-/// `focal_px` at first, becomes such that the results show what alpha asks for. `None` if a principal point is
-/// outside what is shown or seen.
+/// Keeps the principal points where they show the middles of the photographs, and scales the focal
+/// length, `focal_px` at first, to show the part that alpha asks for. `None` if a principal point
+/// is outside the visible or covered part.
 pub(super) fn around_principal_points(
     outlines: &[Outline; 2],
     centers: &[Vector2<f64>; 2],
@@ -26,7 +26,8 @@ pub(super) fn around_principal_points(
     let mut all_valid: f64 = 0.0;
     let mut all_shown = f64::INFINITY;
     for (outline, center) in outlines.iter().zip(centers) {
-        // From the principal point to each side: of the result, and of what the camera covers.
+        // Distances from the principal point to each side: of the result, and of the camera's
+        // coverage.
         let room = [
             center.x,
             center.y,
@@ -48,14 +49,14 @@ pub(super) fn around_principal_points(
     Some((focal_px * zoom, *centers))
 }
 
-/// What is shown, and how much of what it shows its camera saw.
+/// A framing of the rectified pair, and the part of it that each camera covers.
 pub(super) struct Shown {
     pub(super) framing: Framing,
     /// For each photograph, a rectangle inside of it, in units of the focal length.
     pub(super) inner: [PixelRect; 2],
 }
 
-/// What is shown is the middle of what the cameras cover, wherever the principal points come to lie: of a
+/// Shows the middle of the cameras' coverage, wherever the principal points come to lie: for a
 /// baseline far from the image plane they are outside of the results.
 ///
 /// * `inner`: rectangles inside the photographs
@@ -96,8 +97,8 @@ fn around_rectangles(
     Some((focal_px, middles.map(|seen| middle - seen * focal_px)))
 }
 
-/// What is shown around what the cameras cover: between the innermost points of the photographs' sides, or, of
-/// photographs that stand slanted, in a rectangle that leaves parts of the sides out.
+/// Frames the cameras' coverage: between the innermost points of the photographs' sides, or, for
+/// slanted photographs, in a rectangle that leaves parts of the sides out.
 ///
 /// * `is_shared`: whether both results show the same part along x, and along y
 ///

@@ -5,11 +5,12 @@ use crate::camera::{Camera, Lens};
 use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
-/// Rays farther than this from the axis, in degrees, are left out of a flat picture: at 80° it is 5.7 times as
-/// large as the lens is long, and soon it would be infinite.
+/// Maximum angle of rays to the axis in a rectified image, degrees: at 80° it extends 5.7 focal
+/// lengths, and soon it would be infinite.
 const WIDEST_DEG: f64 = 80.0;
 
-/// How far from the middle to the border the lens model must reach, as a share, for a flat picture to be worth it.
+/// Minimum reach of the lens model from the middle to the border, as a share, for a rectified image
+/// to be worth it.
 const LEAST_SEEN: f64 = 0.5;
 
 const FOLDS: Error = Error::Degenerate {
@@ -20,8 +21,8 @@ const FOLDS: Error = Error::Degenerate {
 
 /// Area of a photograph in the rectified frame, in units of the focal length.
 pub(crate) struct Outline {
-    /// The rectangle between the innermost points of the four sides; of a photograph that stands slanted it may be
-    /// empty, its end before its begin.
+    /// The rectangle between the innermost points of the four sides; for a slanted photograph it
+    /// may be empty, its end before its begin.
     pub(crate) inner: PixelRect,
     /// The smallest rectangle around.
     pub(crate) outer: PixelRect,
@@ -33,7 +34,7 @@ pub(crate) struct Outline {
 
 /// Follows the photograph's border.
 ///
-/// * `place`: where a pixel of it comes to lie, in units of the focal length
+/// * `place`: position of a border pixel in the rectified image, in units of the focal length
 pub(crate) fn outline(
     width: u32,
     height: u32,
@@ -90,12 +91,13 @@ pub(crate) fn outline(
     })
 }
 
-/// The ray to a pixel, or, where the lens model folds on the way to it, to the last pixel before the fold: a model
-/// that was fitted to marks in the middle often bends no ray to the very corners, and around the circle of a
-/// fisheye there are none.
+/// The ray to a pixel, or, if the lens model folds on the way to it, to the last pixel before the
+/// fold: a model fitted to marks in the middle often maps the very corners to no ray, and there is
+/// none around the circle of a fisheye.
 ///
 /// # Errors
-/// `folds`, if the model folds less than half-way to the pixel; as [`Lens::ray`] for what is no fold.
+/// `folds`, if the model folds less than half-way to the pixel; as [`Lens::ray`] for other
+/// failures.
 pub(crate) fn farthest_ray(
     camera: &Camera,
     pixel: &Point2<f64>,
@@ -122,8 +124,8 @@ pub(crate) fn farthest_ray(
     Ok(ray)
 }
 
-/// Where a ray meets the image plane at distance 1. `Err` for a ray more than [`WIDEST_DEG`] off the axis: the place in
-/// the same direction that is as far out as a flat picture goes.
+/// Intersection of a ray with the image plane at distance 1. `Err` for a ray more than
+/// [`WIDEST_DEG`] off the axis: the point in the same direction at that limit.
 pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vector2<f64>> {
     let (widest, across) = (libm::tan(WIDEST_DEG.to_radians()), ray.xy().norm());
     match across <= widest * ray.z {
@@ -132,7 +134,7 @@ pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vec
     }
 }
 
-/// The outline of a photograph whose rays are turned.
+/// The outline of a photograph with rotated rays.
 pub(super) fn turned_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) -> Result<Outline> {
     outline(camera.width, camera.height, |u, v| {
         let pixel = Point2::new(u, v);

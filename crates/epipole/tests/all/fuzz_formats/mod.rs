@@ -1,4 +1,4 @@
-//! Whatever stands in a file: an answer or an error, never a panic, and nothing in the answer that is no number.
+//! Any file gives an answer or an error, never a panic, and every number in the answer is finite.
 //!
 //! Each format starts from files that are right and damages them. A thousand cases a format run with the tests;
 //! `EPIPOLE_FUZZ_CASES=1000000 cargo test --release -p epipole --test all fuzz_formats` runs a million.
@@ -29,7 +29,7 @@ const G2O: [&str; 3] = [
      EDGE_SIM3:QUAT 0 1 1 0 0 0 0 0 1 2 1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
 ];
 
-/// An error of a text names a line of it.
+/// Whether the error names a line of the text.
 fn is_told(error: &Error, text: &str) -> bool {
     match error {
         Error::Malformed { line, .. } => *line >= 1 && *line <= text.lines().count().max(1) + 1,
@@ -56,7 +56,7 @@ proptest! {
                 let options = LmOptions::default().with_max_iterations(3);
                 let solved = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut ());
                 if solved.is_ok() {
-                    // What comes out can be read again: all of it is finite.
+                    // The output can be read again: all of it is finite.
                     prop_assert!(BalProblem::parse(&problem.to_text()).is_ok());
                 }
             }

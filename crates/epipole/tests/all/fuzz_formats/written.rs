@@ -1,4 +1,4 @@
-//! What is written can be read: COLMAP's text model and PLY, by readers that know nothing of ours.
+//! Written files can be read: COLMAP's text model and PLY, by independent readers.
 
 use super::config;
 use epipole::camera::{Distortion, Intrinsics, PosedCamera, RigidTransform};

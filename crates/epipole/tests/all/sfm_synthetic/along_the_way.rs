@@ -1,4 +1,4 @@
-//! What is heard while a reconstruction grows, where it is ended, and what is refused.
+//! Progress reports while a reconstruction grows, early ends, and refused input.
 
 use super::world::{Making, arc, ball, errors, intrinsics, photograph, run};
 use epipole::Error;
@@ -36,7 +36,7 @@ fn steps_add_one_image_each_and_lead_to_the_same() {
     let registered: Vec<usize> = seen.iter().map(|(registered, _)| *registered).collect();
     assert_eq!(registered, [2, 3, 4, 5, 6, 7]);
     assert!(seen[0].1 > 20 && seen[5].1 >= seen[0].1, "{seen:?}");
-    // Who has seen enough ends it.
+    // Early end by the caller.
     let mut growing = start(&world.input, &options);
     for _ in 0..3 {
         growing.step(&mut ()).expect("a step");
@@ -68,7 +68,7 @@ fn canceling_leaves_a_valid_part() {
     assert_eq!(result.unregistered.len(), 3);
     let (distance, _) = errors(&world, &result.components[0].cameras);
     assert!(distance < 1e-3, "{distance}");
-    // In the middle of an adjustment, too: the last step is the one that was stopped at.
+    // Also in the middle of an adjustment: the last step is the one that was canceled.
     let mut growing = start(&world.input, &options);
     for _ in 0..2 {
         growing.step(&mut ()).expect("a step");

@@ -1,4 +1,4 @@
-//! What a reconstruction finds, against the truth.
+//! Reconstructions against the ground truth.
 
 use super::world::{Making, World, arc, ball, errors, photograph, run};
 use epipole::camera::{Distortion, Intrinsics};
@@ -105,7 +105,7 @@ fn focal_length_and_distortion_are_found() {
 #[test]
 fn each_lens_has_its_own_focal_length_and_distortion() {
     let lenses = [(700.0, -0.12), (640.0, 0.08)];
-    // All of it is in every picture.
+    // Every image shows everything.
     let points: Vec<Point3<f64>> = (ball(250, Point3::origin(), 5).into_iter())
         .map(|point| point * 0.8)
         .collect();
@@ -165,7 +165,7 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
     assert!((0..bundle.observations.len()).all(|index| bundle.residual_px(index).norm() < 0.1));
 }
 
-/// Positions in meters, a few centimeters off, and one that is wrong: the result stands in their world.
+/// Positions in meters, a few centimeters off, and one that is wrong: the result is in their frame.
 #[test]
 fn known_positions_place_the_result() {
     let making = Making {
@@ -178,7 +178,7 @@ fn known_positions_place_the_result() {
         making,
         6,
     );
-    // A world of its own: turned, five times as large, and far away.
+    // A world frame of its own: rotated, five times as large, and far away.
     let world_from_ball = Similarity3::new(
         Vector3::new(2000.0, -300.0, 40.0),
         Vector3::new(0.4, 0.7, -0.2),
@@ -209,7 +209,7 @@ fn known_positions_place_the_result() {
     };
     let worst = off(first);
     assert!(worst < 0.1, "{worst}");
-    // Without them it stands anywhere, and two do not tell where.
+    // Without them the frame is arbitrary, and two do not determine it.
     for image in world.input.images.iter_mut().skip(2) {
         image.position = None;
     }
@@ -250,7 +250,7 @@ fn points_that_few_saw_can_be_left_out() {
     assert!(some.1 < all.1 && some.1 > 50, "{all:?} {some:?}");
 }
 
-/// Where nothing is left of any start there is an end, and the reason.
+/// If nothing is left of any start, the reconstruction ends and gives the reason.
 #[test]
 fn points_that_more_cameras_should_see_than_there_are_leave_nothing() {
     let center = Point3::origin();

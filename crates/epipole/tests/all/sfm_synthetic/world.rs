@@ -1,4 +1,4 @@
-//! Made worlds, photographed: matches whose truth is known.
+//! Synthetic scenes and images: matches with known ground truth.
 
 use epipole::camera::{Distortion, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
@@ -13,14 +13,14 @@ pub(crate) struct World {
     pub(crate) input: SfmInput,
 }
 
-/// What the photographs are made like.
+/// Parameters of the synthetic photographs.
 #[derive(Clone, Copy)]
 pub(crate) struct Making {
     pub(crate) noise_px: f64,
     /// Share of matches that lead to another keypoint.
     pub(crate) wrong: f64,
     pub(crate) distortion: Distortion,
-    /// Photographs are matched with so many after them.
+    /// Number of following photographs that each is matched with.
     pub(crate) reach: usize,
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn photograph(
         intrinsics: vec![cameras[0].intrinsics],
         ..SfmInput::default()
     };
-    // The keypoint of each point in each picture.
+    // The keypoint of each point in each image.
     let mut keypoint_of = Vec::new();
     for (index, camera) in cameras.iter().enumerate() {
         let mut image = SfmImage {

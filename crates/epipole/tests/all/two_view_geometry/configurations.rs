@@ -22,7 +22,7 @@ use nalgebra::{Point2, Point3, Vector3};
 /// the noise fills the threshold, half a pixel against one.
 #[test]
 fn configurations_are_recognized() {
-    // A plane alone tells its motion but for one of two.
+    // A plane alone leaves two motions.
     let (mut planes, mut one_of_two) = (0, 0);
     // Sixty true matches of 200 with .7 px of noise leave the motion of one pair in forty farther off than that: seven
     // of 300 seeds.
@@ -67,7 +67,7 @@ fn configurations_are_recognized() {
             let motion = calibrated.cam2_from_cam1.unwrap();
             let truth = general.motion();
             generals += usize::from(close(&motion, &truth));
-            // Where it is farther off, the matches speak for it, and not for the truth.
+            // A motion farther off must fit the matches better than the truth does.
             let misfit = |motion: &RigidTransform| -> f64 {
                 let e = essential_from_motion(motion).unwrap();
                 let f = fundamental_from_essential(&e, &k1, &k2).unwrap();
@@ -107,7 +107,7 @@ fn configurations_are_recognized() {
             let motion = calibrated.cam2_from_cam1.unwrap();
             assert_eq!(motion.translation.vector, Vector3::zeros());
             assert!(rotation_error(&motion, &turn.motion()) < 0.005, "{told}");
-            // Without intrinsics a turn looks like a plane.
+            // Without intrinsics a rotation looks like a plane.
             assert_eq!(uncalibrated.configuration, Configuration::Planar, "{told}");
         }
     }
@@ -206,7 +206,7 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
         let truth = scene.motion();
         by_e.push(direction_error(&motion, &truth));
         assert!(rotation_error(&motion, &truth) < 0.01 && by_e[by_e.len() - 1] < 0.05);
-        // What decomposing the chosen F would give.
+        // Decomposition of the chosen F, for comparison.
         let e = essential_from_fundamental(&found.fundamental.unwrap(), &k1, &k2).unwrap();
         let motions = decompose_essential(&e).unwrap();
         let chosen = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {

@@ -5,7 +5,7 @@ use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-/// Where the points of a scene are.
+/// Distribution of a scene's points.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
     Volume,

@@ -19,7 +19,7 @@ struct Link<const N: usize> {
     weight: f64,
 }
 
-/// What solves such equations for some right-hand sides; held vertices keep their values.
+/// Solver of these equations for several right-hand sides; held vertices keep their values.
 struct Links<'a, const N: usize> {
     links: &'a [Link<N>],
     held: &'a [bool],
@@ -91,8 +91,9 @@ fn nearest_rotation(m: &Matrix3<f64>) -> UnitQuaternion<f64> {
 }
 
 impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
-    /// Places the vertices anew, from the measurements alone: wherever they were, the result is the same and near
-    /// enough to the optimum for [`optimize`](Graph::optimize), unless measurements contradict each other wildly.
+    /// Computes all vertices from the measurements alone: the result does not depend on their
+    /// previous values, and is near enough to the optimum for [`optimize`](Graph::optimize), unless
+    /// measurements contradict each other wildly.
     ///
     /// Rotations come first, as the nine entries of matrices, for which `R_to = R_from R` is linear, each brought to the
     /// nearest rotation; then, of similarities, logarithms of scales; then places. Fixed vertices stay, and where a
@@ -127,7 +128,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             what: "a start for a pose graph",
             why: "a vertex hangs on measurements without weight",
         };
-        // What a similarity has after its place is its turn, and then its scale.
+        // The tangent of a similarity holds translation, rotation, then scale.
         let num_axes = if D == 3 { 2 } else { 3 };
         let num_turns = if D == 3 { 1 } else { 3 };
         let weight = |edge: usize, start: usize, count: usize| {
@@ -144,7 +145,8 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             self.edges.iter().enumerate().map(link).collect()
         };
 
-        // The rows of rotations: that of `to` is that of `from`, turned back by the measurement.
+        // The rows of rotations: those of `to` are those of `from`, rotated back by the
+        // measurement.
         let turns: Vec<Link<3>> = (self.edges.iter().zip(&measured).enumerate())
             .map(|(index, (edge, measured))| Link {
                 ends: (edge.from, edge.to),
@@ -225,22 +227,24 @@ pub struct RelativeRotation {
     pub from: usize,
     /// Index of the second view.
     pub to: usize,
-    /// What turns directions in the frame of the first view into those in the frame of the second.
+    /// Rotation from the frame of the first view to the frame of the second.
     pub to_from_from: UnitQuaternion<f64>,
 }
 
 /// The rotations of views that agree best with those measured between pairs of them: `view_from_world` of each,
 /// and how far each measurement is off, radians.
 ///
-/// Minimizes `Σ ρ(e²)` where `2 arcsin(e/2)` is the angle between `view_from_world` of `to` and what the measurement makes
-/// of that of `from`. The first view of each connected part has the identity.
+/// Minimizes `Σ ρ(e²)` where `2 arcsin(e/2)` is the angle between `view_from_world` of `to` and its
+/// prediction from the measurement and `view_from_world` of `from`. The first view of each
+/// connected part has the identity.
 ///
-/// * `count`: how many views there are
+/// * `count`: number of views
 /// * `loss`: robust to wrong measurements; its width is in radians
 ///
 /// # Errors
-/// [`Error::TooFew`] without measurements, [`Error::OutOfRange`] if one joins what is not there or a view with
-/// itself, or for a loss that [`RobustLoss::check`] refuses; [`Error::NotFinite`] for NaN.
+/// [`Error::TooFew`] without measurements, [`Error::OutOfRange`] for an invalid index or a view
+/// joined with itself, or for a loss that [`RobustLoss::check`] refuses; [`Error::NotFinite`] for
+/// NaN.
 ///
 /// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; the start is that of [`Graph::initialize`].
 ///
