@@ -1,6 +1,7 @@
 // Packages a figure as SCORM 1.2, so that learning platforms record its score:
 //
-//     node web/scorm.mjs ransac-race outliers=0.6 [--out race.zip] [--title "Who is right?"] [--package DIR]
+//     node web/scorm.mjs ransac-race outliers=0.6 [--out race.zip] [--title "Who is right?"]
+//         [--package DIR]
 //
 // DIR holds the files of the npm package (default: web/dist). The platform restores the reader's
 // state; the score is the fraction of the figure's goals reached.
