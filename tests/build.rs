@@ -1,15 +1,15 @@
-//! Makes a function of every Rust listing of the chapters, for `listings/rust.rs` to run.
+//! Generates a function for each Rust listing of the chapters, which `listings/rust.rs` runs.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-/// A fence with Rust.
+/// A fenced block of Rust code.
 struct Block {
     chapter: String,
-    /// The listing that it is a part of; empty for one that stands alone.
+    /// Name of the listing that the block is part of; empty for a block outside of listings.
     name: String,
-    /// Where the fence is.
+    /// Line of the fence.
     line: usize,
     code: String,
 }
@@ -63,7 +63,7 @@ fn blocks(path: &Path) -> Vec<Block> {
                 }
             }
             Some(block) if words != "```" => {
-                // As in Rust's own documentation: what a page does not show stands behind `# `.
+                // As in rustdoc, lines that start with `# ` are hidden on the page.
                 let line = if words == "#" {
                     ""
                 } else {
@@ -104,7 +104,7 @@ fn code_of(blocks: &[Block]) -> String {
             code: own,
             ..
         } = block;
-        // What needs no `main` of its own may use `?` all the same.
+        // Listings without a `main` of their own may use `?`.
         let main = match own.contains("fn main(") {
             true => own.clone(),
             false => format!("fn main() -> Result<(), epipole::Error> {{\n{own}Ok(())\n}}\n"),

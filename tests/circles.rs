@@ -1,13 +1,13 @@
-//! Circles of files: none may import, by way of others, a file that imports it.
+//! Import cycles: no file may import, directly or through others, a file that imports it.
 
 use crate::imports::{Files, Module, sources};
 use std::collections::BTreeSet;
 
-/// Sets of files of which each reaches each.
+/// The strongly connected components of the import graph: sets of files that reach each other.
 fn circles(files: &Files) -> Vec<BTreeSet<&str>> {
     let mut reached = files.imports();
     let modules: Vec<&Module> = reached.keys().copied().collect();
-    // As long as something new is reached.
+    // Transitive closure, by iteration until nothing is added.
     let mut grows = true;
     while grows {
         grows = false;
@@ -77,7 +77,7 @@ fn a_circle_through_exports_of_a_parent_is_found() {
     );
 }
 
-/// A circle that remains for now.
+/// An import cycle that is still allowed.
 struct Remaining {
     of_crate: String,
     files: Vec<String>,

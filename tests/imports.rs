@@ -1,4 +1,4 @@
-//! Which file of a crate imports which, read from the sources.
+//! Import graph of the files of a crate, read from the sources.
 
 use crate::{before_tests, without_strings};
 use epipole_tests::{files_below, root};
@@ -11,11 +11,11 @@ pub(crate) type Module = Vec<String>;
 /// A source file without tests, comments and strings, as far as imports need it.
 struct File {
     module: Module,
-    /// Names that it defines.
+    /// Names that the file defines.
     defined: BTreeSet<String>,
-    /// Names that it takes from elsewhere, and under which path; `*` for all of a module.
+    /// Imported names with the paths they come from; `*` for a whole module.
     imports: Vec<(String, Module)>,
-    /// The same, for whoever imports them from here.
+    /// Re-exported names, likewise.
     exports: Vec<(String, Module)>,
     /// Paths in the code.
     paths: Vec<Module>,
@@ -25,7 +25,7 @@ fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Words and single other characters.
+/// Splits code into words and single other characters.
 fn tokens(code: &str) -> Vec<&str> {
     let mut tokens = Vec::new();
     let mut rest = code;
@@ -42,7 +42,8 @@ fn tokens(code: &str) -> Vec<&str> {
     tokens
 }
 
-/// The names that a tree of imports brings, and the path of each; the rest begins behind the tree.
+/// Collects the names that a tree of imports brings, with their paths. Returns the tokens behind
+/// it.
 fn import_tree<'a>(
     mut tokens: &'a [&'a str],
     mut path: Module,
@@ -171,7 +172,7 @@ impl Files {
         Self::read(sources)
     }
 
-    /// Reads sources: the module, the path and the text of each.
+    /// Parses sources, each given as module, path and text.
     pub(crate) fn read(sources: Vec<(Module, String, String)>) -> Self {
         let read = |(module, shown, text): (Module, String, String)| {
             let file = File::read(module.clone(), &text);
@@ -180,12 +181,12 @@ impl Files {
         Self(sources.into_iter().map(read).collect())
     }
 
-    /// Path of a module's file below `src`.
+    /// Path of a module's file relative to `src`.
     pub(crate) fn path(&self, module: &Module) -> &str {
         &self.0[module].0
     }
 
-    /// The modules, each with those that it imports.
+    /// All modules, each with the modules that it imports.
     pub(crate) fn imports(&self) -> BTreeMap<&Module, BTreeSet<&Module>> {
         let files = self.0.iter();
         files
@@ -193,7 +194,7 @@ impl Files {
             .collect()
     }
 
-    /// A path of `file` from the root of the crate; `None` for another crate.
+    /// Resolves a path in `file` to one from the root of the crate; `None` for another crate.
     fn absolute(&self, file: &File, path: &[String]) -> Option<Module> {
         let mut at = file.module.clone();
         let mut rest = path;
@@ -210,7 +211,7 @@ impl Files {
             first => {
                 let child = [&at[..], &[first.to_owned()]].concat();
                 if !self.0.contains_key(&child) {
-                    // Under a name that was imported.
+                    // An imported name.
                     let (_, path) = (file.imports.iter()).find(|(name, _)| name == first)?;
                     if path.first().is_some_and(|start| start == first) {
                         return None;
@@ -224,7 +225,7 @@ impl Files {
         Some(at)
     }
 
-    /// The file that defines what an absolute path names; `None` for a module as a whole.
+    /// The module that defines the item of an absolute path; `None` for a module as a whole.
     fn definer(&self, path: &[String], depth: usize) -> Option<&Module> {
         let known = (0..=path.len())
             .rev()
@@ -251,7 +252,7 @@ impl Files {
         behind.or(Some(module))
     }
 
-    /// The files that a file takes names from.
+    /// The modules that a file imports from.
     fn arrows(&self, file: &File) -> BTreeSet<&Module> {
         let imported = (file.imports.iter()).map(|(name, path)| match name.as_str() {
             "*" => [&path[..], &["*".to_owned()]].concat(),
@@ -335,12 +336,12 @@ fn only_the_declaration_of_tests_is_left_out() {
     assert!(imports[&module("b")].is_empty());
 }
 
-/// A module from its path with spaces.
+/// Parses a module path, separated by spaces.
 fn module(path: &str) -> Module {
     path.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Files of an imaginary crate, from modules and texts.
+/// The files of a made-up crate, from module paths and texts.
 pub(crate) fn sources(list: &[(&str, &str)]) -> Files {
     let source =
         |&(path, text): &(&str, &str)| (module(path), format!("{path}.rs"), text.to_owned());

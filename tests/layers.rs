@@ -1,4 +1,5 @@
-//! Who may import whom: the arrows of `ARCHITECTURE.md`, read from the sources.
+//! Allowed dependencies between crates and modules: the arrows of `ARCHITECTURE.md`, checked
+//! against the sources.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -11,7 +12,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A crate and the crates of the house that it may name.
+/// Each crate, with the crates of the workspace that it may depend on.
 const CRATES: &[(&str, &[&str])] = &[
     ("epipole", &[]),
     ("epipole-scenes", &["epipole"]),
@@ -29,7 +30,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// A dependency that only some crates may name, so that it stays in one place.
+/// Dependencies that only the given crates may have, to keep their use in one place.
 const RESERVED: &[(&str, &[&str])] = &[
     ("tiny-skia", &["epipole-canvas"]),
     ("ttf-parser", &["epipole-canvas"]),
@@ -41,7 +42,7 @@ const RESERVED: &[(&str, &[&str])] = &[
     ("eframe", &["epipole-lab"]),
 ];
 
-/// The rooms of the core: each may use those before it.
+/// The modules of the core: each may use those before it.
 const ROOMS: &[&str] = &[
     "progress",
     "math",
@@ -61,7 +62,7 @@ const ROOMS: &[&str] = &[
     "synthetic",
 ];
 
-/// The rooms of the scenes, likewise.
+/// The modules of the scenes, likewise.
 const ROOMS_OF_SCENES: &[&str] = &[
     "gradual",
     "detail",
@@ -81,7 +82,7 @@ fn manifest(name: &str) -> toml::Table {
         .unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The names in every table of dependencies that ends up in the crate itself.
+/// Names in all tables of dependencies that end up in the crate itself.
 fn dependencies(manifest: &toml::Table) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut take = |table: Option<&toml::Value>| {
@@ -138,7 +139,7 @@ fn reserved_dependencies_stay_in_their_crate() {
     }
 }
 
-/// The rooms that a source file of the core names.
+/// The modules of the core that a source file names.
 fn rooms_named(text: &str) -> BTreeSet<&str> {
     let mut named = BTreeSet::new();
     for (place, _) in text.match_indices("crate::") {
@@ -173,7 +174,7 @@ fn rooms_named(text: &str) -> BTreeSet<&str> {
     named
 }
 
-/// The part of a file that is not tests: tests may build their data with any room.
+/// The part of a file before its tests, which may use any module for their data. Without comments.
 fn before_tests(text: &str) -> String {
     let text = text.replace("#[cfg(test)]\nmod tests;", "");
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
@@ -181,7 +182,7 @@ fn before_tests(text: &str) -> String {
     code.lines().filter(comment).collect::<Vec<_>>().join("\n")
 }
 
-/// A room's files: those of its folder, or the one of its name.
+/// The files of a module: those of its folder, or its single file.
 fn files_of(source: &Path, room: &str) -> Vec<PathBuf> {
     let folder = source.join(room);
     match folder.is_dir() {
@@ -190,7 +191,7 @@ fn files_of(source: &Path, room: &str) -> Vec<PathBuf> {
     }
 }
 
-/// Asserts that no room names one after it, and that the list of rooms is complete.
+/// Asserts that no module names a later one, and that the list of modules is complete.
 fn check_rooms(name: &str, rooms: &[&str]) {
     let source = root().join("crates").join(name).join("src");
     let mut wrong = Vec::new();
@@ -228,7 +229,7 @@ fn rooms_use_only_the_rooms_before_them() {
     check_rooms("epipole-scenes", ROOMS_OF_SCENES);
 }
 
-/// The code without what stands in double quotes: words for readers are no imports.
+/// The code without string literals, whose words are not imports.
 fn without_strings(code: &str) -> String {
     let (mut kept, mut inside, mut escaped) = (String::new(), false, false);
     for c in code.chars() {
@@ -251,13 +252,13 @@ fn words_in_quotes_are_left_out() {
     );
 }
 
-/// Whether a file draws: a figure's `view.rs`, or a part of it in a folder `view`.
+/// Whether a file draws: a figure's `view.rs`, or a file in a folder `view`.
 fn draws(file: &Path) -> bool {
     let is_view = |part: std::path::Component<'_>| part.as_os_str() == "view";
     file.file_name().is_some_and(|name| name == "view.rs") || file.components().any(is_view)
 }
 
-/// The words of a file's code, paths taken apart.
+/// The words of a file's code, with paths split up.
 fn words_of(file: &Path) -> BTreeSet<String> {
     let text = without_strings(&before_tests(&fs::read_to_string(file).unwrap()));
     text.split(|c: char| !c.is_alphanumeric() && c != '_')
@@ -265,8 +266,7 @@ fn words_of(file: &Path) -> BTreeSet<String> {
         .collect()
 }
 
-/// State, mathematics and words of figures: no drawing, no clock. A model does not even know what is
-/// said of it.
+/// Only views draw, and nothing in a figure reads the clock. A model does not use its texts either.
 #[test]
 fn only_views_draw_and_nothing_knows_the_time() {
     let gallery = root().join("crates/epipole-widgets/src/gallery");
@@ -278,7 +278,7 @@ fn only_views_draw_and_nothing_knows_the_time() {
         let drawing = ["canvas", "theme", "view"];
         let name = file.file_name().unwrap_or_default();
         let mut forbidden = clock.to_vec();
-        // `mod.rs` names the rooms of its figure, and does nothing else.
+        // `mod.rs` only declares the modules of its figure.
         if !draws(file) && name != "mod.rs" {
             forbidden.extend(drawing);
         }
@@ -291,7 +291,8 @@ fn only_views_draw_and_nothing_knows_the_time() {
     }
 }
 
-/// Which folders of the Lab may name what: its state knows no screen and no clock, and only `web/` a browser.
+/// Dependencies of the Lab's modules: its state uses no screen and no clock, only `web/` the
+/// browser.
 #[test]
 fn the_rooms_of_the_lab_keep_apart() {
     let source = root().join("crates/epipole-lab/src");
@@ -318,7 +319,8 @@ fn the_rooms_of_the_lab_keep_apart() {
     }
 }
 
-/// The builder's stages: each may use those before it. What `site.rs` and `serve.rs` run is not among them.
+/// Stages of the book's builder: each may use those before it. `site.rs` and `serve.rs`, which run
+/// them, are none.
 const STAGES: &[&str] = &["parse", "resolve", "render", "directives", "write"];
 
 #[test]
@@ -331,7 +333,7 @@ fn stages_of_the_builder_run_one_way() {
         for other in named {
             if let Some(own) = rank(module) {
                 let later = rank(other) > Some(own) || ["site", "serve"].contains(&&*stage(other));
-                // Pages are written without knowing the vocabulary.
+                // Pages are written without knowledge of the directives.
                 let sideways = stage(module) == "write" && stage(other) == "directives";
                 assert!(!later && !sideways, "{module:?} names {other:?}");
             }
@@ -355,7 +357,7 @@ fn only_the_canvas_names_the_rasterizer() {
     }
 }
 
-/// The repository speaks of the product, and of no machine.
+/// No source names a path of the machine that it was written on.
 #[test]
 fn no_path_of_a_machine() {
     let top = root();

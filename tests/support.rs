@@ -1,15 +1,15 @@
-//! What the tests across crates share.
+//! Helpers shared by the tests across crates.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The top of the repository.
+/// The root folder of the repository.
 pub fn root() -> PathBuf {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
     manifest.parent().unwrap_or(manifest).to_owned()
 }
 
-/// Every file below `folder` with one of the extensions, sorted.
+/// All files below `folder` with one of the extensions, sorted.
 ///
 /// # Panics
 /// If the folder cannot be read.

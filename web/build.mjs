@@ -1,9 +1,10 @@
-// Makes the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
+// Builds the npm package: node web/build.mjs [--bindings DIR] [--out DIR]
 //
-// DIR of --bindings holds the scripts and modules epipole_figures and epipole_jobs, as wasm-bindgen
-// makes them for the web. Out come index.js, worker.js, the modules beside them, auto.js for pages that load no
-// modules, react.js, custom-elements.json, the types, and what is due to others (THIRD-PARTY.txt). (The book bundles
-// the same sources itself, with names made of their content.)
+// --bindings is the folder with the scripts and modules epipole_figures and epipole_jobs that
+// wasm-bindgen generates for the web. The package contains index.js, worker.js, the modules,
+// auto.js for pages without module scripts, react.js, custom-elements.json, the types and
+// THIRD-PARTY.txt. (The book bundles the same sources itself, with content hashes in the file
+// names.)
 
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
@@ -35,7 +36,7 @@ for (const path of parts.flatMap(({ glue, wasm }) => [glue, wasm])) {
   }
 }
 
-// What an earlier build has left there is not shipped.
+// Remove files of earlier builds, which would be shipped otherwise.
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 for (const { name, wasm } of parts) copyFileSync(wasm, join(out, `epipole-${name}.wasm`));
@@ -56,7 +57,7 @@ await build({
   logLevel: "warning",
 });
 for (const name of ["index.js", "worker.js"]) leaveAlone(join(out, name));
-// A script of the old kind may import a module, but from elsewhere not by a name beside its own.
+// From another origin, a classic script resolves import() against the page: give the full address.
 writeFileSync(join(out, "auto.js"), 'import(new URL("index.js", document.currentScript.src));\n');
 writeFileSync(join(out, "react.js"), 'export { EpipoleFigure } from "./index.js";\n');
 writeFileSync(join(out, "custom-elements.json"), `${JSON.stringify(manifest(), null, 2)}\n`);
@@ -69,7 +70,7 @@ copyFileSync(join(here, "react.d.ts"), join(out, "types/react.d.ts"));
 for (const name of ["auto", "script"]) writeFileSync(join(out, `types/${name}.d.ts`), "export {};\n");
 keepTypes(join(out, "types"), ["index", "react", "auto", "script"]);
 
-/** Bundlers know by a comment which address to leave alone, and with the white space go the comments. */
+/** Marks dynamic imports for bundlers to leave alone; minifying has removed the source's marks. */
 function leaveAlone(path) {
   const text = readFileSync(path, "utf8");
   const open = /\bimport\((?!["'`])/g;

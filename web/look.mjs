@@ -1,4 +1,4 @@
-// The figures' style sheet in one piece, for esbuild: the module `epipole-look`.
+// esbuild plugin for the module `epipole-look`: the figures' style sheet as one string.
 
 import { build } from "esbuild";
 import { dirname, join } from "node:path";

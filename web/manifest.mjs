@@ -1,4 +1,4 @@
-// What tools for custom elements want to know of <epipole-figure>, read off its sources: custom-elements.json.
+// Generates custom-elements.json, the manifest of <epipole-figure>, from the sources.
 // https://github.com/webcomponents/custom-elements-manifest
 
 import { readdirSync, readFileSync } from "node:fs";
@@ -23,17 +23,17 @@ function find(tree, wanted) {
   return found;
 }
 
-/** The words above a declaration, as one paragraph. */
+/** The doc comment of a declaration, as one paragraph. */
 function words(node) {
   const [doc] = ts.getJSDocCommentsAndTags(node);
   const text = ts.getTextOfJSDocComment(doc?.comment) ?? "";
   return text.replace(/\s+/g, " ").trim();
 }
 
-/** What browsers call themselves. */
+/** Lifecycle members that browsers call. */
 const CALLBACKS = /Callback$|^observedAttributes$/;
 
-/** What the attributes mean that are no parameters of a figure. */
+/** Descriptions of the attributes that are not parameters of a figure. */
 const ATTRIBUTES = {
   name: "The figure, such as ransac-race.",
   theme: "Fixes the colors: light, dark or high-contrast.",

@@ -1,10 +1,10 @@
-// Writes the trees of figures as text: node web/prerender.mjs < wanted.json > trees.json
+// Prerenders the shadow trees of figures: node web/prerender.mjs < wanted.json > trees.json
 //
-// In goes a JSON array of {name, title, help, snapshot, attributes, sizes}, the snapshot as the module
-// gives it (a figure's own JSON, for any width), sizes the pairs [width, height] of its picture at the
-// widths 360, 720 and 1088; out comes a JSON array of strings, each the inside
-// of a <template shadowrootmode="open">. In them {{figure.css}} stands for the address of the style
-// sheet, which is web/src/figure.css. The very code that runs in browsers makes them.
+// Input: a JSON array of {name, title, help, snapshot, attributes, sizes}. `snapshot` is the
+// figure's JSON as the module returns it (for any width); `sizes` are the pairs [width, height] of
+// its picture at the widths 360, 720 and 1088. Output: a JSON array of strings, each the content of
+// a <template shadowrootmode="open">, in which {{figure.css}} is the placeholder for the address of
+// the style sheet (web/src/figure.css). Browsers run the same code.
 
 import { build } from "esbuild";
 import { parseHTML } from "linkedom";
@@ -17,7 +17,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
 
-/** Makes the function that turns what is wanted into text. */
+/** Returns the prerender function, bundled from the TypeScript sources. */
 export async function prerenderer() {
   const { document } = parseHTML("<!DOCTYPE html><html><body></body></html>");
   globalThis.document ??= document;

@@ -1,7 +1,7 @@
 import type { DetailedHTMLProps, HTMLAttributes } from "react";
 import type { EpipoleEvents, EpipoleFigure } from "./index.js";
 
-/** What React may set on a figure; every parameter of a figure is an attribute of the same name. */
+/** Props of a figure in React; each parameter of the figure is an attribute of the same name. */
 export interface EpipoleFigureAttributes extends HTMLAttributes<EpipoleFigure> {
   name: string;
   theme?: "light" | "dark" | "high-contrast";

@@ -1,9 +1,10 @@
-// A figure as a SCORM 1.2 package, for learning platforms that keep scores of nothing else:
+// Packages a figure as SCORM 1.2, so that learning platforms record its score:
 //
-//     node web/scorm.mjs ransac-race outliers=0.6 [--out race.zip] [--title "Who is right?"] [--package DIR]
+//     node web/scorm.mjs ransac-race outliers=0.6 [--out race.zip] [--title "Who is right?"]
+//         [--package DIR]
 //
-// DIR holds the npm package's files, web/dist unless said otherwise. The state comes back where the reader
-// has left it, the score is the share of the figure's goals.
+// DIR holds the files of the npm package (default: web/dist). The platform restores the reader's
+// state; the score is the fraction of the figure's goals reached.
 
 import { build } from "esbuild";
 import { strToU8, zipSync } from "fflate";
@@ -14,7 +15,7 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 
 const here = dirname(fileURLToPath(import.meta.url));
-/** What a figure loads, and what is due to those whose work is in it. */
+/** Files that a figure loads, and the third-party notices. */
 const FILES = ["index.js", "worker.js", "epipole-figures.wasm", "epipole-jobs.wasm", "THIRD-PARTY.txt"];
 
 function escape(text) {
@@ -60,7 +61,7 @@ ${files}
 `;
 }
 
-/** The package as the bytes of a zip file. `parameters` are pairs of names and values. */
+/** The package as the bytes of a zip file. `parameters` are pairs of name and value. */
 export async function scorm(name, parameters, { title = name, from = join(here, "dist") } = {}) {
   const { outputFiles } = await build({
     entryPoints: [join(here, "src/scorm.ts")],
@@ -78,7 +79,7 @@ export async function scorm(name, parameters, { title = name, from = join(here, 
     "scorm.js": outputFiles[0].contents,
     ...Object.fromEntries(FILES.map((file) => [file, new Uint8Array(readFileSync(join(from, file)))])),
   };
-  // One date for all, so that the same figure gives the same bytes.
+  // A fixed date, so that the package is reproducible.
   return zipSync(files, { level: 9, mtime: new Date(2000, 0, 1) });
 }
 

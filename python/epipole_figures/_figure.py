@@ -102,7 +102,7 @@ class Figure(anywidget.AnyWidget):
         picture, words = self.picture, self.description
         if picture is None:
             picture, shown = _assets.still(self.name)
-            # What a figure told in another state is of no use here either.
+            # Ignore the last description, which may be of another state.
             words = f"At its defaults: {shown}" if shown and self.state else shown
         setting = "".join(f", {key}={value}" for key, value in self.state.items())
         data["text/plain"] = f"Interactive figure {self.name}{setting}." + (f" {words}" if words else "")

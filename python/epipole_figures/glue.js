@@ -1,18 +1,19 @@
-// Puts <epipole-figure> into a cell and keeps it and the model in Python equal. The scripts and modules come as
-// buffers of one message, once a page: what stands in a widget itself would be kept anew for every cell that runs.
-// Pages without a kernel have them inside (`INSIDE`), and a model that may hold no more than a name.
+// anywidget module: renders <epipole-figure> in a cell and keeps it equal to its model in Python.
+// Scripts and modules arrive as buffers of one message, once per page; as traits of the widget they
+// would be stored with every cell. Pages without a kernel embed them (`INSIDE`), and their models
+// may have only a name.
 
 const KEY = Symbol.for("epipole-figures");
-/** How long what changes is gathered before Python is told, milliseconds. */
+/** Time over which changes are collected before they are sent to Python, milliseconds. */
 const GATHER_MS = 60;
-/** A figure that rests for so long shows its picture to Python, milliseconds. */
+/** Time without changes after which the picture is sent to Python, milliseconds. */
 const REST_MS = 1500;
-/** How long the kernel may take to send the scripts, milliseconds. */
+/** Time limit for the kernel to send the scripts, milliseconds. */
 const PATIENCE_MS = 30_000;
 
 const TYPES = { code: "text/javascript", worker: "text/javascript", figures: "application/wasm", jobs: "application/wasm" };
 
-/** What is inside, where there is no kernel to ask. */
+/** The embedded files on pages without a kernel, else undefined. */
 function inside() {
   if (typeof INSIDE === "undefined") return undefined;
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -42,7 +43,7 @@ async function start(model) {
   setAssets({ figures: address("figures"), jobs: address("jobs"), worker: address("worker") });
 }
 
-/** Loads what figures need, once for the page; what failed may be tried again. */
+/** Loads the figures' scripts once per page; a failed load can be retried. */
 function load(model) {
   if (customElements.get("epipole-figure")) return Promise.resolve();
   globalThis[KEY] ??= start(model).catch((problem) => {
@@ -52,7 +53,7 @@ function load(model) {
   return globalThis[KEY];
 }
 
-/** What a model without a kernel need not be able to do: MyST's throws where it is to save or to forget a listener. */
+/** Runs `work`, ignoring errors without a kernel: models of MyST throw on saving and on `off`. */
 function ask(work) {
   try {
     work();
@@ -62,7 +63,7 @@ function ask(work) {
 }
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
-/** Parameters in one order: Python keeps that in which it was told. */
+/** Sorted parameters, as Python keeps the order in which they were set. */
 const sorted = (state) => Object.entries(state ?? {}).sort(([one], [other]) => (one < other ? -1 : 1));
 
 async function render({ model, el }) {
@@ -83,7 +84,7 @@ async function render({ model, el }) {
   let ready = false;
   let gathering;
   let resting;
-  // For whoever looks at the notebook where no widgets are shown.
+  // A static picture for viewers of the notebook without widgets.
   const show = async () => {
     const [state, picture] = [figure.state, await figure.toPng({ scale: 1 })];
     const bytes = await picture?.arrayBuffer();
@@ -91,7 +92,7 @@ async function render({ model, el }) {
     try {
       await model.send({ kind: "picture", state }, undefined, [bytes]);
     } catch {
-      // Without a kernel nobody takes it.
+      // Without a kernel, the picture is not needed.
     }
   };
   const tell = () => {
@@ -125,7 +126,7 @@ async function render({ model, el }) {
   });
 
   return () => {
-    // Also for a model that goes on calling.
+    // The model may still call back.
     ready = false;
     clearTimeout(gathering);
     clearTimeout(resting);

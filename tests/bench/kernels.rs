@@ -1,8 +1,8 @@
-//! The work of the browser's bench table as a bare WebAssembly module: numbers go in and out
-//! through its memory. `tests/browser/opencv.mjs` sets it beside opencv.js.
+//! Kernels of the browser benchmark as a bare WebAssembly module, which passes numbers through its
+//! memory. `tests/browser/opencv.mjs` compares it with opencv.js.
 //!
-//! A page writes inputs to `floats` or `doubles`, calls `prepare` once and `run` as often as it
-//! likes, and reads what `result` has left in `floats(2, …)` or `doubles`.
+//! A page writes inputs to `floats` or `doubles`, calls `prepare` once and `run` repeatedly, then
+//! calls `result` and reads `floats(2, …)` or `doubles`.
 
 #![allow(unsafe_code, reason = "exported names must not be mangled")]
 #![allow(unreachable_pub, reason = "exports have no other user")]
@@ -22,7 +22,7 @@ use image::{GrayImage, Luma};
 use nalgebra::{Matrix3, Point2};
 use std::cell::RefCell;
 
-/// What is kept between the calls of a page.
+/// State kept between calls of the page.
 #[derive(Default)]
 struct Room {
     floats: [Vec<f32>; 3],
@@ -50,7 +50,7 @@ const HOMOGRAPHY: usize = 4;
 const FUNDAMENTAL: usize = 5;
 const SEMI_GLOBAL: usize = 6;
 
-/// Room for so many numbers, and where it is.
+/// Resizes a buffer to `length` numbers and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn floats(index: usize, length: usize) -> *mut f32 {
     ROOM.with_borrow_mut(|room| {
@@ -59,7 +59,7 @@ pub extern "C" fn floats(index: usize, length: usize) -> *mut f32 {
     })
 }
 
-/// Room for so many numbers of double precision, and where it is.
+/// Resizes the buffer of double precision, likewise.
 #[unsafe(no_mangle)]
 pub extern "C" fn doubles(length: usize) -> *mut f64 {
     ROOM.with_borrow_mut(|room| {
@@ -68,10 +68,10 @@ pub extern "C" fn doubles(length: usize) -> *mut f64 {
     })
 }
 
-/// Takes the input of a kind of work: an image of `width` × `height` from `floats(0)`; two lists
-/// of `height` descriptors of `width` numbers from `floats(0)` and `floats(1)`; `height` matches
-/// u1 v1 u2 v2 from `doubles`; a rectified pair of gray values 0 to 255 from `floats(0)` and
-/// `floats(1)`. Says whether it can be used.
+/// Takes the input of a kernel: an image of `width` × `height` from `floats(0)`; two lists of
+/// `height` descriptors of `width` numbers from `floats(0)` and `floats(1)`; `height` matches u1 v1
+/// u2 v2 from `doubles`; a rectified pair of gray values 0 to 255 from `floats(0)` and `floats(1)`.
+/// Returns whether it is valid.
 #[unsafe(no_mangle)]
 pub extern "C" fn prepare(work: usize, width: usize, height: usize) -> bool {
     ROOM.with_borrow_mut(|room| {
@@ -110,7 +110,7 @@ pub extern "C" fn prepare(work: usize, width: usize, height: usize) -> bool {
     })
 }
 
-/// Does the work once; says whether it succeeded.
+/// Runs the kernel once. Returns whether it succeeded.
 #[unsafe(no_mangle)]
 pub extern "C" fn run(work: usize) -> bool {
     ROOM.with_borrow_mut(|room| work_once(room, work).is_ok())
@@ -159,7 +159,7 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
     Ok(())
 }
 
-/// Copies what the last run found to `floats(2)`, a matrix to `doubles`; says how many numbers.
+/// Copies the last result to `floats(2)`, or a matrix to `doubles`. Returns its length.
 #[unsafe(no_mangle)]
 pub extern "C" fn result(work: usize) -> usize {
     ROOM.with_borrow_mut(|room| {
@@ -177,7 +177,7 @@ pub extern "C" fn result(work: usize) -> usize {
                 .collect(),
             SEMI_GLOBAL => room.disparities.clone(),
             _ => {
-                // By rows, as OpenCV.
+                // Row-major, as in OpenCV.
                 room.doubles = room.found.transpose().as_slice().to_vec();
                 return room.doubles.len();
             }

@@ -1,6 +1,6 @@
-// What a reader waits for: frame times of each figure, the size of the module, and how WebAssembly
-// compares with native code. Prints one table. Times are of this machine; only ratios travel.
-// With names of figures, only their frames: node bench.mjs harris
+// Browser benchmark: frame times of each figure, size of the module, and WebAssembly against native
+// code. Prints one table. Times depend on the machine; only ratios can be compared elsewhere.
+// With names of figures as arguments, times only their frames: node bench.mjs harris
 
 import { chromium } from "@playwright/test";
 import { execFileSync } from "node:child_process";
@@ -23,7 +23,7 @@ const server = await serve({
 const browser = await chromium.launch(launchOptions);
 const rows = [];
 
-/** Seconds of processor time that the browser has used: a busy machine does not change it much. */
+/** Processor time used by the browser, seconds; a busy machine hardly changes it. */
 const system = await browser.newBrowserCDPSession();
 async function cpuSeconds() {
   const { processInfo } = await system.send("SystemInfo.getProcessInfo");
@@ -41,7 +41,7 @@ for (const { name } of figures.filter(({ name }) => wanted.length === 0 || wante
   await page.goto(`${server.origin}/figures?figure=${name}`);
   await page.locator("epipole-figure[data-ready]").waitFor();
   const sliders = await page.locator("epipole-figure input[type=range]").count();
-  // The poster stands for the picture until something is drawn.
+  // The canvas shows the poster until something is drawn.
   const pixels = await page.locator("epipole-figure").evaluate((element) => {
     element.flush();
     const { width, height } = element.shadowRoot.querySelector("canvas");
@@ -76,7 +76,7 @@ if (wanted.length === 0) {
 }
 
 if (wanted.length === 0) {
-  // The race, run to its end a few times over: sampling, fitting, scoring, no drawing.
+  // The RANSAC race run to its end several times: sampling, fitting and scoring, without drawing.
   const calls = [];
   for (let seed = 1; seed <= 20; seed += 1) {
     calls.push(["set_number", "outliers", 0.7], ["set_number", "points", 100], ["set_number", "seed", seed]);
@@ -107,7 +107,9 @@ await server.close();
 const widths = [0, 1, 2].map((column) => Math.max(...rows.map((row) => (row[column] ?? "").length)));
 for (const row of rows) console.log(row.map((cell, column) => cell.padEnd(widths[column] ?? 0)).join("  ").trimEnd());
 
-/** In the page: moves one slider through its range and times each move until its frame is drawn. */
+/**
+ * Runs in the page: moves a slider through its range and times each move until its frame is drawn.
+ */
 async function slide({ index, moves }) {
   const element = document.querySelector("epipole-figure");
   const input = element.shadowRoot.querySelectorAll("input[type=range]")[index];
@@ -116,14 +118,14 @@ async function slide({ index, moves }) {
   const before = input.value;
   const times = [];
   for (let move = 0; move < moves; move += 1) {
-    // Up and down again, in small steps, as a hand does.
+    // Up and back down in small steps, like a hand.
     const share = 1 - Math.abs(((2 * move) / moves) % 2 - 1);
     await new Promise(requestAnimationFrame);
     const start = performance.now();
     input.value = String(low + share * (high - low));
     input.dispatchEvent(new Event("input", { bubbles: true }));
     element.flush();
-    // Reading a pixel back makes sure that the canvas has it.
+    // Reading a pixel back waits for the canvas.
     context.getImageData(0, 0, 1, 1);
     times.push(performance.now() - start);
   }
@@ -132,12 +134,12 @@ async function slide({ index, moves }) {
   return times;
 }
 
-/** In the page: drags the first handle about, likewise. */
+/** Runs in the page: drags the first handle and times each move. */
 async function drag({ moves }) {
   const element = document.querySelector("epipole-figure");
   const stage = element.shadowRoot.querySelector(".picture");
   const context = element.shadowRoot.querySelector("canvas").getContext("2d");
-  // What the last slider did stands in the page with the next frame: until then the grip is where it was.
+  // Draw the pending change of the last slider, which may move the handle.
   element.flush();
   const box = element.shadowRoot.querySelector(".grip").getBoundingClientRect();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -155,7 +157,7 @@ async function drag({ moves }) {
         cancelable: true,
       }),
     );
-  // A pointer that was made up cannot be captured.
+  // Synthetic pointers cannot be captured.
   stage.setPointerCapture = () => {};
   fire("pointerdown", 0, 0);
   const times = [];

@@ -1,4 +1,4 @@
-// Every page of the book, as it is served: under a sub-path, under its own strict policy.
+// Every page of the book, served under a sub-path with its own strict content security policy.
 
 import { readdirSync } from "node:fs";
 import { expect, expectAccessible, listen, ready, test } from "./fixtures.mjs";
@@ -7,7 +7,7 @@ import { kept, leaving, listenIn } from "./privacy.mjs";
 
 const pages = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
 
-/** Brings every figure of a page to life. */
+/** Starts every figure of a page. */
 async function wake(page) {
   const figures = page.locator("epipole-figure");
   for (let index = 0; index < (await figures.count()); index += 1) await ready(figures.nth(index));
@@ -66,7 +66,7 @@ for (const name of pages) {
       listen(page, complaints);
       await page.goto(`${library}/${name}`);
       await wake(page);
-      // What is not laid out yet has no width.
+      // Sections without layout have no width.
       await expect(page.locator("article > section:not(.settled)")).toHaveCount(0);
       expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
       const cutOff = await page.locator(".formula").evaluateAll((formulas) => {
@@ -92,7 +92,7 @@ if (book) {
     await page.goto(chapter);
     const ids = await page.locator("article > section > h2").evaluateAll((list) => list.map(({ id }) => id));
     const far = ids.at(-2);
-    // From the page, before and after it has settled, and from elsewhere.
+    // By hash in the page, before and after it has settled, and from another page.
     await page.evaluate((id) => (location.hash = id), far);
     await lands(far);
     await expect(page.locator("article > section:not(.settled)")).toHaveCount(0);
@@ -105,7 +105,7 @@ if (book) {
 }
 
 test("figures have their look before their own style sheet and script have come", async ({ page, library, complaints }) => {
-  // Some browsers paint a tree before what its `<link>` names is there.
+  // Some browsers paint a tree before the style sheet of its `<link>` has loaded.
   await page.route(/assets[/](figure|index)-/, () => {});
   await page.goto(`${library}/epipolar.html`, { waitUntil: "commit" });
   const figure = page.locator("epipole-figure").first();

@@ -1,5 +1,5 @@
-// The pages of the book where storage fails, and where their own scripts and the index of the search do not come:
-// the page works, a sentence says what it cannot do, and there is a way on.
+// Pages of the book with failing storage, scripts or search index: the page works, names what fails
+// and offers a way to retry.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,7 +9,7 @@ import { POLICY, serve, TYPES } from "./server.mjs";
 
 test.skip(!book, "the book is not what is tested");
 
-/** The book, with `site.fails` for the files that are not there, and `site.stuck` for those that never come. */
+/** Serves the book; files in `site.fails` are missing, requests for `site.stuck` never end. */
 async function library() {
   const site = { fails: undefined, stuck: undefined };
   const course = async (url, response) => {
@@ -23,7 +23,7 @@ async function library() {
   return Object.assign(site, await serve({ mounts: { course } }));
 }
 
-/** What may be wrong with what a browser keeps. */
+/** Failing or corrupt browser storage. */
 const STORES = {
   forbidden: () => {
     Object.defineProperty(window, "localStorage", {
@@ -86,7 +86,7 @@ test("a script of the page that does not come, and an index that does not, are t
   await expect(notice).toHaveCount(0);
 
   await page.evaluate(() => {
-    // The search waits half a second instead of fifteen. Not before: the module and the workers have such a limit as well.
+    // Shorten the search's limit of 15 s to 0.5 s. Not before: the modules have the same limit.
     const real = window.setTimeout;
     window.setTimeout = (work, delay, ...more) => real(work, delay === 15_000 ? 500 : delay, ...more);
   });
@@ -105,7 +105,7 @@ test("a script of the page that does not come, and an index that does not, are t
   await status.getByRole("button", { name: "Try again" }).click();
   await expect(page.locator(".search-results a").first()).toBeVisible();
   await expect(status).toContainText("section");
-  // The browser itself reports the missing files.
+  // The browser itself logs the missing files.
   expect(complaints.filter((text) => !/404/.test(text))).toEqual([]);
   complaints.length = 0;
   await site.close();

@@ -1,5 +1,5 @@
-// Which browser the tests use: the system's Chromium first, else Playwright's own. The headless shell
-// is the same engine without windows, menus and toolbars, and starts a page in half the time.
+// The tests' browser: the system's Chromium, else Playwright's headless shell, which has the same
+// engine without a window and starts pages in half the time.
 
 import { existsSync } from "node:fs";
 

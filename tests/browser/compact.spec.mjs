@@ -1,4 +1,4 @@
-// A figure in the height that its host gives: picture, main buttons and numbers, the rest in a drawer.
+// Compact figures at a height given by the host: picture, main buttons and readouts, plus a drawer.
 
 import { serve } from "./server.mjs";
 import { expect, expectAccessible, figures, middle, settled, SLIDER, test, told } from "./fixtures.mjs";
@@ -6,12 +6,12 @@ import { script } from "./places.mjs";
 
 test.use({ shared: true });
 
-/** A slide of reveal.js, and little more than a thumbnail. */
+/** Sizes in pixels: a slide of reveal.js, and little more than a thumbnail. */
 const SIZES = [[960, 700], [400, 300]];
-/** How much of the smaller of width and height of its home the picture takes at least. */
+/** Minimum size of the picture relative to the smaller side of its host. */
 const LEAST = 0.55;
 
-/** A page that gives a figure so much room; `more` are attributes. */
+/** Serves a page with a figure at the given size; `more` are further attributes. */
 async function host(site, name, [width, height], more = "", around = "") {
   const page = `<!doctype html><html lang="en"><meta charset="utf-8"><title>A slide</title>
     <style>body { margin: 0 } main { width: ${width}px; height: ${height}px; ${around} } epipole-figure { height: 100% }</style>
@@ -29,7 +29,7 @@ async function opened(page, site, name, size, more, around) {
   return { figure, close: other.close };
 }
 
-/** Where the parts are, in pixels from the corner of the figure. */
+/** Boxes of the parts, pixels relative to the figure's corner. */
 function places(figure) {
   return figure.evaluate((element) => {
     element.flush();
@@ -56,7 +56,7 @@ for (const { name } of figures) {
       const resize = ([across, down]) => Object.assign(document.querySelector("main").style, { width: `${across}px`, height: `${down}px` });
       await page.evaluate(resize, size);
       await expect.poll(async () => (await places(figure)).home).toEqual({ width, height });
-      // What follows the size comes with the next frames.
+      // Layout that depends on the size takes effect with the next frames.
       await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))));
       const before = await places(figure);
       const { picture, bar } = before;
@@ -71,7 +71,7 @@ for (const { name } of figures) {
       expect(Math.max(picture.width / width, picture.height / height)).toBeGreaterThan(LEAST);
       for (const button of await figure.locator(".bar button:visible").all()) await expect(button).toBeInViewport({ ratio: 1 });
 
-      // Open, change, close: nothing moves.
+      // Opening, changing and closing moves nothing.
       await figure.getByRole("button", { name: "More" }).click();
       expect(await places(figure)).toEqual(before);
       const slider = figure.locator(`.drawer .panel > .inputs ${SLIDER}`).first();
@@ -95,7 +95,7 @@ for (const { name } of figures) {
 test("mouse, finger and keys move points on a slide that is scaled", async ({ browser, site }) => {
   const context = await browser.newContext({ viewport: { width: 700, height: 540 }, hasTouch: true });
   const page = await context.newPage();
-  // As slides do it.
+  // Scaled by a transform, as slides are.
   const around = "transform: scale(0.7); transform-origin: 0 0;";
   const { figure, close } = await opened(page, site, "epipolar-click", [960, 700], "", around);
   const grip = figure.locator(".grip").first();

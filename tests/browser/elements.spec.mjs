@@ -1,4 +1,4 @@
-// What elements do that only some figures show, and what readers ask of their browsers.
+// Behavior of elements that only some figures have, and browser settings of readers.
 
 import { expect, figures, first, gripOf, hear, heard, plain, ready, snapshots, test, told } from "./fixtures.mjs";
 
@@ -46,7 +46,7 @@ test("a reader who wants no motion gets few steps instead of many frames", async
     const canvas = element.shadowRoot.querySelector("canvas");
     const real = CanvasRenderingContext2D.prototype.putImageData;
     CanvasRenderingContext2D.prototype.putImageData = function (...args) {
-      // A picture drawn once more as it was is no motion. The frame's own time, which a busy machine does not delay.
+      // Redrawing the same picture is no motion. Use the frame's own time, independent of the load.
       if (this.canvas === canvas) {
         const pixels = new Uint32Array(args[0].data.slice().buffer);
         const picture = pixels.reduce((sum, pixel) => (Math.imul(sum, 31) + pixel) | 0, 0);
@@ -59,7 +59,7 @@ test("a reader who wants no motion gets few steps instead of many frames", async
   await figure.locator("button.run").click();
   await expect.poll(() => figure.evaluate((element) => element.frames.length)).toBeGreaterThan(4);
   const frames = await figure.evaluate((element) => element.frames);
-  // The first shows the pressed button; after it, at most two frames a second.
+  // The first frame shows the pressed button; after it, at most two frames per second.
   const gaps = frames.slice(2).map((time, index) => time - frames[index + 1]);
   expect(Math.min(...gaps)).toBeGreaterThan(500);
 });
@@ -86,7 +86,7 @@ test("keys and mouse add what a click adds", async ({ page, open }) => {
   await figure.getByRole("button", { name: "Reset", exact: true }).click();
   expect((await told(figure)).state).toEqual({});
 
-  // The same place by mouse; and the new point can be dragged on at once.
+  // The same position by mouse; the new point can be dragged right away.
   await figure.locator("canvas").scrollIntoViewIfNeeded();
   const box = await crosshair.boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -145,7 +145,7 @@ test("print shows picture, words and caption, and nothing to press", async ({ pa
 });
 
 test("a long computation runs in a worker, tells its progress, and can be stopped", async ({ page, open }) => {
-  // The worker's script is kept waiting, so that there is time to look.
+  // Hold back the worker's script to observe the figure meanwhile.
   let release;
   const released = new Promise((resolve) => (release = resolve));
   await page.route(/worker[^/]*\.js$/, async (route) => {
@@ -262,7 +262,7 @@ test("a photograph can be dropped on the figure, and taken where there is a came
     const picture = element.shadowRoot.querySelector(".picture");
     for (const type of ["dragover", "drop"]) {
       const event = new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true, composed: true });
-      // Unless both are taken, the browser would leave the page and show the file.
+      // If either event is not canceled, the browser leaves the page to show the file.
       if (picture.dispatchEvent(event)) throw new Error(`${type} was not taken`);
     }
   });

@@ -1,4 +1,4 @@
-// A page of someone else embeds a figure by a script tag alone.
+// A third-party page embeds a figure with a script tag alone.
 
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
@@ -8,7 +8,7 @@ import { serve } from "./server.mjs";
 
 const name = plain;
 
-/** The page as a teacher writes it, with the address of the book put in. */
+/** Serves the page as a teacher would write it, with the address of the book. */
 async function elsewhere(site, above = "2500px") {
   const page = readFileSync(join(here, "pages/embed.html"), "utf8").replace("2500px", above);
   const html = page.replace("https://book.example/embed/epipole.js", `${site}/elements/${script}`);
@@ -116,7 +116,7 @@ test("a page's own switch of colors is followed, and so is a style sheet that co
   await expect(figure.locator(".root")).toHaveAttribute("data-theme", "light");
   const took = [];
   const change = async (theme, work) => took.push(await followed(figure, theme, () => page.evaluate(work)));
-  // As a site generator does it: a name of its own on the body, and colors that blend.
+  // As site generators do: an attribute of their own on the body, and color transitions.
   await change("dark", () => {
     const sheet = document.createElement("style");
     sheet.textContent = `
@@ -131,9 +131,9 @@ test("a page's own switch of colors is followed, and so is a style sheet that co
     sheet.textContent = "body { background: #000; transition: none }";
     document.head.append(sheet);
   });
-  // Each on its own; a busy machine may delay one or the other.
+  // The median, as load may delay one of them.
   expect(took.sort((a, b) => a - b)[1], `milliseconds: ${took}`).toBeLessThanOrEqual(1000);
-  // One that takes its time: the figure follows once the page is light.
+  // A slow transition: the figure follows once the page is light.
   await followed(figure, "light", () =>
     page.evaluate(() => {
       document.body.style.transition = "background 1500ms steps(1, jump-end)";
@@ -164,7 +164,7 @@ test("a state is restored exactly, whatever the attributes say", async ({ page, 
   const other = await elsewhere(site);
   await page.goto(other.origin);
   const figure = page.locator("epipole-figure");
-  // At once, before the module is there.
+  // Called before the module has loaded.
   await figure.evaluate((element) => element.restore({ points: 40 }));
   expect((await told(figure)).state).toEqual({ points: "40" });
   await figure.evaluate((element) => element.apply({ points: 50, epsilon: 0.2 }));
@@ -189,7 +189,7 @@ test("neither keys nor whoever holds a slider or a handle reach the page", async
   const slider = figure.locator("input[type=range]").first();
   await slider.focus();
   for (const key of [" ", "ArrowRight", "a", "b", "Enter", "Home"]) await page.keyboard.press(key);
-  // Hovering waits until the slider stands still: what the keys have done may move it.
+  // Hover waits until the slider is stable, as the key presses may have moved it.
   await slider.hover();
   await page.mouse.down();
   const box = await slider.boundingBox();
@@ -266,7 +266,7 @@ test("one version can be asked for, with the hashes of its scripts", async ({ pa
   const other = await serve({ mounts: { "": () => pageOf(hashes) }, policy: false });
   await page.goto(other.origin);
   await ready(page.locator("epipole-figure"));
-  // A script that is another one is not run.
+  // A script with another hash is not run.
   const elements = Object.keys(scripts).find((path) => /\/index-/.test(path));
   hashes = { ...scripts, [elements]: scripts[entry] };
   expect(complaints).toEqual([]);

@@ -1,4 +1,4 @@
-// What goes wrong in a figure becomes a sentence in the figure; the poster stays, and other figures go on.
+// Failures in a figure: a message in the figure, its poster stays, and other figures keep working.
 
 import { expect, hear, heard, plain, ready, test, told } from "./fixtures.mjs";
 
@@ -40,7 +40,7 @@ test("bad parameters are named, and the figure goes on without them", async ({ p
   await expect(figure.locator(".notice")).toContainText('no parameter "sizee"');
   expect(await told(figure)).toEqual(defaults);
 
-  // Without the figure's key, an unknown name is none of its business.
+  // Without the figure's key, unknown parameters are ignored.
   const strange = await open(page, [name], { more: "&utm_source=letter" });
   await expect(strange.locator(".notice")).toBeHidden();
 });
@@ -78,7 +78,7 @@ test("a panic stops one figure, Reset starts it again, and the other goes on", a
   open,
   complaints,
 }) => {
-  // A trap where a real one would be: in the module's own function that draws.
+  // Trap inside the module's own drawing function, as a real one would.
   await page.addInitScript(() => {
     const real = WebAssembly.instantiate;
     WebAssembly.instantiate = async (...args) => {
@@ -88,7 +88,7 @@ test("a panic stops one figure, Reset starts it again, and the other goes on", a
         if (window.trap) throw new WebAssembly.RuntimeError("unreachable");
         return instance.exports.figure_draw(...given);
       };
-      // The generated script knows an instance by its kind.
+      // The generated script checks the instance's type.
       return Object.create(WebAssembly.Instance.prototype, { exports: { value: exports } });
     };
   });
@@ -107,7 +107,7 @@ test("a panic stops one figure, Reset starts it again, and the other goes on", a
   expect(await heard(first)).toEqual([["epipole-error", { message: expect.stringContaining("unreachable") }]]);
   expect(complaints.length).toBeGreaterThan(0);
   complaints.length = 0;
-  // The last good picture stays.
+  // The last good frame stays.
   await expect(first.locator("canvas")).toBeVisible();
   await page.keyboard.press("ArrowRight");
 

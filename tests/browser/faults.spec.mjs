@@ -1,5 +1,5 @@
-// Faults of servers, pages and browsers. Each ends in a sentence where the reader looks and in a way on, and never in
-// an error that nobody has caught. What a fault leaves behind harms nothing later: the way on is taken as well.
+// Faults of servers, pages and browsers: each shows a message with a way to retry, and never raises
+// an uncaught error. Retrying works afterwards.
 
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,11 +9,11 @@ import { book, elements, here, jobsWasm, loadBindings, script, wasm } from "./pl
 import { POLICY, serve, TYPES } from "./server.mjs";
 
 const { Figure, compute } = await loadBindings();
-/** It answers only after a long computation, so it needs all that there is. */
+/** A figure that needs the worker, since it only shows results of a long computation. */
 const name = "bundle-adjustment";
 const worker = /(?:^|\/)worker[^/]*\.js$/;
 
-/** What the figure says in the end. */
+/** Expected final state of the figure. */
 const right = (() => {
   const figure = new Figure(name);
   for (let key = figure.job_key(); key !== undefined; key = figure.job_key()) {
@@ -27,7 +27,7 @@ const send = (type) => (response, bytes) => response.writeHead(200, { "Content-T
 const half = (bytes) => bytes.subarray(0, bytes.length / 2);
 const other = (path) => readFileSync(join(elements, path));
 
-/** What a server can do to a file: `(response, bytes, type)`. */
+/** Faults of a server when sending a file: `(response, bytes, type)`. */
 const FAULTS = {
   missing: (response) => response.writeHead(404).end(),
   "not for everyone": (response) => response.writeHead(403, { "Content-Type": "text/html" }).end("<h1>Forbidden</h1>"),
@@ -47,7 +47,7 @@ const FAULTS = {
   "never ended": (response, bytes, type) => response.writeHead(200, { "Content-Type": type }).write(half(bytes)),
 };
 
-/** A site whose files fail as `site.faults` says, a pair `[pattern, fault]` each; `asked` counts requests. */
+/** Serves a site with `site.faults`, pairs `[pattern, fault]`; `asked` counts requests. */
 async function faulty() {
   const site = { faults: [], asked: 0 };
   const files = (folder) => async (url, response) => {
@@ -70,7 +70,7 @@ async function faulty() {
   return Object.assign(site, server);
 }
 
-/** A quarter of a minute passes in less than a second. */
+/** Shortens the time limit of 15 s to 0.7 s. */
 function hurry(page) {
   return page.addInitScript(() => {
     const real = window.setTimeout;
@@ -78,7 +78,7 @@ function hurry(page) {
   });
 }
 
-/** Forgives what the browser itself reports of requests that failed; errors of ours stay. */
+/** Ignores the browser's own errors for failed requests; errors of our scripts remain. */
 function forgive(complaints) {
   const rest = complaints.filter((text) => !/^Failed to load resource|^Failed to load module script/.test(text));
   complaints.splice(0, complaints.length, ...rest);
@@ -124,7 +124,7 @@ test("whatever comes in place of a long computation, the figure says so, and Res
   const table = [];
   for (const [file, pattern] of [["worker", worker], ["module", /epipole-jobs.*\.wasm$/]]) {
     for (const [what, fault] of Object.entries(FAULTS)) {
-      // A worker with nothing in it says nothing, as one that never comes.
+      // An empty worker answers nothing, like one that never loads.
       const silent = /^never/.test(what) || (file === "worker" && what === "nothing in it");
       table.push([`${file}: ${what}`, pattern, fault, silent]);
     }
@@ -162,7 +162,10 @@ test("whatever comes in place of a long computation, the figure says so, and Res
   await site.close();
 });
 
-/** A page of somebody who forbids things: `policy` and `head` come before the figure, which runs or says why not. */
+/**
+ * Restrictive pages: `policy` and `head` precede the figure, which runs or shows the message
+ * `says`.
+ */
 const PAGES = {
   "nothing is forbidden": {},
   "a strict policy": { policy: POLICY },
@@ -217,10 +220,10 @@ test("on pages that forbid things a figure runs all the same, or says why not", 
       await expect(figure.locator(".notice")).toBeHidden();
     });
   }
-  // Also in a sandbox: the page must not stand still.
+  // All other pages use a worker, also in a sandbox, so that they stay responsive.
   const without = keys.filter((key) => PAGES[key].says || /without workers|Trusted|no workers/.test(key)).length;
   expect(workers.length).toBe(keys.length - without);
-  // What a policy forbids, the browser reports; the rest would be errors of ours.
+  // The browser logs policy violations; any other error is ours.
   const ours = complaints.filter((text) => !/Content Security Policy|TrustedScriptURL|WebAssembly.*unsafe-eval/.test(text));
   expect(ours).toEqual([]);
   complaints.length = 0;

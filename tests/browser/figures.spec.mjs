@@ -1,4 +1,4 @@
-// What every figure of the gallery must do in a browser.
+// Requirements for every figure of the gallery in a browser.
 
 import { SLIDER, change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
 
@@ -8,7 +8,10 @@ test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
 });
 
-/** Their handle is held to a slanted line: going with the pointer down, it may go a little to the side. */
+/**
+ * Figures with a handle constrained to a slanted line, which may move sideways under a vertical
+ * drag.
+ */
 const SLANTED = ["same-picture"];
 
 test("without script there are poster and caption", async ({ browser, site }) => {
@@ -52,7 +55,7 @@ for (const { name, title, help } of figures) {
         await expect(live).toHaveText("");
         await change(page, figure, 6);
         const { description } = await told(figure);
-        // The last key may still be on its way when we ask.
+        // The last key may not have been handled yet.
         const says = () =>
           figure.evaluate((element) => {
             const { textContent } = element.shadowRoot.querySelector("[aria-live]");
@@ -81,7 +84,7 @@ for (const { name, title, help } of figures) {
             const at = element.shadowRoot.activeElement;
             return at && (at.dataset.handle ?? at.id ?? at.textContent);
           });
-        // Tab comes to every stop once, and out again.
+        // Tab visits every stop once, then leaves the figure.
         await page.locator("#before a").focus();
         const stops = [];
         for (let presses = 0; presses < 80; presses += 1) {
@@ -96,7 +99,7 @@ for (const { name, title, help } of figures) {
         expect(stops.length).toBeLessThan(80);
         const has = async (native) => (await figure.locator(`${native}:visible`).count()) > 0;
         const native = (await has(SLIDER)) ? "range" : (await has("input[type=radio]")) ? "radio" : "select-one";
-        // A crosshair stands for the handles of a figure that is only clicked; some have neither.
+        // Figures that are only clicked have a crosshair instead of handles; some have neither.
         const held = (await figure.locator(".grip, .crosshair").count()) > 0 ? ["slider"] : [];
         expect(stops, "a handle, a native input and a button").toEqual(
           expect.arrayContaining([...held, native, "button"]),
@@ -152,12 +155,12 @@ for (const { name, title, help } of figures) {
         if (!at) return;
         await page.mouse.move(at.x + 4, at.y + 4);
         await page.mouse.down();
-        // Where handles crowd, the nearest is taken.
+        // With several handles close by, the nearest is taken.
         const id = await figure.evaluate((element) => element.shadowRoot.activeElement.dataset.handle);
         const grip = figure.locator(`[data-handle="${id}"]`);
         const before = await grip.getAttribute("aria-valuetext");
         const from = await middle(grip);
-        // Towards the middle of the picture, where there is room.
+        // Drag towards the center of the picture.
         const stage = await figure.locator("canvas").boundingBox();
         const away = (place, low, size) => (place < low + size / 2 ? 36 : -36);
         const [dx, dy] = [away(from.x, stage.x, stage.width), away(from.y, stage.y, stage.height)];
@@ -168,7 +171,7 @@ for (const { name, title, help } of figures) {
         expect(await grip.getAttribute("aria-valuetext")).not.toBe(before);
         const to = await middle(grip);
         const [movedX, movedY] = [to.x - from.x, to.y - from.y];
-        // A handle may be held to one direction, or to its range; it never jumps under the pointer.
+        // A handle may be constrained to a line or a range, but never jumps under the pointer.
         for (const [is, want] of [[movedX, dx], [movedY, dy]]) {
           if (!SLANTED.includes(name)) expect(is * Math.sign(want)).toBeGreaterThanOrEqual(-1.5);
           expect(Math.abs(is)).toBeLessThanOrEqual(Math.abs(want) + 1.5);
@@ -220,7 +223,7 @@ for (const { name, title, help } of figures) {
         });
         expect(small, "targets smaller than 44 px").toEqual([]);
         const canvas = figure.locator("canvas");
-        // The first frame may still be on its way.
+        // The first frame may not have been drawn yet.
         const off = () => canvas.evaluate((c) => Math.abs(c.width - 2 * c.clientWidth));
         await expect.poll(off, { message: "two device pixels to a CSS pixel at most" }).toBeLessThanOrEqual(2);
       });

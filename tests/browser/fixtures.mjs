@@ -1,4 +1,4 @@
-// What every test gets: a server with pages and elements, and a page whose console is watched.
+// Fixtures of all tests: a server with pages and elements, and a page whose console is checked.
 
 import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect } from "@playwright/test";
@@ -11,17 +11,17 @@ const module = await loadBindings();
 /** Every figure of the module: `{name, title, help}`. */
 export const figures = JSON.parse(module.figures());
 
-/** What every figure is at first, by name. */
+/** Initial snapshots of all figures, `[name, snapshot]`. */
 export const snapshots = figures.map(({ name }) => [name, JSON.parse(new module.Figure(name).snapshot(760))]);
-/** The first figure of a kind. */
+/** The first figure that satisfies a predicate. */
 export const first = (kind) => snapshots.find(([, snapshot]) => kind(snapshot))?.[0];
-/** A figure that answers at once, with a slider that is in front. */
+/** A figure without long computation and with a slider that is not folded. */
 export const plain = first(
   ({ controls, waiting }) => waiting === null && controls.some(({ kind, place }) => kind === "slider" && place === "first"),
 );
 
 const test = base.extend({
-  /** Pages and elements of one origin, under the policy of the book. */
+  /** Address of pages and elements on one origin, with the book's content security policy. */
   site: [
     async ({}, use) => {
       const server = await serve({
@@ -39,7 +39,7 @@ const test = base.extend({
     { scope: "worker" },
   ],
 
-  /** The book as it is served: under a sub-path, under its own policy. */
+  /** Address of the book as published: under a sub-path, with its own policy. */
   library: [
     async ({}, use) => {
       const server = await serve({ mounts: { course: book } });
@@ -49,7 +49,7 @@ const test = base.extend({
     { scope: "worker" },
   ],
 
-  /** Errors that a test expects: `complaints.length = 0` forgives them. */
+  /** Console errors. To expect some, clear it: `complaints.length = 0`. */
   complaints: async ({}, use) => {
     const complaints = [];
     await use(complaints);
@@ -61,7 +61,7 @@ const test = base.extend({
     await use(page);
   },
 
-  /** Whether pages share what their figures compute, in tests that have something else in mind. */
+  /** Whether pages share computed answers, for tests that do not test computing. */
   shared: [false, { option: true }],
 
   /** Opens a page with figures: `open(page, ["ransac-race outliers=0.4"], { theme: "dark" })`. */
@@ -76,10 +76,10 @@ const test = base.extend({
       const found = page.locator("epipole-figure");
       if (options.wait !== false) {
         await ready(found.first());
-        // Some figures compute for a while after their first frame.
+        // Some figures compute after their first frame.
         if (options.settle !== false) {
           await expect(found.first().locator("[aria-busy]")).toHaveCount(0);
-          // The first picture is drawn between frames, on a busy page after those that were waited for.
+          // On a busy page, the first picture may be drawn later than the computation ends.
           await expect(found.first().locator("canvas")).toBeVisible();
         }
       }
@@ -88,19 +88,20 @@ const test = base.extend({
   },
 });
 
-/** What axe knows that looks at colors. */
+/** Rules of axe that depend on colors. */
 const COLOR_RULES = ["color-contrast", "link-in-text-block"];
 
-/** Expects that axe finds nothing wrong: with `colors`, looking at nothing but these. */
+/** Expects no violations from axe; with `colors`, checks only the rules about colors. */
 export async function expectAccessible(page, { colors = false } = {}) {
-  // Not in a page of its own for each answer, which takes longer than the rules: there are no foreign frames here.
+  // Legacy mode avoids a page per analysis, which is slower than the rules; there are no foreign
+  // frames.
   const axe = new AxeBuilder({ page }).setLegacyMode(true);
   if (colors) axe.withRules(COLOR_RULES);
   const { violations } = await axe.analyze();
   expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);
 }
 
-/** Collects what a page complains about. */
+/** Collects console errors and exceptions of a page. */
 export function listen(page, complaints) {
   page.on("console", (message) => {
     if (message.type() === "error") complaints.push(message.text());
@@ -108,7 +109,7 @@ export function listen(page, complaints) {
   page.on("pageerror", (error) => complaints.push(String(error)));
 }
 
-/** The width that a picture is laid out for in some room, as `web/src/room.ts` has it. */
+/** Layout width for some available width, as in `web/src/room.ts`. */
 export function layoutWidth(room) {
   return room < 500 ? 360 : room < 860 ? 720 : 1088;
 }
@@ -117,21 +118,21 @@ export function layoutWidth(room) {
 export async function ready(figure) {
   await figure.scrollIntoViewIfNeeded();
   await expect(figure).toHaveAttribute("data-ready", "");
-  // A figure whose poster shows its state draws when somebody takes an interest, with the next frame; what it computes
-  // begins with that, too.
+  // A figure with a matching poster draws and computes only when the reader takes an interest, in
+  // the next frame.
   await figure.dispatchEvent("pointerenter");
   await figure.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
-/** Waits for what the figures compute. What they wait for shows with their next frame, so that is drawn. */
+/** Waits for computations. Draws first, as a computation starts with the next frame. */
 export async function settled(some) {
   await some.evaluateAll((elements) => elements.forEach((element) => element.flush()));
   await expect(some.locator("[aria-busy]")).toHaveCount(0);
 }
 
 /**
- * Changes a page so that a figure is to wear a theme, and waits until it does: how long that took by the clock of the
- * page, milliseconds, with the change itself.
+ * Applies a change that switches a figure's theme and waits until the figure has followed. Returns
+ * the time from before the change, milliseconds by the page's clock.
  */
 export async function followed(figure, theme, change) {
   const watch = await figure.evaluateHandle((element, wanted) => {
@@ -149,7 +150,7 @@ export async function followed(figure, theme, change) {
   return watch.evaluate(({ took }) => took);
 }
 
-/** State, readouts and description of a figure, as its element tells them. */
+/** State, readouts and description of a figure. */
 export function told(figure) {
   return figure.evaluate((element) => {
     element.flush();
@@ -172,16 +173,18 @@ export function heard(figure) {
   return figure.evaluate((element) => element.testHears);
 }
 
-/** Where a figure's first focusable handle is on the screen; nothing for one that has only controls. */
+/**
+ * First focusable handle and its position on the screen; undefined for a figure without handles.
+ */
 export async function gripOf(figure) {
   const grip = figure.locator(".grip").first();
   return (await grip.count()) > 0 ? { grip, ...(await middle(grip)) } : undefined;
 }
 
-/** A slider that is in front and does something now; the weights of a kernel that is given do not. */
+/** Sliders that are visible and enabled; those of a preset kernel are disabled. */
 export const SLIDER = "input[type=range]:not([aria-disabled=true]):visible";
 
-/** Changes a figure by the keys, `times` over: its first slider, away from its end, or its first choice. */
+/** Changes a figure by `times` key presses on its first slider (away from its end) or choice. */
 export async function change(page, figure, times = 1) {
   const settings = [figure.locator(SLIDER), figure.locator("input[type=radio]:checked"), figure.locator("select:visible")];
   const counts = await Promise.all(settings.map((setting) => setting.count()));
@@ -191,12 +194,12 @@ export async function change(page, figure, times = 1) {
     if (type === "select-one") return [selectedIndex < length - 1 ? "ArrowDown" : "ArrowUp", false];
     return [type === "radio" || value === min ? "ArrowRight" : "ArrowLeft", type === "radio"];
   });
-  // After two presses a pair of radio buttons would be as it was, with nothing to tell.
+  // A second press would reset a pair of radio buttons.
   const presses = goesAround ? 1 : times;
   for (let press = 0; press < presses; press += 1) await page.keyboard.press(key);
 }
 
-/** The middle of an element on the screen. */
+/** Center of an element on the screen. */
 export async function middle(locator) {
   const box = await locator.boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };

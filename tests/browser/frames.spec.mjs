@@ -1,4 +1,4 @@
-// The pages of single figures that the book has for frames, and the page of all figures.
+// The book's iframe pages of single figures, and the gallery page.
 
 import { expect, figures, ready, settled, test, told } from "./fixtures.mjs";
 import { book } from "./places.mjs";
@@ -62,7 +62,7 @@ test("the page of all figures has words to copy for the state that the reader se
   await expect(code).toHaveText('from epipole_figures import Figure\n\nFigure("ransac-race", outliers=0.6)');
   await expect(page.locator(".gallery .snippet code").first()).toContainText('Figure("');
   await kinds.selectOption({ label: "Frame (courses, wikis)" });
-  // What it says works.
+  // The copied snippet works.
   const words = await code.textContent();
   const address = /src="([^"]+)"/.exec(words)[1];
   expect(address).toBe(`${library}/embed/ransac-race.html?outliers=0.60`);

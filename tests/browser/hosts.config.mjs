@@ -1,4 +1,5 @@
-// The tests of hosts: `make test-hosts`. Each builds with its own tool what its recipe in docs/embed/ says.
+// Configuration for `make test-hosts`: each host is built by its own tool from the recipe in
+// docs/embed/.
 
 import base from "./playwright.config.mjs";
 

@@ -1,4 +1,4 @@
-// What the tests of the Lab share: a browser that draws WebGL on the processor, the page, and its controls by role.
+// Shared by the Lab's tests: a browser with software WebGL, the page, and its controls by role.
 
 import { deflateSync } from "node:zlib";
 import { chromium } from "@playwright/test";
@@ -9,12 +9,12 @@ import { LAB_POLICY, serve } from "./server.mjs";
 
 export { expect, expectAccessible };
 
-// WebGL on the processor: there may be no graphics card.
+// Software WebGL, as there may be no GPU.
 const args = [
   ...launchOptions.args,
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
-  // A camera that shows a test picture, and that is allowed.
+  // A fake camera with permission granted.
   "--use-fake-device-for-media-stream",
   "--use-fake-ui-for-media-stream",
 ];
@@ -28,7 +28,7 @@ export const test = base.extend({
     },
     { scope: "worker" },
   ],
-  /** A page in which nothing is open yet. */
+  /** A blank page. */
   blank: async ({ complaints }, use) => {
     const browser = await chromium.launch({ ...launchOptions, args });
     const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
@@ -43,16 +43,16 @@ export const test = base.extend({
   },
 });
 
-/** The words that a screen reader hears. */
+/** The live region of the page. */
 export const said = (page) => page.locator("#said");
 
-/** Operates a control that only assistive technology sees. */
+/** Clicks a control that only assistive technology sees. */
 export async function press(page, role, name) {
   const control = page.locator("#widgets").getByRole(role, { name, exact: true }).first();
   await control.dispatchEvent("click");
 }
 
-/** The same with an item of the menu of the project, which is closed before and after. */
+/** Chooses an item of the Project menu, opening and closing the menu. */
 export async function choose(page, role, name) {
   const item = page.locator("#widgets").getByRole(role, { name, exact: true });
   await expect(item).toHaveCount(0);
@@ -65,14 +65,14 @@ export async function solved(page) {
   await expect(said(page)).toContainText("9 of 9 photographs have a camera", { timeout: 90_000 });
 }
 
-/** The bytes of a file that the page gave. */
+/** The bytes of a download. */
 export async function read(download) {
   const chunks = [];
   for await (const chunk of await download.createReadStream()) chunks.push(chunk);
   return Buffer.concat(chunks);
 }
 
-/** A PNG file that promises so many pixels, gray ones; `whole` keeps the promise. */
+/** A gray PNG of the given size; without `whole`, its pixels are missing. */
 export function png(width, height, whole = true) {
   const chunk = (name, data) => {
     const body = Buffer.concat([Buffer.from(name), data]);
@@ -102,10 +102,10 @@ function crc(bytes) {
   return ~crc >>> 0;
 }
 
-/** A photograph to be chosen. */
+/** A photograph for a file input. */
 export const file = (name, width, height) => ({ name, mimeType: "image/png", buffer: png(width, height) });
 
-/** Gives two small photographs, and waits until they are there. */
+/** Adds two small photographs and waits until they are listed. */
 export async function give(lab) {
   await lab.locator("#photographs").setInputFiles([file("one.png", 64, 48), file("two.png", 80, 60)]);
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });

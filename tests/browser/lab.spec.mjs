@@ -1,4 +1,4 @@
-// The Lab as it is served: the sample is solved, files go in and out, and assistive technology finds
+// The published Lab: it solves the sample, reads and writes files, and assistive technology finds
 // everything by role.
 
 import { mkdtempSync, writeFileSync } from "node:fs";
@@ -34,7 +34,7 @@ test("the sample is solved, looked at in every step, and saved", async ({ lab })
 });
 
 test("the sample comes solved and light; what is left out is computed once somebody asks for it", async ({ blank: lab, library }) => {
-  // What computes in workers is loaded once there is something for it.
+  // The modules for computing are loaded on demand.
   const computing = [];
   lab.on("request", (request) => {
     if (/lab-vision-[^/]*\.wasm$/.test(request.url())) computing.push(request.url());
@@ -42,7 +42,7 @@ test("the sample comes solved and light; what is left out is computed once someb
   const sample = lab.waitForRequest(/sample-[^/]*\.bin$/);
   await lab.goto(`${library}/lab/index.html`);
   await solved(lab);
-  // The photographs are rendered, which takes no such module, and then everything is there.
+  // Photographs of the sample are rendered without them; everything else is precomputed.
   await press(lab, "button", "Export");
   await expect(said(lab)).toContainText("Ready to save: 9 cameras", { timeout: 60_000 });
   expect(computing, "nothing was left to compute").toEqual([]);
@@ -50,7 +50,7 @@ test("the sample comes solved and light; what is left out is computed once someb
   const weight = await lab.evaluate(weigh, (await sample).url());
   expect(weight).toBeGreaterThan(100_000);
   expect(weight, "light enough for a phone").toBeLessThan(1_000_000);
-  // A descriptor is computed for whoever wants to see it, and matches are found anew.
+  // New settings need computed descriptors and matches.
   await press(lab, "button", "Matches");
   await press(lab, "checkbox", "Mutual nearest only");
   await expect(said(lab)).toContainText("36 of 36 pairs share enough matches", { timeout: 90_000 });
@@ -86,7 +86,7 @@ test("knobs recompute, and undo brings the result back at once", async ({ lab })
   await expect(said(lab)).toContainText("table-1.png: left out by you");
   await press(lab, "button", "Reconstruction");
   await expect(said(lab)).toContainText("8 of 9 photographs have a camera", { timeout: 60_000 });
-  // At once means that nobody is asked to compute anything; how long frames take is the machine's affair.
+  // "At once" means without any request to a worker; frame times depend on the machine.
   await lab.evaluate(() => {
     window.asked = 0;
     const post = Worker.prototype.postMessage;
@@ -107,7 +107,7 @@ test("one's own files take the place of the sample; what is no photograph is tol
   writeFileSync(broken, Buffer.from([0xff, 0xd8, 0xff, 0, 1, 2]));
   await lab.locator("#photographs").setInputFiles([broken]);
   await expect(said(lab)).toContainText("broken.jpg: cannot be read", { timeout: 30_000 });
-  // One change: one step back.
+  // One change, one step of undo.
   await press(lab, "button", "Undo");
   await press(lab, "button", "Reconstruction");
   await solved(lab);
@@ -133,25 +133,25 @@ test("the mouse opens menus on the canvas, chooses, and opens them again", async
   };
   const menu = (name) => lab.locator("#widgets").getByRole("button", { name, exact: true });
   const isOpen = (name) => menu(name).getAttribute("aria-expanded").then((value) => value === "true");
-  /** Where the menu is in the bar: all to the right of the menus waits for something to take back. */
+  /** Horizontal position of a menu in the bar; the buttons to its right are disabled. */
   const find = async (name, from) => {
     for (let x = from; x > 0; x -= 20) {
       await click(x, 20);
-      // What was clicked is told with one of the next looks at it.
+      // The page mirrors widgets with a delay.
       const opened = expect.poll(() => isOpen(name), { timeout: 1000 }).toBe(true);
       if (await opened.then(() => true, () => false)) return x;
     }
     throw new Error(`no menu ${name} in the bar`);
   };
   const x = await find("Project", 420);
-  // Its items come a frame later.
+  // The items appear a frame later.
   await expect(menu("Project")).toHaveAttribute("aria-controls", /./);
   const opened = await menu("Project").getAttribute("aria-controls");
   const items = await lab.evaluate((ids) => ids.split(" ").map((id) => document.getElementById(id).getAttribute("aria-label") ?? ""), opened);
   expect(items.slice(0, 3)).toEqual(["Open…", "Save", "Remove all photographs"]);
   await expectAccessible(lab);
   for (let round = 0; round < 2; round += 1) {
-    // Its first item asks for a file.
+    // Its first item opens a file chooser.
     const [chooser] = await Promise.all([lab.waitForEvent("filechooser"), click(x, 52)]);
     expect(chooser.isMultiple()).toBe(false);
     await expect(menu("Project")).toHaveAttribute("aria-expanded", "false");
@@ -159,7 +159,7 @@ test("the mouse opens menus on the canvas, chooses, and opens them again", async
     await click(x, 20);
     await expect(menu("Project")).toHaveAttribute("aria-expanded", "true");
   }
-  // A click beside it closes it.
+  // Clicking beside the menu closes it.
   await click(600, 400);
   await expect(menu("Project")).toHaveAttribute("aria-expanded", "false");
 });
@@ -207,9 +207,9 @@ test("a figure hands on the reader's photographs, its step and its knobs, and no
   await expect(button).toHaveText("Open your 2 photographs in the Lab");
   expect(complaints).toEqual([]);
   await expectAccessible(blank);
-  // What looks for faults tries styles, which the policy of the book forbids it.
+  // Axe tries inline styles, which the book's policy forbids.
   complaints.length = 0;
-  // A figure at its start has none of them.
+  // A reset figure has no photographs.
   await figure.evaluate((element) => element.reset());
   await expect(button).toHaveCount(0);
   await figure.evaluate((element) => element.apply({ stage: "match", ratio: 0.7 }));
@@ -217,7 +217,7 @@ test("a figure hands on the reader's photographs, its step and its knobs, and no
   await figure.locator("#photo-second").setInputFiles(file("two.png", 600, 450));
   expect(await databases(), "nothing is put aside unasked").toEqual([]);
 
-  // Where there is no Lab, nothing is put aside either.
+  // Without a Lab, nothing is stored.
   await blank.route(/lab\/index\.html/, (route) => route.fulfill({ contentType: "text/html", body: "not yet" }));
   await button.click();
   await expect(blank.locator(".to-lab")).toContainText("The Lab cannot be reached just now.");
@@ -241,14 +241,14 @@ test("every step is explained by a figure of the book, which runs beside it", as
   const aside = lab.getByRole("complementary");
   for (const step of ["Photographs", "Calibrate", "Features", "Matches", "Two views", "Reconstruction", "Depth", "Measure", "Export"]) {
     await press(lab, "button", step);
-    // The next frame shows the step, and asks for its figure.
+    // The next frame shows the step and loads its figure.
     const name = step.toLowerCase().replace(" ", "-");
     await expect.poll(() => new URL(lab.url()).searchParams.get("step")).toBe(name);
     await press(lab, "button", "What is this?");
     await expect(aside).toBeVisible();
     const figure = aside.locator("epipole-figure");
     await expect(figure.locator("canvas").first()).toBeVisible({ timeout: 60_000 });
-    // The link and the figure come one after the other.
+    // The link and the figure appear one after the other.
     await expect(async () => {
       const chapter = await aside.getByRole("link", { name: "Read the chapter" }).getAttribute("href");
       const text = await (await fetch(chapter)).text();
@@ -299,7 +299,7 @@ test("photographs of a board give a camera, which is saved and used", async ({ l
   await expect(said(lab)).toContainText("used for photographs of 640 × 480 pixels");
   await press(lab, "button", "Undo");
   await expect(said(lab)).not.toContainText("used for photographs");
-  // What is chosen now is of a board.
+  // Files chosen now are taken for photographs of a calibration board.
   const folder = mkdtempSync(join(tmpdir(), "lab-"));
   const broken = join(folder, "broken.jpg");
   writeFileSync(broken, Buffer.from([0xff, 0xd8, 0xff, 0, 1, 2]));
@@ -310,7 +310,7 @@ test("photographs of a board give a camera, which is saved and used", async ({ l
 
 test("a video becomes photographs, and one that is none is told", async ({ lab }) => {
   await solved(lab);
-  // In a page that has nothing else to do.
+  // Record in an idle page.
   const studio = await lab.context().newPage();
   const buffer = Buffer.from(await studio.evaluate(recorded), "base64");
   await studio.close();
@@ -350,7 +350,7 @@ test("the camera takes photographs once it is allowed, and says so where it is n
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
 });
 
-/** In the page: a video of a pattern that moves, in base 64. It lasts until the encoder has something to show. */
+/** Runs in the page: a base64 video of a moving pattern, recorded until the encoder has output. */
 async function recorded() {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [320, 240];
@@ -401,7 +401,7 @@ test("work that is stopped ends by itself, before its worker is ended", async ({
         super(...how);
         this.addEventListener("message", ({ data }) => window.heard.push(data.problem ?? Object.keys(data).pop()));
       }
-      // Chromium takes its time, too.
+      // As slow as Chromium's own: the worker must stop by itself.
       terminate() {}
     };
   });
@@ -410,7 +410,7 @@ test("work that is stopped ends by itself, before its worker is ended", async ({
   await blank.locator("#photographs").setInputFiles([file("one.png", 1800, 1400), file("two.png", 1900, 1400)]);
   await press(blank, "button", "Features");
   await expect(blank.locator("#widgets").getByRole("button", { name: "Stop", exact: true })).toHaveCount(1);
-  // Reading tells too seldom to hear of a stop in time; finding features goes on for long.
+  // Reading reports progress too rarely to test a stop; finding features takes long enough.
   await expect(blank.locator("#widgets")).toContainText("Finding features in", { timeout: 60_000 });
   await blank.evaluate(() => (window.heard = []));
   await blank.waitForFunction(() => window.heard.includes("words"));
@@ -428,7 +428,7 @@ test("on an emulated screen nothing is larger than on a real one", async ({ blan
     const { width, height, clientWidth, clientHeight } = document.querySelector("#lab");
     return [width / clientWidth, height / clientHeight];
   });
-  // Heights may be broken numbers of pixels.
+  // Heights may be fractions of pixels.
   for (const size of sizes) expect(size).toBeCloseTo(2, 2);
   await context.close();
 });

@@ -1,6 +1,6 @@
-// What the Lab costs in a browser: `node labbench.mjs FOLDER FOCAL_PX` gives it the photographs of a folder and prints how
-// long they take on two cores, how frames come meanwhile, how fast a stop is, what a million points cost, and how much
-// memory there is. Times are those of the machine as it is: look at its load.
+// Benchmark of the Lab in a browser: `node labbench.mjs FOLDER FOCAL_PX` adds the photographs of a
+// folder and prints computing time on two cores, frame times meanwhile, the time to stop, the cost
+// of a million points, and memory. Times depend on the machine and its load, which is printed.
 
 import { readdirSync, readFileSync } from "node:fs";
 import { loadavg } from "node:os";
@@ -21,9 +21,9 @@ const server = await serve({ mounts: { course: book }, policy: LAB_POLICY });
 const browser = await chromium.launch({ ...launchOptions, args });
 const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
 await page.addInitScript(() => {
-  // As many workers as on a machine with two cores.
+  // Report two cores, so that there are two workers.
   Object.defineProperty(navigator, "hardwareConcurrency", { value: 2 });
-  // How long the scripts of each frame take: what is left of a frame is the browser's painting, here without a GPU.
+  // Script time per frame; the rest of a frame is painting, here without a GPU.
   window.work_ms = [];
   const real = window.requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (callback) =>
@@ -32,7 +32,7 @@ await page.addInitScript(() => {
       callback(time);
       window.work_ms.push(performance.now() - from);
     });
-  // When each frame of the page began.
+  // Start time of each frame.
   window.frames_ms = [];
   const tick = (time) => {
     window.frames_ms.push(time);
@@ -74,7 +74,7 @@ const tell = ({ frames, works, tasks }, what) => {
   say("of a frame the Lab's own work: median, p95", `${[0.5, 0.95].map((share) => (works[Math.floor(share * works.length)] ?? 0).toFixed(1)).join(", ")} ms`);
 };
 
-/** Whether a process was started by this one, or by one that was: others may have browsers, too. */
+/** Whether a process is a descendant of this one; other browsers may be running. */
 const isOurs = (id) => {
   for (let at = id; at > 1; ) {
     if (at === process.pid) return true;
@@ -91,13 +91,13 @@ const memory = () => {
       if (!words.includes("--type=renderer") || !isOurs(Number(id))) continue;
       total += Number(readFileSync(`/proc/${id}/smaps_rollup`, "utf8").match(/^Pss:\s+(\d+)/m)?.[1] ?? 0) / 1024;
     } catch {
-      // It has ended meanwhile.
+      // The process has ended.
     }
   }
   return total;
 };
 let most = 0;
-// Seldom: whoever counts the pages of a process holds it up.
+// Rarely: reading smaps_rollup blocks the process.
 const watching = setInterval(() => (most = Math.max(most, memory())), 3000);
 if (folder) {
   const files = readdirSync(folder).filter((name) => name.endsWith(".jpg")).sort().map((name) => join(folder, name));
@@ -119,12 +119,12 @@ if (folder) {
     tell(await frames(), "meanwhile");
     say("memory of the page and its workers, at most", `${most.toFixed(0)} MB`);
   }
-  // Every pixel of some pairs: a million points, which turn under the mouse.
+  // Dense stereo of some pairs: a million points, rotated by mouse.
   await press("button", "Depth");
   const names = files.map((path) => basename(path));
   let points = 0;
   for (let first = 0; first + 1 < names.length && points < 1e6; first += 1) {
-    // The second one first: a pair has two photographs.
+    // Second image first: the two of a pair must differ.
     for (const [list, name] of [["Second", names[first + 1]], ["First", names[first]]]) {
       const box = page.locator("#widgets").getByRole("combobox", { name: new RegExp(`^${list}:`) });
       if ((await box.getAttribute("aria-label")) === `${list}: ${name}`) continue;
@@ -148,7 +148,7 @@ if (folder) {
   for (let n = 0; n < 90; n += 1) await page.mouse.move(500 + 2 * n, 400 + n / 3);
   tell(await frames(), "while a million points turn");
   await page.mouse.up();
-  // Stop: from the press until no worker is left.
+  // Time from pressing Stop until no worker is left.
   await press("button", "Features");
   const knob = page.locator("#widgets").getByRole("radio", { name: "SIFT", exact: true }).first();
   await knob.dispatchEvent("click");

@@ -1,4 +1,4 @@
-// What can go wrong in the Lab: each ends in a sentence where the reader looks, with a way on, and the photographs stay.
+// Failures in the Lab: each shows a message with a way to go on, and the photographs are kept.
 
 import { expect, expectAccessible, give, png, press, said, solved, test } from "./lab.mjs";
 
@@ -48,13 +48,13 @@ test("without WebGL it says what does the same", async ({ blank, library, compla
   complaints.length = 0;
 });
 
-/** The way on after the Lab has stopped: the files come back, and are kept nowhere any more. */
+/** Restarts the Lab after a failure: the files are restored and no longer stored. */
 async function goOn(lab) {
   const button = lab.getByRole("button", { name: "Start the Lab again with your 2 files" });
   await expect(button).toBeVisible({ timeout: 30_000 });
   await expect(notice(lab)).toContainText("nothing is lost on your machine");
   await expectAccessible(lab);
-  // The page that has stopped says the same; it is the next one that is meant.
+  // The stopped page shows the same message; wait for the next page.
   const next = lab.waitForEvent("load", { timeout: 60_000 });
   await button.click();
   await next;
@@ -79,7 +79,7 @@ test("a lost context is told, and the photographs come back", async ({ lab, comp
 });
 
 test("a panic in the page is told, and the photographs come back", async ({ blank, library, complaints }) => {
-  // The script asks whether there was one: it hears of one that was not.
+  // Replace the script's query for a panic by one that the test controls.
   await blank.route(/assets\/lab-[^/]*\.js$/, async (route) => {
     const answer = await route.fetch();
     const text = await answer.text();
@@ -94,7 +94,10 @@ test("a panic in the page is told, and the photographs come back", async ({ blan
   complaints.length = 0;
 });
 
-/** The same module, whose memory can grow by so many pages of 64 KiB and no more: the section of its memory is written anew. */
+/**
+ * The module with its memory limited to `numPages` more pages of 64 KiB: rewrites the memory
+ * section.
+ */
 function capped(wasm, numPages) {
   const read = (at) => {
     let [value, shift] = [0, 0];
@@ -113,7 +116,7 @@ function capped(wasm, numPages) {
   for (let at = 8; at < wasm.length; ) {
     const [size, body] = read(at + 1);
     if (wasm[at] === 5) {
-      // One memory, of at least so many pages.
+      // One memory, with a minimum and a maximum.
       const [least] = read(body + 2);
       const section = [1, 1, ...written(least), ...written(least + numPages)];
       return Buffer.concat([wasm.subarray(0, at), Buffer.from([5, ...written(section.length), ...section]), wasm.subarray(body + size)]);
@@ -123,7 +126,7 @@ function capped(wasm, numPages) {
   throw new Error("the module has no memory");
 }
 
-/** Turns the knob for the size of photographs. */
+/** Sets the slider for the size of photographs. */
 async function reduceTo(lab, megapixels) {
   const knob = lab.locator("#widgets").getByRole("slider", { name: "Largest size, megapixels" });
   await knob.evaluate((input, value) => {
@@ -153,7 +156,7 @@ test("memory that does not suffice is told, and smaller photographs are the way 
 });
 
 test("a panic in a worker is told, and the next worker goes on", async ({ blank, library, complaints }) => {
-  // Modules that are loaded while `broken` is set panic at whatever they are asked: they leave a message, and trap.
+  // Modules loaded while `broken` is set panic at every call: they leave a message, then trap.
   let broken = false;
   await blank.context().route("**/broken", (route) => route.fulfill({ status: broken ? 200 : 404, body: "" }));
   await blank.context().route(/assets\/worker-[^/]*\.js$/, async (route) => {
@@ -180,7 +183,7 @@ test("a panic in a worker is told, and the next worker goes on", async ({ blank,
   });
   await blank.goto(`${library}/lab/index.html`);
   await solved(blank);
-  // Workers that have nothing to do end after a while: those that come then have the other module.
+  // Wait for idle workers to be terminated: new ones load the broken module.
   await expect.poll(() => blank.workers().length, { timeout: 60_000 }).toBe(0);
   broken = true;
   await give(blank);

@@ -1,13 +1,13 @@
-// A project that is kept in the browser: only by choice, back at the next visit, gone when it is forgotten.
+// Keeping a project in the browser: only by choice, restored on the next visit, erased on request.
 
 import { choose, expect, expectAccessible, file, give, press, said, solved, test } from "./lab.mjs";
 
 const KEPT = "epipole-lab-kept";
 
-/** The names of all that is kept. */
+/** Names of all databases. */
 const kept = (page) => page.evaluate(async () => (await indexedDB.databases()).map(({ name }) => name));
 
-/** Chooses to keep the project, and waits until it is. */
+/** Chooses to keep the project and waits until it is stored. */
 async function keep(lab) {
   await choose(lab, "checkbox", "Keep in this browser");
   await expect(said(lab)).toContainText("This browser keeps the project", { timeout: 30_000 });
@@ -18,7 +18,7 @@ const photograph = (lab, name) => lab.locator("#widgets").getByRole("button", { 
 test("photographs and knobs are there again at the next visit, until they are forgotten", async ({ lab, library }) => {
   await solved(lab);
   await give(lab);
-  // Nothing is kept that nobody has chosen to keep.
+  // Nothing is stored without the reader's choice.
   expect(await kept(lab)).toEqual([]);
   await press(lab, "button", "Project");
   await expect(lab.locator("#widgets")).toContainText("on this machine. Nothing is uploaded");
@@ -42,10 +42,10 @@ test("photographs and knobs are there again at the next visit, until they are fo
   const before = await size();
   await press(lab, "checkbox", "Use this photograph");
   await expect(said(lab)).toContainText("one.png: left out by you");
-  // The change is kept, too, once it has come to rest: one letter less, true for false.
+  // The change is saved after a delay; its size differs by a letter, true or false.
   await expect.poll(size, { timeout: 30_000 }).not.toBe(before);
 
-  // A visit, not a reload: the address says nothing.
+  // A new visit, not a reload, with an empty address.
   await lab.goto("about:blank");
   await lab.goto(`${library}/lab/index.html`);
   await expect(said(lab)).toContainText("The project kept in this browser is open again", { timeout: 60_000 });
@@ -54,7 +54,7 @@ test("photographs and knobs are there again at the next visit, until they are fo
   for (const name of ["one.png", "two.png"]) await expect(photograph(lab, name)).toHaveCount(1);
   await expect(said(lab)).toContainText("one.png: left out by you");
 
-  // Whoever follows a link to a sample sees it, and nothing is written over.
+  // A link to a sample shows the sample and overwrites nothing.
   await lab.goto(`${library}/lab/index.html?sample=turned`);
   await expect(said(lab)).toContainText("This browser keeps a project of yours", { timeout: 60_000 });
   await choose(lab, "button", "Open the kept project");
@@ -95,7 +95,7 @@ test("what one page forgets, another one that is open does not keep again", asyn
   expect(complaints).toEqual([]);
 });
 
-/** What goes wrong with the storage, in the page: it fails as browsers let it fail. */
+/** Storage faults, as browsers raise them. */
 const FAULTS = {
   "is forbidden": {
     fault: () => {
@@ -123,7 +123,7 @@ for (const [what, { fault, words }] of Object.entries(FAULTS)) {
     await choose(lab, "checkbox", "Keep in this browser");
     await expect(said(lab)).toContainText(words, { timeout: 30_000 });
     await expect(said(lab)).toContainText("2 photographs.");
-    // It does not try again and again.
+    // No retries.
     await expect(async () => {
       const choice = lab.locator("#widgets").getByRole("checkbox", { name: "Keep in this browser" });
       if ((await choice.count()) === 0) await press(lab, "button", "Project");
@@ -137,7 +137,7 @@ test("a lost context loses nothing of what is kept, and brings nothing back twic
   await solved(lab);
   await give(lab);
   await keep(lab);
-  // It is given, and lost before it has come to rest in what is kept.
+  // The photograph is lost before it is saved to the kept project.
   await lab.locator("#photographs").setInputFiles([file("three.png", 96, 72)]);
   await expect(said(lab)).toContainText("3 photographs.", { timeout: 30_000 });
   await lab.evaluate(() => {

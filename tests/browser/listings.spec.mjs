@@ -1,4 +1,5 @@
-// Listings: tabs, the choice over the whole book, copying, and what is there without a script and on paper.
+// Listings: tabs, the language for the whole book, copying, and rendering without script and in
+// print.
 
 import { expect, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
@@ -25,7 +26,7 @@ test("a choice of language holds in all listings, stays where it is, and is reme
   }
   await page.goto(`${library}/ransac.html`);
   await expect(part(page, "line", "rust")).toBeVisible();
-  // OpenCV has no line: that listing shows its first tab, and so it says.
+  // The "line" listing has no OpenCV tab, so it shows its first.
   await tab(page, "two-images", "OpenCV").click();
   await expect(part(page, "two-images", "opencv")).toBeVisible();
   await expect(part(page, "line", "numpy")).toBeVisible();

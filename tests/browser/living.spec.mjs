@@ -1,4 +1,4 @@
-// What a page does to figures while they live: it chooses, glides, renames, moves and interrupts.
+// Operations of a page on running figures: choosing, gliding, renaming, moving, interrupting.
 
 import { expect, expectAccessible, figures, gripOf, hear, heard, ready, settled, test, told } from "./fixtures.mjs";
 import { holds, keepMemory } from "./measure.mjs";
@@ -6,13 +6,13 @@ import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
 const snapshots = figures.map(({ name }) => [name, JSON.parse(new Figure(name).snapshot(720))]);
-/** One that computes for a while, with a slider in front. */
+/** A figure with a long computation and a slider that is not folded. */
 const patient = snapshots.find(
   ([, { waiting, controls }]) => waiting !== null && controls.some(({ kind, place }) => kind === "slider" && place === "first"),
 )[0];
 const [own] = snapshots.find(([, { photos }]) => photos.length > 0);
 
-/** Ids of what stands beside the picture. */
+/** Ids of the visible parts of a kind beside the picture. */
 const shown = (figure, kind) =>
   figure.evaluate((element, name) => {
     const all = [...element.shadowRoot.querySelectorAll(`[data-${name}]`)];
@@ -92,7 +92,7 @@ test.describe("gliding", () => {
     await page.locator("#before a").focus();
     await hear(figure, "epipole-change");
     const handle = await figure.evaluate((element) => element.shadowRoot.querySelector(".grip").dataset.handle);
-    // By a clock of our own, a busy browser draws as many frames as any.
+    // With a fake clock, a busy browser draws as many frames as any.
     await page.clock.install();
     await page.clock.pauseAt(Date.now() + 10_000);
     const glide = figure.evaluate((element, id) => element.glide({ forward: 0.3, [id]: "200,220" }), handle);
@@ -317,7 +317,7 @@ test.describe("the life of an element", () => {
   test("glides that had nowhere to scroll to wait for no end of it", async ({ page, open }) => {
     await page.emulateMedia({ reducedMotion: "no-preference" });
     const figure = await open(page, ["ransac-race"]);
-    // The picture covers all of the window, so it is never within it and there is nowhere to go.
+    // The picture exceeds the window, so it never fits and there is nowhere to scroll.
     await page.setViewportSize({ width: 700, height: 180 });
     await figure.evaluate((element) => {
       addEventListener("scrollend", (event) => event.stopImmediatePropagation(), true);
@@ -336,7 +336,7 @@ test.describe("the life of an element", () => {
   test("a figure that has just said that its link is copied goes with its name", async ({ page, open, context }) => {
     await context.grantPermissions(["clipboard-read", "clipboard-write"]);
     const figure = await open(page, ["ransac-budget"]);
-    // By script: the browser itself holds what the mouse has pressed last.
+    // Click by script: the browser keeps a reference to the last element pressed by mouse.
     await figure.getByRole("button", { name: "Copy link" }).evaluate((button) => button.click());
     await expect(figure.getByRole("button", { name: "Copied" })).toBeVisible();
     const gone = await figure.evaluateHandle(async (element) => {
@@ -400,7 +400,7 @@ test.describe("the life of an element", () => {
   });
 
   test("another density of pixels is followed every time", async ({ page, open }) => {
-    // A window that moves between screens, which no browser for tests has: its queries stop matching.
+    // A window that moves to another screen, simulated: its density queries stop matching.
     await page.addInitScript(() => {
       window.density = 1;
       const lists = [];
@@ -466,7 +466,7 @@ test.describe("slow and large", () => {
     await expect(note).toHaveText("Or drop one here. Stays on your device.");
     await choose("strip.png", await picture(8, 3000));
     await expect(figure.locator(".notice")).toContainText("8 × 3000");
-    // Wide enough as it is, but not once it is as small as the figure wants it.
+    // Wide enough originally, but too narrow when downscaled.
     await choose("strip.png", await picture(64, 3000));
     await expect(figure.locator(".notice")).toContainText(/64 × 3000 pixels, made smaller to \d+ × \d+\. This figure takes/);
     await expect(note).toHaveText("Or drop one here. Stays on your device.");
@@ -493,7 +493,7 @@ test.describe("slow and large", () => {
       await expect(notice).toContainText(`cut-${share}.jpg is cut off: the file ends before its picture does.`);
       await expect(note).toHaveText("Or drop one here. Stays on your device.");
     }
-    // The small picture in a head has an end of its own; what cameras write behind the end does not matter.
+    // The thumbnail has an end marker of its own; trailing data does not matter.
     const thumbnail = Buffer.concat([Buffer.from([0xff, 0xe1, 0, 8]), Buffer.from([0xff, 0xd8, 1, 2, 0xff, 0xd9])]);
     const head = (bytes) => Buffer.concat([bytes.subarray(0, 2), thumbnail, bytes.subarray(2)]);
     await choose("head.jpg", head(whole.subarray(0, whole.length / 2)));

@@ -1,9 +1,9 @@
-// What a page costs: how long its tasks keep the processor, and what it still holds after a collection.
+// Costs of a page: processor time of its tasks, and memory held after garbage collection.
 
-/** The share of tasks that may be longer. */
+/** Fraction of tasks that may exceed the reported quantile. */
 const FEW = 0.01;
 
-/** Keeps the memory of the WebAssembly module at hand: call it before the page is opened. */
+/** Makes the module's memory accessible as `window.memory`; call it before opening the page. */
 export function keepMemory(page) {
   return page.addInitScript(() => {
     const real = WebAssembly.instantiate;
@@ -15,7 +15,7 @@ export function keepMemory(page) {
   });
 }
 
-/** Listeners, nodes, bytes of scripts and of the module that a page holds, once everything is collected. */
+/** Listeners, nodes, and bytes of scripts and module held after garbage collection. */
 export async function holds(page) {
   const devtools = await page.context().newCDPSession(page);
   await devtools.send("Performance.enable");
@@ -28,8 +28,8 @@ export async function holds(page) {
 }
 
 /**
- * Watches the tasks of a page's main thread; `end()` says how long they have kept the processor, milliseconds, which
- * is no longer on a busy machine.
+ * Traces the tasks of a page's main thread. `end()` returns their processor times in milliseconds,
+ * which do not depend on the load.
  */
 export async function tasksOf(browser, page) {
   await browser.startTracing(page, { categories: ["toplevel"] });

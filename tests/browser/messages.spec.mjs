@@ -1,17 +1,19 @@
-// Pages of courses with a figure in a frame, each a stand-in that listens as the real ones do.
+// Course pages with a figure in an iframe, each imitating the listener of a real platform.
 
 import { expect, settled, test, told } from "./fixtures.mjs";
 import { script } from "./places.mjs";
 import { serve } from "./server.mjs";
 
-/** A page with figures for a frame, of an origin of its own. */
+/** Serves a page with figures for an iframe, on an origin of its own. */
 async function inside(site, figures = '<epipole-figure name="ransac-race"></epipole-figure>', more = "") {
   const page = `<!doctype html><html lang="en"><title>Figure</title><body style="margin: 0">${figures}
     <script type="module" src="${site}/elements/${script}"></script>${more}`;
   return serve({ mounts: { "": () => page }, policy: false });
 }
 
-/** A course page: `hear` is what its listener does with an event, `frame` are attributes. */
+/**
+ * Serves a course page: `hear` is the code of its listener, `frame` are attributes of the iframe.
+ */
 async function course(page, address, hear = "", frame = "") {
   const html = `<!doctype html><html lang="en"><title>A course</title>
     <iframe src="${address}" title="Figure" width="900" height="400" ${frame}></iframe>
@@ -34,7 +36,7 @@ async function course(page, address, hear = "", frame = "") {
   return { figure, close: outer.close };
 }
 
-/** What the page has heard, texts as objects. */
+/** Messages that the page has received, parsed. */
 async function heard(page, subject) {
   const all = await page.evaluate(() => window.heard.map((data) => (typeof data === "string" ? { text: data, ...JSON.parse(data) } : data)));
   return subject ? all.filter((message) => message.subject === subject) : all;
@@ -60,7 +62,7 @@ for (const [kind, check] of [
     await expect.poll(async () => (await frame()) - (await height())).toBe(0);
     await page.waitForTimeout(600);
     const sizes = (await heard(page, "lti.frameResize")).filter(({ text }) => (text !== undefined) === (kind === "text"));
-    // At first, and when the list of goals has opened.
+    // Once at first, and when the list of goals has opened.
     expect(sizes.length).toBeLessThanOrEqual(4);
     for (const size of sizes) expect(Object.keys(size).filter((key) => key !== "text").sort()).toEqual(["height", "message_id", "subject"]);
     expect(new Set(sizes.map(({ message_id }) => message_id)).size).toBe(sizes.length);
@@ -99,7 +101,7 @@ for (const [kind, state] of [
     await expect.poll(async () => (await told(figure)).state).toEqual({ outliers: "0.30", points: "40" });
     await page.waitForTimeout(1500);
     expect((await told(figure)).state).toEqual({ outliers: "0.30", points: "40" });
-    // What the course knows it is not told.
+    // State that came from the course is not reported to it.
     expect(await heard(page, "SPLICE.reportScoreAndState")).toEqual([]);
     await close();
     await inner.close();
@@ -171,7 +173,7 @@ test("what the reader reaches is reported: at each goal, at rest, when asked", a
   expect(event.name).toBe("challenge");
   expect(report.state.solved).toContain(event.data.id);
 
-  // A change without a goal waits half a minute, or until the course asks.
+  // A change without a goal is reported after 30 s or on request.
   await figure.evaluate((element) => (element.points = 34));
   await page.waitForTimeout(1500);
   expect(await heard(page, "SPLICE.reportScoreAndState")).toHaveLength(1);
@@ -209,7 +211,7 @@ test("an exercise page hears once that everything is solved", async ({ page, sit
   const { figure, close } = await course(page, inner.origin);
   const ids = await figure.evaluate((element) => element.goals.map(({ id }) => id));
   const passed = async () => (await heard(page)).filter(({ testsPassed }) => testsPassed);
-  // All but the last one from another day.
+  // All but the last were solved on an earlier visit.
   await figure.evaluate((element, solved) => element.restore({}, { solved }), ids.filter((id) => id !== "agree"));
   expect(await passed()).toEqual([]);
   const before = await figure.evaluate((element) => element.goals.filter(({ solved }) => !solved).map(({ id }) => id));
@@ -249,7 +251,7 @@ test("outside of frames nothing is said; of several figures only those that the 
   await frame.evaluate(() => (document.getElementById("b").outliers = 0));
   await expect.poll(async () => (await heard(page, "SPLICE.reportScoreAndState")).map(({ activity_id }) => activity_id)).toEqual(["week-5"]);
   await frame.evaluate(() => (globalThis.end(), parent.postMessage({ subject: "the end" }, "*")));
-  // Messages arrive in turn: what was said before the end is heard by then.
+  // Messages arrive in order, so all earlier ones have been received by then.
   await expect.poll(() => subjects(page)).toContain("the end");
   await frame.evaluate(() => ((document.getElementById("b").points = 21), document.getElementById("b").flush()));
   await page.waitForTimeout(1500);

@@ -1,8 +1,8 @@
-// Seeded random hands, keys, sizes, attributes and moves, on every figure: whatever somebody does, nothing breaks,
-// and afterwards a fresh figure with the same state says the same. Meanwhile the page stays quick, and afterwards it
-// holds no more than before.
+// Monkey test: seeded random pointer input, keys, sizes, attributes and moves on every figure.
+// Nothing may break, and a fresh figure in the same state must give the same readouts. The page
+// must stay responsive and not leak memory.
 //
-// `MONKEY_SECONDS` is how long each figure has to bear it, `SEED` what the hands do: `make monkey SEED=7`.
+// `MONKEY_SECONDS` is the duration per figure, `SEED` the random seed: `make monkey SEED=7`.
 
 import { expect, figures, listen, ready, settled, test, told } from "./fixtures.mjs";
 import { holds, keepMemory, tasksOf } from "./measure.mjs";
@@ -19,13 +19,13 @@ function generator(seed) {
   return () => (state = (state * 48271) % 2147483647) / 2147483647;
 }
 
-/** Makes the window another size: keys may have led to full screen, where it has the screen's. */
+/** Resizes the window, leaving full screen first, as keys may have entered it. */
 async function resize(page, width, height) {
   await page.evaluate(() => (document.fullscreenElement ? document.exitFullscreen() : undefined));
   await page.setViewportSize({ width, height });
 }
 
-/** What hands can do to a figure, each with how often. */
+/** Random actions on a figure, `[weight, name, action]`. */
 function deeds(page, figure, random) {
   const pick = (list) => list[Math.floor(random() * list.length)];
   const place = async () => {
@@ -48,7 +48,7 @@ function deeds(page, figure, random) {
         await page.mouse.move(...(await place()));
         await page.mouse.down();
         for (let step = 0; step < 3; step += 1) await page.mouse.move(...(await place()), { steps: 2 });
-        // Now and then the button is never let go.
+        // Sometimes the button is not released.
         if (random() < 0.9) await page.mouse.up();
       },
     ],
@@ -107,7 +107,7 @@ function deeds(page, figure, random) {
   };
 }
 
-/** The figure as it is at first, in an engine of its own: what it held before is free. */
+/** Resets the figure with a new engine, freeing the previous one. Returns the memory held. */
 async function begin(page, figure) {
   await figure.evaluate(async (element) => {
     const name = element.getAttribute("name");
@@ -119,7 +119,7 @@ async function begin(page, figure) {
   await ready(figure);
   await expect(figure.locator("[aria-busy]")).toHaveCount(0, { timeout: 90_000 });
   await settled(figure);
-  // The browser itself holds what the mouse has pressed last and dragged something over, with the tree that it was in.
+  // Replace the browser's references to the last pressed element and drop target.
   await page.mouse.click(1, 1);
   await page.getByRole("link", { name: "a link" }).dragTo(page.getByRole("heading", { name: "Figures" }));
   return holds(page);
@@ -131,7 +131,7 @@ for (const [index, { name }] of figures.entries()) {
     await keepMemory(page);
     const random = generator(1000 * SEED + index);
     let figure = await open(page, [name], { settle: false });
-    // The largest picture that hands can ask for has its memory from the beginning.
+    // Allocate memory for the largest possible picture first.
     await resize(page, 1920, 1080);
     await ready(figure);
     await figure.evaluate((element) => element.toPng().then(() => undefined));
@@ -154,13 +154,13 @@ for (const [index, { name }] of figures.entries()) {
     await resize(page, 1000, 900);
     await expect(figure, done.slice(-12).join(", ")).toHaveAttribute("data-ready", "");
     await expect(figure.locator(".notice")).not.toContainText("mistake of ours");
-    // Whatever runs is brought to rest before the two are compared.
+    // Stop animations before comparing.
     const pause = figure.getByRole("button", { name: "Pause", exact: true });
     if (await pause.count()) await pause.first().evaluate((button) => button.click());
     const goOn = figure.getByRole("button", { name: "Go on", exact: true });
     if (await goOn.count()) await goOn.first().evaluate((button) => button.click());
     await figure.dispatchEvent("pointerenter");
-    // Whatever photographs and knobs it was left with may take long.
+    // Leftover photographs and settings may take long to compute.
     await expect(figure.locator("[aria-busy]")).toHaveCount(0, { timeout: 90_000 });
     await settled(figure);
     const known = await told(figure);
@@ -168,9 +168,9 @@ for (const [index, { name }] of figures.entries()) {
     expect(p99, "of a hundred tasks the longest but one, milliseconds").toBeLessThanOrEqual(50);
     expect(longest, "the longest task, milliseconds").toBeLessThanOrEqual(200);
 
-    // Before there is a second page: both may be counted together.
+    // Before opening a second page, as both may be counted together.
     let after = await begin(page, page.locator("epipole-figure"));
-    // On a busy machine the browser itself may not have let go of all yet; what is kept for good is there later, too.
+    // A busy browser may free memory late; a real leak stays.
     for (let tries = 0; tries < 10 && after.listeners - before.listeners > 20; tries += 1) {
       await page.waitForTimeout(1000);
       after = await holds(page);
@@ -180,7 +180,7 @@ for (const [index, { name }] of figures.entries()) {
     expect(more.listeners, "listeners").toBeLessThanOrEqual(20);
     expect(more.nodes, "nodes").toBeLessThanOrEqual(200);
     expect(more.heap, "bytes of scripts").toBeLessThanOrEqual(4 << 20);
-    // The module never gives memory back: what the largest picture has taken stays, and no more comes.
+    // WebAssembly memory never shrinks, so that of the largest picture stays.
     expect(more.wasm, "bytes of the module").toBeLessThanOrEqual(32 << 20);
     if (SECONDS >= 10) expect(after.wasm - middle, "bytes of the module since the middle").toBeLessThanOrEqual(10 << 20);
 

@@ -1,4 +1,4 @@
-// A reader sees what the hand does: picture, numbers and controls share the screen, and nothing jumps.
+// Picture, readouts and controls share the screen while in use, and nothing jumps.
 
 import { expect, expectAccessible, figures, layoutWidth, listen, ready, settled, test } from "./fixtures.mjs";
 import { prepare } from "./pages.mjs";
@@ -8,12 +8,12 @@ test.use({ shared: true });
 
 const { Figure } = await loadBindings();
 
-/** What a reader needs to see at once. */
+/** Parts that must be visible together. */
 const CORE = [".sheet", ".under", ".panel > .main", ".panel > .inputs"];
 const HIGHEST_PX = 640;
 const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 
-/** From the top of the highest to the bottom of the lowest of the parts that are to be seen, CSS pixels. */
+/** Distance from the top of the highest to the bottom of the lowest of the parts, CSS pixels. */
 function height(figure, parts) {
   return figure.evaluate((element, selectors) => {
     const boxes = selectors
@@ -24,7 +24,7 @@ function height(figure, parts) {
   }, parts);
 }
 
-/** Which width a picture is laid out for, given the room of a page of the tests. */
+/** Layout width of a picture in a test page, from the width of the viewport. */
 function widthOf(name, viewport) {
   const host = Math.min(viewport - 32, 1120);
   const { aspect } = JSON.parse(new Figure(name).snapshot(720));
@@ -33,7 +33,10 @@ function widthOf(name, viewport) {
   return layoutWidth(room);
 }
 
-/** The controls that are used on a phone without the whole picture being seen: in the page, as there are many. */
+/**
+ * Controls that hide part of the picture on a phone when focused. Runs in the page, as there are
+ * many.
+ */
 function hiding(figure) {
   return figure.evaluate(async (element) => {
     document.body.style.paddingBottom = "1500px";
@@ -49,7 +52,7 @@ function hiding(figure) {
       control.focus();
       await frame();
       if (!shown()) found.push(control.outerHTML);
-      // A reader may scroll on: as long as the control is to be seen, so is the picture.
+      // After scrolling on, the picture must be visible as long as the control is.
       for (const lower of [80, 160, 240]) {
         scrollBy(0, lower);
         const box = control.getBoundingClientRect();
@@ -61,12 +64,12 @@ function hiding(figure) {
   });
 }
 
-/** The tree of a figure's stand-in and what stands around it, as the page has it. */
+/** Markup of a figure's stand-in and its surroundings. */
 const TEXT = /<figure class="epipole"[^]*<\/figure>/;
 
 /**
- * Shows as much of a page's figure as has come when its text ends at each of `cuts`, and names what is seen then in
- * another place than once all of it is there.
+ * Renders a page's figure truncated at each of `cuts`, and names parts that are visible then at
+ * another position than in the complete page.
  */
 function strayed(page, text, cuts) {
   return page.evaluate(
@@ -93,7 +96,7 @@ function strayed(page, text, cuts) {
       for (const cut of cuts) {
         for (const [index, { name, seen, x, y }] of places(text.slice(0, cut)).entries()) {
           const then = whole[index];
-          // What the browser counts as a shift: three pixels.
+          // Browsers count a layout shift from three pixels on.
           if (seen && Math.max(Math.abs(x - then.x), Math.abs(y - then.y)) >= 3) {
             found.push(`${name} at ${x}, ${y}, later at ${then.x}, ${then.y}: ${text.slice(cut - 60, cut)}`);
           }
@@ -145,7 +148,7 @@ for (const { name } of figures) {
             }
           }).observe({ type: "layout-shift", buffered: true });
         });
-        // The script waits until what the page has brought along has been seen.
+        // Hold back the script until the prerendered page has been measured.
         let release;
         const released = new Promise((resolve) => (release = resolve));
         await page.route(/\/elements\/.*\.js$/, async (route) => {
@@ -167,7 +170,7 @@ for (const { name } of figures) {
               return box ? [box.y + scrollY, box.height] : [];
             });
           });
-        // The size of a poster is a whole number of pixels, that of a picture need not be.
+        // Posters are whole pixels high, pictures need not be.
         const expectSame = (now, then) => {
           const moved = now.flatMap((box, part) => box.map((at, index) => Math.abs(at - then[part][index])));
           expect(Math.max(...moved), JSON.stringify([then, now])).toBeLessThanOrEqual(1.01);
@@ -213,7 +216,7 @@ for (const { name } of figures) {
       const goals = await figure.locator("[data-challenge]").all();
       expect(goals.length).toBeGreaterThan(0);
       for (const goal of goals) {
-        // The goal at hand stands above the list.
+        // The current goal is above the list.
         if (await goal.isVisible()) await goal.getByRole("button").click();
         await figure.getByRole("button", { name: "Show how" }).click();
         await expect(goal).toHaveAttribute("data-solved", "");

@@ -1,5 +1,5 @@
-// Our WebAssembly beside opencv.js, in turns, in one page of a headless browser. Prints one table:
-// times, their ratio, and beside it what both have found. `make bench` builds and installs what it needs:
+// Benchmark of our WebAssembly against opencv.js, alternating in one page of a headless browser.
+// Prints a table of times, ratios and results. `make bench` builds and installs its inputs:
 //
 //     node opencv.mjs path/to/kernels.wasm
 
@@ -26,7 +26,7 @@ const server = await serve({
     kernels: dirname(kernels),
     opencv: dirname(opencv),
   },
-  // opencv.js makes functions from text.
+  // opencv.js uses eval.
   policy: false,
 });
 const browser = await chromium.launch(launchOptions);
@@ -50,13 +50,13 @@ const size = (path) =>
   `${(statSync(path).size / 1024).toFixed(0)} KB, ${(brotliCompressSync(readFileSync(path)).length / 1024).toFixed(0)} KB brotli`;
 console.log(`these kernels: ${size(kernels)}; opencv.js: ${size(opencv)}`);
 
-/** In the page. */
+/** Runs in the page. */
 async function compare({ wasm }) {
   const [SOBEL, GAUSSIAN, HARRIS, MATCH, HOMOGRAPHY, FUNDAMENTAL, SEMI_GLOBAL] = [0, 1, 2, 3, 4, 5, 6];
   const cv = await readyOpenCv();
   const { instance } = await WebAssembly.instantiateStreaming(fetch(wasm));
   const { memory, floats, doubles, prepare, run, result } = instance.exports;
-  // Park and Miller's generator: any would do, if it is the same in every run.
+  // Park and Miller's generator; any deterministic one would do.
   let state = 7;
   const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
   const normal = () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
@@ -121,7 +121,7 @@ async function compare({ wasm }) {
   }
 
   {
-    // A plane seen twice: 1000 matches, 40 % wrong, 0.5 px of noise.
+    // Homography: 1000 matches, 40 % outliers, 0.5 px of noise.
     const truth = [0.9, -0.15, 60, 0.12, 1.05, -20, 1e-4, -5e-5, 1];
     const warp = (h, u, v) => {
       const w = h[6] * u + h[7] * v + h[8];
@@ -162,8 +162,8 @@ async function compare({ wasm }) {
   }
 
   {
-    // Slanted clouds seen by two cameras side by side and turned: 200 matches, 30 % wrong. A frame must not
-    // be missed on any of them, so every run of each counts, not the least time of one.
+    // Fundamental matrix: slanted point clouds, converging cameras, 200 matches, 30 % outliers. A
+    // frame must not be missed on any problem, so all runs count, not only the fastest.
     const [problems, runs, count] = [40, 5, 200];
     const times = [];
     const nears = [];
@@ -203,7 +203,7 @@ async function compare({ wasm }) {
   }
 
   {
-    // Rectangles, nearer ones over farther ones, seen from the left and from the right.
+    // Stereo pair of rectangles at several depths.
     const [width, height] = [640, 480];
     const pair = [0, 1].map(() => new Float32Array(width * height));
     const truth = new Float32Array(width * height);
@@ -232,7 +232,10 @@ async function compare({ wasm }) {
   }
   return rows;
 
-  /** Runs both in turns; the least time of each, milliseconds. Batches, for clocks are coarse. */
+  /**
+   * Runs both alternately. Returns the least time of each, milliseconds, in batches as clocks are
+   * coarse.
+   */
   function inTurns(ours, theirs, batch, turns) {
     const least = [Infinity, Infinity];
     for (let turn = 0; turn < turns; turn += 1) {
@@ -248,7 +251,7 @@ async function compare({ wasm }) {
     return { ours: least[0], theirs: least[1] };
   }
 
-  /** Gray rectangles on gray, values in [0, 1]: edges and corners everywhere. */
+  /** Gray rectangles with values in [0, 1]: edges and corners everywhere. */
   function rectangles(width, height) {
     const values = new Float32Array(width * height).fill(0.5);
     for (let count = 0; count < (width * height) / 300; count += 1) {

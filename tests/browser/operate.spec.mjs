@@ -1,5 +1,5 @@
-// Sentences of the book that operate its figures, numbers in them that follow, and pages that leave
-// figures the room they need.
+// Sentences of the book that operate its figures, live numbers in them, and room for figures on
+// pages.
 
 import { readdirSync } from "node:fs";
 import { expect, ready, test } from "./fixtures.mjs";
@@ -8,7 +8,7 @@ import { book } from "./places.mjs";
 const chapters = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
 const WIDTHS = [320, 390, 500, 600, 768, 900, 1024, 1200, 1280, 1440, 1920];
 
-/** The figure that some words of a page belong to. */
+/** The figure that a sentence operates. */
 async function figureOf(page, words) {
   return page.locator(`#${await words.getAttribute("data-figure")} epipole-figure`);
 }
@@ -43,7 +43,7 @@ test("every button of the book takes its figure exactly where it says", async ({
       const wanted = JSON.parse(await words.getAttribute("data-parameters"));
       await words.click();
       await ready(figure);
-      // What the figure then says of each control: numbers with a unit, switches, options by their labels.
+      // Displayed values of the controls: numbers with units, switches, options by label.
       const asked = Object.entries(wanted).filter(([, value]) => value === "true" || value === "false" || !Number.isNaN(Number(value)));
       const expected = asked.map(([, value]) => (value === "true" ? "on" : value === "false" ? "off" : Number(value)));
       const says = () =>
@@ -76,7 +76,7 @@ test("no page scrolls sideways, and posters are those of the rooms that they sta
   test.setTimeout(300_000);
   for (const name of chapters) {
     await page.goto(`${library}/${name}`);
-    // Sections far from the screen are laid out too: what is wide in them must not wait for a reader.
+    // Lay out distant sections as well, to measure their width.
     await page.evaluate(() => {
       for (const section of document.querySelectorAll("article section")) section.style.contentVisibility = "visible";
     });

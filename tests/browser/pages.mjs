@@ -1,4 +1,4 @@
-// Pages that the tests make up: figures as the book writes them, with poster and caption.
+// Generated test pages: figures as the book writes them, with poster and caption.
 
 import { mkdtemp } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -8,7 +8,7 @@ import { loadBindings, root, script } from "./places.mjs";
 const { Figure, compute, figures } = await loadBindings();
 const known = JSON.parse(figures());
 const { prerenderer } = await import(`${root}/web/prerender.mjs`);
-/** Where the script for the head of such a page is, and the figures' style sheet. */
+/** Folder of the head script and the figures' style sheet for these pages. */
 export const made = await mkdtemp(join(tmpdir(), "epipole-"));
 const { build } = await import(`${root}/web/node_modules/esbuild/lib/main.js`);
 const { look } = await import(`${root}/web/look.mjs`);
@@ -16,17 +16,17 @@ const entryPoints = ["early.ts", "figure.css"].map((name) => `${root}/web/src/${
 await build({ entryPoints, outdir: made, bundle: true, format: "iife", plugins: [look] });
 const prerender = await prerenderer();
 
-/** What figures have computed, by name and key of the question: many pages ask the same. */
+/** Computed answers by figure and key, shared by many pages. */
 const answers = new Map();
 
-/** What a figure of this name waits for under this key. Figures that ask nothing but their one question share its key. */
+/** Answer to a job. The key identifies it among the jobs of the figure. */
 function answerOf(name, key, request) {
   const asked = `${name} ${key}`;
   if (!answers.has(asked)) answers.set(asked, compute(name, request, { progress: () => {} }));
   return answers.get(asked);
 }
 
-/** A figure that has computed what it wants. */
+/** A figure that has finished its computations. */
 function settledFigure(name, attributes) {
   const figure = new Figure(name);
   figure.apply(Object.entries(attributes).flat());
@@ -36,14 +36,14 @@ function settledFigure(name, attributes) {
   return figure;
 }
 
-/** Computes what a page of such a figure needs, which takes seconds: before somebody waits for the page. */
+/** Computes in advance what a page with this figure needs, which takes seconds. */
 export function prepare(name) {
   settledFigure(name, {}).free();
 }
 
 /**
- * Lets the figures of a page share their answers with those of other pages, by a worker that asks this process. The
- * answers are those that their own worker would find; tests of how that comes, works and ends leave it alone.
+ * Lets figures of different pages share answers, through a worker that asks this process. The
+ * answers are the same; tests of the computation itself must not use it.
  */
 export async function shareAnswers(page) {
   await page.route(/\/answers\?/, async (route) => {
@@ -63,7 +63,7 @@ export async function shareAnswers(page) {
   await page.route(/\/worker[^/]*\.js$/, (route) => route.fulfill({ body, contentType: "text/javascript" }));
 }
 
-/** A figure as the book writes it for readers whose script has not come: poster and stand-in. */
+/** Markup of a figure before its script has loaded: poster and stand-in. */
 function standIn(name, attributes, width) {
   const figure = settledFigure(name, attributes);
   const { title, help } = known.find((entry) => entry.name === name);
@@ -81,8 +81,8 @@ function standIn(name, attributes, width) {
 }
 
 /**
- * `?figure=ransac-race outliers=0.4&figure=…&theme=dark&bare=1`: a page with these figures. With `wide`
- * they have the room of a broad page, with `poster=720` a stand-in and a poster of that width.
+ * Page for `?figure=ransac-race outliers=0.4&figure=…&theme=dark&bare=1`. `wide` lays the figures
+ * out on a wide page, `poster=720` adds a stand-in and a poster of that width.
  */
 export function figurePage(url) {
   const figures = url.searchParams.getAll("figure").map((words, index) => {

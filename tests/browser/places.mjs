@@ -1,6 +1,6 @@
-// Where the tests find what they test: the site that `make build` has made, in target/book.
+// Locations of the tested files: the site that `make build` writes to target/book.
 //
-// EPIPOLE_ELEMENTS and EPIPOLE_BINDINGS name other folders: the npm package, say.
+// EPIPOLE_ELEMENTS and EPIPOLE_BINDINGS select other folders, such as the npm package.
 
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
@@ -10,10 +10,10 @@ export const here = dirname(fileURLToPath(import.meta.url));
 export const root = resolve(here, "../..");
 const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
 
-/** The whole site, if it is what we test. */
+/** Folder of the site; undefined when testing other elements. */
 export const book = process.env.EPIPOLE_ELEMENTS ? undefined : join(target, "book");
 
-/** A folder with the script of the elements and everything that it loads. */
+/** Folder with the script of the elements and everything that it loads. */
 export const elements = process.env.EPIPOLE_ELEMENTS ?? join(target, "book");
 export const script = book ? "embed/epipole.js" : "index.js";
 
@@ -25,11 +25,11 @@ for (const path of [join(elements, script), glue("figures"), glue("jobs")]) {
   if (!existsSync(path)) throw new Error(`${path} is missing: run \`make build\` first`);
 }
 
-/** The WebAssembly modules that readers download, under `elements`: for the page, for workers. */
+/** WebAssembly modules that readers download, relative to `elements`: page, then workers. */
 export const wasm = find(elements, book ? "assets" : "", /^epipole-figures.*\.wasm$/);
 export const jobsWasm = find(elements, book ? "assets" : "", /^epipole-jobs.*\.wasm$/);
 
-/** The script with the elements themselves, under `elements`. */
+/** Script that defines the elements, relative to `elements`. */
 export const code = book ? find(elements, "assets", /^index-.*\.js$/) : script;
 
 function find(folder, under, pattern) {
@@ -45,7 +45,7 @@ export async function loadBindings() {
 }
 
 async function load(name, wasm) {
-  // By its text: Node takes a file of that name for an older kind of script.
+  // As a data URL, since Node would load a .js file as CommonJS.
   const text = readFileSync(glue(name));
   const module = await import(`data:text/javascript;base64,${text.toString("base64")}`);
   await module.default({ module_or_path: readFileSync(join(elements, wasm)) });

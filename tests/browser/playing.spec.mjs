@@ -1,4 +1,5 @@
-// The figure of the first page plays by itself, and the last stage of a reconstruction goes into a file.
+// The home page's figure plays by itself, and the last stage of a reconstruction is saved to a
+// file.
 
 import { readFileSync } from "node:fs";
 import { expect, ready, settled, test, told } from "./fixtures.mjs";
@@ -8,7 +9,7 @@ test.skip(!book, "these are pages of the book");
 
 const cover = "epipole-figure[data-play]";
 
-/** Whether the story is being told. */
+/** Whether the animation is playing. */
 function isPlaying(figure) {
   return figure.evaluate((element) => {
     element.flush();
@@ -21,7 +22,7 @@ test("the cover tells its story once it is in sight, and the reader may stop it"
   await page.goto(`${library}/index.html`);
   const figure = page.locator(cover);
   await expect(figure).toHaveAttribute("data-ready", "");
-  // Out of sight nothing begins.
+  // Nothing plays out of view.
   await page.waitForTimeout(1000);
   expect(await isPlaying(figure)).toBe(false);
   await page.setViewportSize({ width: 1280, height: 900 });
@@ -81,7 +82,7 @@ test("goals that were reached are remembered, count on the page of progress, and
   expect(reached).toBeTruthy();
   await expectProgress("eight-point", /^1 of \d+$/);
 
-  // The figure knows it the next time, and stands where the page has it.
+  // On the next visit, the figure knows the goal but starts in the page's state.
   await page.goto(`${library}/eight-point.html`);
   await ready(figure);
   await expect.poll(() => figure.evaluate((element) => element.solved)).toEqual([reached]);

@@ -4,7 +4,7 @@ import { launchOptions } from "./chromium.mjs";
 export default defineConfig({
   testDir: ".",
   testMatch: "*.spec.mjs",
-  // `make test-hosts` and `make test-lab` run those: what they test takes minutes to build.
+  // `make test-hosts` and `make test-lab` run these, which take minutes to build.
   testIgnore: process.env.LAB ? "hosts/**" : ["hosts/**", "lab.spec.mjs", "labfaults.spec.mjs", "labkeep.spec.mjs"],
   outputDir: "test-results",
   fullyParallel: true,

@@ -1,6 +1,6 @@
-// What a page tells others, and what it leaves behind on its reader's machine.
+// Data that a page sends, and data that it leaves in the reader's browser.
 
-/** Settings of the page and progress in quizzes: all that the book keeps, and how it looks. */
+/** Everything that the book stores besides quiz progress, with the format of each value. */
 const KEPT = {
   "epipole-theme": /^(light|dark)$/,
   "epipole-contents": /^folded$/,
@@ -9,7 +9,7 @@ const KEPT = {
 };
 const QUIZ = /^epipole-quiz:[\w-]+$/;
 
-/** Records every request of a browser context, also those of workers, and what it would carry away. */
+/** Records all requests of a browser context, including workers, with the size of their bodies. */
 export function listenIn(context) {
   const requests = [];
   const note = (url, method, body = 0) => requests.push({ url, method, body });
@@ -18,20 +18,20 @@ export function listenIn(context) {
   return requests;
 }
 
-/** Those that leave `origin`, and those that carry anything. */
+/** Requests that leave `origin` or carry data. */
 export function leaving(requests, origin) {
   const inside = ({ url }) => url.startsWith(`${origin}/`) || /^(data|blob|about):/.test(url);
   return requests.filter((request) => !inside(request) || request.method !== "GET" || request.body > 0);
 }
 
-/** Whether an entry of the local storage is a setting or progress. */
+/** Whether a local storage entry is a setting or quiz progress. */
 function isOurs([key, value]) {
   if (!QUIZ.test(key)) return KEPT[key]?.test(value) ?? false;
   const solved = JSON.parse(value);
   return Object.entries(solved).every(([id, hash]) => /^quiz-[\w-]+$/.test(id) && /^[0-9a-f]{8}$/.test(hash));
 }
 
-/** What a page keeps: names of settings and quizzes, and everything else, which ought to be nothing. */
+/** Data stored by a page: keys of settings and quizzes, and `besides`, which should be empty. */
 export async function kept(page) {
   const { local, ...found } = await page.evaluate(async () => {
     const files = [];

@@ -1,5 +1,5 @@
-// What readers do and show stays with them: photographs leave the page no more than numbers do, and a browser keeps
-// settings and progress alone. That every page of the book asks nothing of others is tested with the pages.
+// Readers' data stays with them: photographs and numbers are not sent, and the browser stores only
+// settings and progress. The pages' own tests check that no other origin is requested.
 
 import { expect, ready, settled, snapshots, test, told } from "./fixtures.mjs";
 import { book } from "./places.mjs";
@@ -8,7 +8,7 @@ import { serve } from "./server.mjs";
 
 const own = snapshots.filter(([, { photos }]) => photos.length > 0).map(([name]) => name);
 
-/** A photograph as a camera writes it: JPEG, with noise, so that no two are alike. */
+/** A noisy JPEG, as from a camera, so that no two are alike. */
 function photograph(page) {
   return page.evaluate(() => {
     const canvas = document.createElement("canvas");
@@ -34,9 +34,9 @@ test("one's own photographs go nowhere, and nothing of them is kept", async ({ p
       await input.setInputFiles({ name: "kitchen.jpg", mimeType: "image/jpeg", buffer });
     }
     await expect(figure.locator(".photo .note").first(), own[index]).toContainText("320 × 240 pixels");
-    // What it computes of them, too.
+    // Wait for results computed from them as well.
     await settled(figure);
-    // A link to this state cannot carry them.
+    // A permalink cannot contain them.
     expect((await figure.evaluate((element) => element.permalink)).length, own[index]).toBeLessThan(500);
     expect(JSON.stringify((await told(figure)).state).length, own[index]).toBeLessThan(400);
   }
@@ -66,7 +66,7 @@ test("a browser keeps settings and progress, and forgets what agrees with the us
   await page.getByLabel("Kind of page").first().selectOption({ index: 1 });
   expect(await kept(page)).toEqual({ keys: [...settings, "epipole-host"].sort(), besides: [] });
 
-  // Everything can be taken back.
+  // Everything can be undone.
   await page.locator(".theme-button").click();
   await page.goto(`${server.origin}/course/progress.html`);
   await page.locator(".fold-button").click();

@@ -1,4 +1,4 @@
-// The same calls give the same answers and the same pixels natively and in WebAssembly.
+// The same calls give the same results and pixels natively and in WebAssembly.
 
 import { expect, figures, test } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";

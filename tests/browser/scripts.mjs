@@ -1,15 +1,15 @@
-// Scripts of calls to figures, and how a page plays them. `crates/epipole-web/examples/trace.rs`
-// plays the same natively.
+// Scripts of calls to figures, and their playback in a page.
+// `crates/epipole-web/examples/trace.rs` plays them natively.
 
 import { execFileSync } from "node:child_process";
 import { jobsWasm, root, wasm } from "./places.mjs";
 
-/** A script that touches every control and handle of a figure, with a frame now and then. */
+/** A script that operates every control and handle of a figure, drawing a frame now and then. */
 export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
   const figure = new Figure(name);
   const calls = [];
   const script = { figure: name, width, scale, theme, calls };
-  // Park and Miller's generator: any would do, if it is the same in every run.
+  // Park and Miller's generator; any deterministic one would do.
   let state = seed;
   const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
   const pick = (list) => list[Math.floor(random() * list.length)];
@@ -48,10 +48,10 @@ export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
   return script;
 }
 
-/** What the figures answer natively; with `--time`, the milliseconds of each script. */
+/** Native results of scripts; with `--time`, the milliseconds of each. */
 export function playNatively(scripts, ...flags) {
   const profile = flags.includes("--time") ? ["--release"] : [];
-  // Without --package: so that dependencies have the features that the tests compile them with.
+  // Without --package, so that dependencies have the same features as in the tests.
   const run = ["run", "--quiet", "--example", "trace", ...profile];
   const output = execFileSync("cargo", [...run, "--", ...flags], {
     cwd: root,
@@ -62,13 +62,13 @@ export function playNatively(scripts, ...flags) {
   return JSON.parse(output.toString());
 }
 
-/** Where a page finds the modules, as `playInPage` wants it. */
+/** Addresses of the modules for `playInPage`. */
 export function modulesAt(site) {
   const at = (name, path) => [`${site}/bindings/epipole_${name}.js`, `${site}/elements/${path}`];
   return { page: at("figures", wasm), worker: at("jobs", jobsWasm) };
 }
 
-/** To be evaluated in a page: what the figures answer there. */
+/** Runs in a page: the results of scripts there. */
 export async function playInPage({ page, worker, scripts, timed = false }) {
   const open = async ([glue, path]) => {
     const module = await import(glue);

@@ -1,4 +1,4 @@
-// A small static server for the tests: pages under a strict policy, the elements for any origin.
+// Static test server: pages with a strict content security policy, elements for any origin.
 
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
@@ -16,18 +16,22 @@ export const TYPES = {
   ".json": "application/json",
 };
 
-/** What the pages of the book allow themselves, and no more. */
+/** Content security policy of the book's pages. */
 export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
   "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
 
-/** The same for the Lab: the reader's own videos, and addresses that tell workers whether their work is still wanted. */
+/**
+ * Policy of the Lab: also the reader's videos, and the blob URLs that workers poll for
+ * cancellation.
+ */
 export const LAB_POLICY = `${POLICY.replace("connect-src 'self'", "connect-src 'self' blob:")}; media-src blob:`;
 
 /**
- * Serves folders: `mounts` maps the first part of a path to a folder or to a function that returns
- * HTML for the rest of the address, or answers by itself and returns nothing. `policy: false` is a page of someone
- * else, who has none; `more` are further headers of every answer; addresses like `missing` are not there.
+ * Serves folders: `mounts` maps the first part of a path to a folder, or to a function that returns
+ * HTML for the rest of the address, or responds by itself and returns nothing. `policy: false`
+ * serves without a policy, as third-party pages; `more` are further headers; paths that match
+ * `missing` give 404.
  */
 export async function serve({ mounts, policy = POLICY, more = {}, missing, port = 0 }) {
   const server = createServer(async (request, response) => {
@@ -59,7 +63,7 @@ export async function serve({ mounts, policy = POLICY, more = {}, missing, port 
   return {
     origin: `http://127.0.0.1:${server.address().port}`,
     close: () => {
-      // Some answers never end.
+      // Some responses never end.
       server.closeAllConnections();
       return new Promise((resolve) => server.close(resolve));
     },

@@ -1,11 +1,11 @@
-// Small pictures in chapters that come to life where a reader looks at them.
+// Thumbnails in chapters that animate when the reader looks at them.
 
 import { expect, test } from "./fixtures.mjs";
 
-/** The first card with a living figure in it, once it is there to be seen. */
+/** The card with an animated figure. */
 const living = (page) => page.locator(".small:has(epipole-figure.awake)");
 
-/** What the living figure of a card shows, as bytes. */
+/** The canvas of a card's figure, as a data URL. */
 const pixels = (page) =>
   page.locator(".small epipole-figure").evaluate((figure) => figure.shadowRoot.querySelector("canvas").toDataURL());
 
@@ -26,7 +26,7 @@ test("a small picture moves under the mouse and with the focus, one at a time, a
   await other.focus();
   await expect(living(page)).toHaveCount(1, { timeout: 30_000 });
   await expect(living(page)).toHaveAttribute("data-figure", "same-picture");
-  // Nothing in it can be reached or is heard, and what it passes counts for nobody.
+  // The figure is inert and hidden from screen readers, and its goals do not count.
   const inside = other.locator("epipole-figure");
   await expect(inside).toHaveAttribute("aria-hidden", "true");
   expect(await inside.evaluate(({ inert }) => inert)).toBe(true);

@@ -1,4 +1,4 @@
-// Figures in three dimensions: turned, moved and enlarged by mouse, keys and fingers.
+// 3D figures: rotating, panning and zooming by mouse, keys and fingers.
 
 import { Buffer } from "node:buffer";
 import { expect, figures, layoutWidth, listen, ready, settled, test, told } from "./fixtures.mjs";
@@ -15,7 +15,7 @@ test("there are spaces to test", () => {
   expect(spaces.map(([name]) => name)).toContain("two-view-sfm");
 });
 
-/** Where a share of the panel of a space is on the screen. */
+/** Screen position of a relative position in the panel of a 3D scene. */
 async function inSpace(figure, name, space, across, down) {
   const canvas = figure.locator("canvas");
   const room = await canvas.evaluate((element) => element.closest(".picture").clientWidth - 24);
@@ -29,7 +29,9 @@ async function inSpace(figure, name, space, across, down) {
   ];
 }
 
-/** Handles that stand in a space: where they are seen changes as it turns, so they are told with it. */
+/**
+ * Handles inside a 3D scene: their projections change with the view, so they are part of the state.
+ */
 const STANDING = { "epipolar-plane": ["point", "camera1", "camera2"] };
 
 const zoomOf = async (figure, space) => Number((await told(figure)).state[space.zoom] ?? 1);
@@ -83,7 +85,7 @@ for (const [name, space] of spaces) {
       await grip.focus();
       await page.keyboard.press("+");
       await expect.poll(() => zoomOf(figure, space)).toBeGreaterThan(1);
-      // Faster than the display shows frames: each press counts.
+      // Faster than frames: each press counts.
       await grip.evaluate((element) => {
         for (let press = 0; press < 2; press += 1) {
           element.dispatchEvent(new KeyboardEvent("keydown", { key: "-", bubbles: true }));
@@ -92,7 +94,7 @@ for (const [name, space] of spaces) {
       await expect.poll(() => zoomOf(figure, space)).toBeLessThan(1);
       await page.keyboard.press("Tab");
       await expect(figure.locator(`[data-handle="${space.pan}"]`)).toBeFocused();
-      // Past the handles that come after it, and out.
+      // Tab past the remaining handles and out.
       const left = await figure.evaluate((element, pan) => {
         const grips = [...element.shadowRoot.querySelectorAll(".grip")];
         return grips.length - grips.findIndex((grip) => grip.dataset.handle === pan);
@@ -111,7 +113,7 @@ for (const [name, space] of spaces) {
       const page = await context.newPage();
       listen(page, complaints);
       const figure = await open(page, [name]);
-      // The space in the upper part of the window, so that there is room to scroll either way.
+      // Scroll the scene to the upper part of the window, with room to scroll either way.
       const [, below] = await inSpace(figure, name, space, 0.5, 0.2);
       await page.evaluate((y) => scrollBy(0, y - 150), below);
       const [x, y] = await inSpace(figure, name, space, 0.5, 0.2);
@@ -140,7 +142,7 @@ for (const [name, space] of spaces) {
   });
 }
 
-/** A JPEG of the browser's own with a block of EXIF that tells a focal length. */
+/** The JPEG with an Exif block that contains a focal length. */
 function withFocal(jpeg, millimeters) {
   const block = Buffer.alloc(52);
   block.write("Exif\0\0II*\0", 0, "latin1");
@@ -188,6 +190,6 @@ test("one's own photographs bring their focal length, or it is guessed", async (
   await expect.poll(words).toContain("0.80 (29 mm), from the file");
   await ready(figure);
   await settled(figure);
-  // Twice the same picture: the camera did not move at all.
+  // The same picture twice: the camera did not move.
   await expect.poll(async () => (await told(figure)).description).toContain("did not move");
 });

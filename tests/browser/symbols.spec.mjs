@@ -1,16 +1,16 @@
-// Letters of the prose that figures draw: one color, and a light in the nearest figure that has them.
+// Symbols of the text that figures draw: one color, and a highlight in the nearest figure.
 
 import { expect, ready, settled, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
 
-/** What is lit in a figure: kinds of shapes, where they are in shares of the picture, and their color. */
+/** Highlighted shapes of a figure: kind, position relative to the picture's width, and color. */
 function light(figure) {
   return figure.evaluate((element) => {
     const svg = element.shadowRoot.querySelector(".lit");
     const { width } = svg.viewBox.baseVal;
-    // What is not to be seen is not lit.
+    // Hidden shapes do not count.
     const seen = [...svg.querySelectorAll(".color")].filter((shape) => shape.checkVisibility({ visibilityProperty: true }));
     return seen.map((shape) => ({
       kind: shape.localName,
@@ -20,7 +20,7 @@ function light(figure) {
   });
 }
 
-/** The figure beside the prose that the letters stand in. */
+/** The figure next to the text with the symbols. */
 const beside = "epipole-figure[name=epipolar-plane]";
 
 test("pointing at a letter lights up what the figure has for it, in its color", async ({ page, library }) => {
@@ -77,7 +77,7 @@ test("a figure that nobody has touched yet is lit where the reader sees it", asy
   const figure = page.locator("epipole-figure[name=triangulate]").first();
   await figure.scrollIntoViewIfNeeded();
   await expect(figure).toHaveAttribute("data-ready", "");
-  // Its poster still stands there: nobody has come near it, as `ready` would.
+  // The poster is still visible: nothing has woken the figure, as `ready` would.
   expect(await figure.evaluate((element) => element.shadowRoot.querySelector("canvas").hidden)).toBe(true);
   await page.locator('.symbols [data-symbol="X"]').hover();
   await expect(figure).toHaveAttribute("data-lit");
@@ -93,7 +93,7 @@ test("what no figure draws lights nothing, and without a script letters are plai
   const lit = page.locator("epipole-figure[data-lit]");
   await expect(lit).toHaveCount(1);
   expect(await light(lit)).toHaveLength(1);
-  // Both epipoles are far outside of the photographs.
+  // Both epipoles are far outside the images.
   await page.locator('.symbols [data-symbol="e\'"]').focus();
   await expect(lit).toHaveCount(0);
   const context = await browser.newContext({ javaScriptEnabled: false });

@@ -1,10 +1,10 @@
-// Whoever takes hold of a figure before its first picture is prepared: the page goes on, and so does the figure.
+// Operating a figure before its first picture is prepared: page and figure stay responsive.
 
 import { expect, figures, test } from "./fixtures.mjs";
 import { loadBindings } from "./places.mjs";
 
 const { Figure } = await loadBindings();
-/** Those whose first picture takes long. */
+/** Figures whose first picture takes long. */
 const slow = figures.filter(({ name }) => {
   const figure = new Figure(name);
   const more = figure.prepare();
@@ -12,7 +12,7 @@ const slow = figures.filter(({ name }) => {
   return more;
 });
 
-/** No idle moment comes in which a figure could prepare; whoever names a time limit still gets his turn. */
+/** Suppresses idle callbacks, in which figures prepare, except those with a timeout. */
 function neverIdle() {
   const later = window.requestIdleCallback.bind(window);
   const waiting = (window.waiting = new Map());
@@ -25,7 +25,10 @@ function neverIdle() {
   window.cancelIdleCallback = (id) => waiting.delete(id);
 }
 
-/** Moves the first slider to its end, or the first handle a step; frames of the display until the picture is there, and when the state was told. */
+/**
+ * Moves the first slider to its end, or the first handle by a step. Counts frames until the picture
+ * is shown, and until the event.
+ */
 async function touched(element) {
   const root = element.shadowRoot;
   const frame = () => new Promise((done) => requestAnimationFrame(done));
@@ -59,7 +62,7 @@ for (const { name } of slow) {
     const { wasShown, frames, told, moved } = await figure.evaluate(touched);
     expect(wasShown).toBe(false);
     expect(moved).toBe(true);
-    // One slice to a frame: all at once, the picture would be there with the first or second of them.
+    // One slice per frame: prepared at once, the picture would be shown in the first or second.
     expect(frames).toBeGreaterThan(2);
     expect(frames).toBeLessThan(1000);
     expect(told).toBeLessThan(frames);

@@ -1,8 +1,8 @@
-// Three engines behind one small interface: `open(url)`, `run(function, argument)`, `press(...keys)`,
-// `isAlive()`, `complaints` and `close()`.
+// Drivers of three engines with one interface: `open(url)`, `run(function, argument)`,
+// `press(...keys)`, `isAlive()`, `complaints` and `close()`.
 //
-// Firefox speaks WebDriver BiDi, so no further program is needed; WebKit has its own driver, which opens a
-// window, so it gets a display that nobody sees.
+// Firefox is driven by WebDriver BiDi without another program. WebKit has a driver of its own that
+// opens a window, on a virtual display.
 
 import puppeteer from "puppeteer-core";
 import { Browser, Builder, Capabilities, Key } from "selenium-webdriver";
@@ -10,12 +10,12 @@ import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { launchOptions } from "../browser/chromium.mjs";
 
-/** Wide enough for the layout of a laptop. */
+/** Size of a laptop's window, CSS pixels. */
 export const WINDOW = { width: 1280, height: 900 };
 
-/** Nothing that a test asks of an engine takes longer, also on a busy machine; what does never ends. */
+/** Time limit of any step, also on a busy machine, milliseconds. */
 const PATIENCE_MS = 240_000;
-/** How long an engine may take to end once it is asked to. */
+/** Time for an engine to end when asked, milliseconds. */
 const GRACE_MS = 10_000;
 
 const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox", "/Applications/Firefox.app/Contents/MacOS/firefox"];
@@ -23,7 +23,7 @@ const MINI_BROWSERS = ["x86_64-linux-gnu", "aarch64-linux-gnu"].flatMap((machine
   ["4.1", "4.0"].map((version) => `/usr/lib/${machine}/webkit2gtk-${version}/MiniBrowser`),
 );
 
-// WebGL on the processor, for the Lab: there may be no graphics card.
+// Software WebGL for the Lab, as there may be no GPU.
 const args = [...launchOptions.args, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const extraPrefsFirefox = { "webgl.force-enabled": true, "webgl.disable-fail-if-major-performance-caveat": true };
 
@@ -31,7 +31,7 @@ export const chromium = () => byPuppeteer("Chromium", { ...launchOptions, args, 
 
 export const firefox = () => openFirefox({ headless: true });
 
-/** In a window, on a display that nobody sees: without one it gives no page WebGL. */
+/** Firefox in a window on a virtual display, as it offers no WebGL without a window. */
 export async function firefoxWindow() {
   const screen = hiddenScreen();
   const env = { ...process.env, DISPLAY: screen.display, LIBGL_ALWAYS_SOFTWARE: "1" };
@@ -66,7 +66,10 @@ async function byPuppeteer(name, options) {
   };
 }
 
-/** Does what opening takes; what has been started is ended where that fails, or it would keep the tests from ending. */
+/**
+ * Runs `work`; on failure calls `close`, as a process left running would keep the tests from
+ * ending.
+ */
 async function orClose(work, close) {
   try {
     return await work();
@@ -78,7 +81,7 @@ async function orClose(work, close) {
 
 let windows = 0;
 
-/** A display that nobody sees, with a number of its own: what a window before has used may not be free yet. */
+/** Starts a virtual display with a new number, as that of the last may still be in use. */
 function hiddenScreen() {
   const [display, port] = [`:${90 + (process.pid % 100) + 100 * windows}`, 4400 + (process.pid % 1000) + 1000 * windows];
   windows += 1;
@@ -87,7 +90,7 @@ function hiddenScreen() {
   return { display, port, close: () => void screen.kill() };
 }
 
-/** Its driver tells nothing of the console, so pages report their own errors. */
+/** WebKit. Its driver does not report the console, so pages report their own errors. */
 export async function webkit() {
   const window = process.env.MINI_BROWSER ?? MINI_BROWSERS.find((path) => existsSync(path));
   if (!window) throw new Error("WebKit is missing: install webkit2gtk-driver and its MiniBrowser");
@@ -97,10 +100,11 @@ export async function webkit() {
     DISPLAY: display,
     GDK_BACKEND: "x11",
     WEBKIT_DISABLE_DMABUF_RENDERER: "1",
-    // With the last of its compilers for WebAssembly, WebKitGTK 2.50 was seen to crash under load, each time in another
-    // figure, and once to give other bits; without it, that was seen in one run of three.
+    // Disable OMG, the last WebAssembly compiler: with it, WebKitGTK 2.50 crashed under load in
+    // varying figures and once gave different bits; without it, that happened in one run of three.
     JSC_useOMGJIT: process.env.JSC_useOMGJIT ?? "0",
-    // Nor beside the code that runs: so compiled, other bits were seen in five runs of nine, and in none of six without.
+    // Compile synchronously: concurrent compilation gave different bits in 5 of 9 runs, else in 0
+    // of 6.
     JSC_useConcurrentJIT: process.env.JSC_useConcurrentJIT ?? "0",
   };
   const driver = spawn("WebKitWebDriver", [`--port=${port}`], { stdio: "ignore", env });
@@ -129,7 +133,7 @@ export async function webkit() {
       );
     },
     run: async (work, argument) => {
-      // As text: its driver stumbles over some values.
+      // As JSON, since its driver fails on some values.
       const said = await session.executeAsyncScript(
         `const done = arguments[arguments.length - 1];
          const tell = (said) => done(JSON.stringify({ ...said, heard: (window.complaints ?? []).splice(0) }));
@@ -149,7 +153,7 @@ export async function webkit() {
     },
     isAlive: () => session.executeScript("return true").catch(() => false),
     close: async () => {
-      // A session that hangs ends with its driver.
+      // A hanging session ends with its driver.
       const late = new Promise((resolve) => setTimeout(resolve, GRACE_MS).unref());
       await Promise.race([session.quit().catch(() => {}), late]);
       end();
@@ -157,7 +161,7 @@ export async function webkit() {
   };
 }
 
-/** Waits until somebody listens there. */
+/** Waits until the address responds. */
 async function answers(url) {
   for (let attempt = 0; attempt < 600; attempt += 1) {
     const heard = await fetch(url).catch(() => undefined);

@@ -1,5 +1,5 @@
-// Firefox and WebKit do what Chromium does: every chapter opens, every figure of it answers to keys with the
-// same readouts, permalinks bring states back, and the modules give the bits that they give natively.
+// Firefox and WebKit behave like Chromium: every chapter opens, its figures respond to keys with
+// the same readouts, permalinks restore states, and the modules give the same bits as native code.
 //
 // `ONLY=webkit` runs one engine, `PAGES=stereo` the pages whose name contains it.
 
@@ -16,31 +16,33 @@ import { chromium, firefox, webkit } from "./drivers.mjs";
 import { badlySet, drawPhotograph, dropPhotograph, figuresOf, look, ready, takeHold } from "./steps.mjs";
 
 const ENGINES = { firefox, webkit };
-/** What hangs is red before it takes the time of everything after it, milliseconds. */
+/**
+ * Time limits of one test and of an engine, milliseconds: a hanging test must not delay all others.
+ */
 const ONE_MS = 300_000;
 const WHOLE_MS = 1_500_000;
 const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.ONLY ?? ""));
-// The page of all figures comes last: most of them stand in a chapter as they stand there.
+// The gallery comes last: most of its figures have been tested in their chapters.
 const LAST = "gallery.html";
 const pages = readdirSync(book)
   .filter((name) => name.endsWith(".html") && name !== "404.html" && name.includes(process.env.PAGES ?? ""))
   .sort((a, b) => Number(a === LAST) - Number(b === LAST));
 const plans = plan();
-/** A page whose first figure takes photographs of the reader's own. */
+/** A page whose first figure takes photographs of the reader. */
 const OWN = "corners.html";
 
 const { Figure, figures } = await loadBindings();
 const names = JSON.parse(figures()).map(({ name }) => name);
 const LOOK = { width: 760, scale: 1, theme: "light", seed: 5, rounds: 2 };
 
-// What is written into a page must come as a script of its own under the policy of the book.
+// Injected code must be a script file, under the content security policy of the book.
 const made = await mkdtemp(join(tmpdir(), "epipole-engines-"));
 await writeFile(join(made, "play.js"), `globalThis.play = ${playInPage};\n`);
 const player = () => '<!doctype html><html lang="en"><title>Play</title><script src="/made/play.js"></script></html>';
 
 /**
- * What is to be done on each page: how many figures it has, which of them are toured, and of which a permalink is
- * opened. A figure that stands with the same attributes on an earlier page would only say the same again.
+ * Test plan by page: number of figures, which to operate, and for which to open a permalink. Skips
+ * figures that an earlier page has with the same attributes.
  */
 function plan() {
   const [seen, linked] = [new Set(), new Set()];
@@ -50,7 +52,7 @@ function plan() {
       const tags = [...readFileSync(join(book, page), "utf8").matchAll(/<epipole-figure ([^>]*)>/g)].map(([, words]) => words);
       const toured = [...tags.keys()].filter((index) => isNew(seen, tags[index]));
       const opened = toured.filter((index) => isNew(linked, /name="([^"]*)"/.exec(tags[index])[1]));
-      // Whoever comes with parameters sees a state, and no story by the clock, which differs from run to run.
+      // With any query, figures do not play, which would depend on timing.
       const query = tags.some((words) => words.includes("data-play")) ? "?still" : "";
       return [page, { count: tags.length, toured, opened, query }];
     }),
@@ -68,7 +70,7 @@ after(async () => {
   await server?.close();
 });
 
-/** What an engine says of a page: each figure at first, after keys on a slider, and on a handle. */
+/** Readouts of a page's figures: initially, after keys on a slider, and after keys on a handle. */
 async function tour(engine, page) {
   const { count, toured, query } = plans.get(page);
   await engine.open(`${server.origin}/course/${page}${query}`);
@@ -87,11 +89,11 @@ async function tour(engine, page) {
   return said;
 }
 
-/** Without what differs by right: the address, and whether a picture was drawn already. */
+/** The parts to compare, without addresses and whether the picture has been drawn. */
 const compared = (tour) =>
   tour.map((steps) => steps.map(({ name, state, readouts, description }) => ({ name, state, readouts, description })));
 
-/** What all engines are compared with is computed for the first of them. */
+/** Caches the reference results, which the first engine computes for all. */
 function once(compute) {
   const kept = new Map();
   return (key) => {
@@ -102,13 +104,13 @@ function once(compute) {
 
 let lastTour = Promise.resolve();
 const ofReference = once((page) => {
-  // It has one window, so one page after the other.
+  // The reference has one window, so pages are visited one after another.
   const said = lastTour.then(() => tour(reference, page)).then(compared);
   lastTour = said.catch(() => {});
   return said;
 });
 
-/** A photograph of the reader's own, and what an engine sees of it in the first figure that takes one. */
+/** A reader's photograph, and an engine's results for it in the first figure that takes one. */
 const ofPhotograph = once(() => reference.open(`${server.origin}/course/${OWN}`).then(() => reference.run(drawPhotograph)));
 async function shown(engine) {
   const base64 = await ofPhotograph();
@@ -128,7 +130,10 @@ const engineTests = (key) =>
     before(async () => (engine = await ENGINES[key]()));
     after(() => engine?.close());
 
-    /** A page on which the engine itself ends, as WebKit's workers now and then do, gets one more try in a new window. */
+    /**
+     * Repeats a test once in a new window if the engine itself crashes, as WebKit's workers
+     * sometimes do.
+     */
     async function surviving(report, work) {
       try {
         await work();
@@ -179,5 +184,5 @@ const engineTests = (key) =>
     }
   });
 
-// One after the other, which leaves WebKit more room: on a busy machine 2.50 was seen to crash and to compute other bits.
+// One after another, as WebKit 2.50 crashed and gave different bits on a busy machine.
 chosen.forEach(engineTests);

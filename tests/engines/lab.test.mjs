@@ -1,4 +1,4 @@
-// Firefox and WebKit solve the sample of the Lab, and say of it what Chromium says: as many points, the same error.
+// Firefox and WebKit solve the Lab's sample with the same result as Chromium: points and error.
 //
 // `ONLY=webkit` runs one engine.
 
@@ -15,7 +15,7 @@ const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.O
 
 if (!existsSync(join(book, "lab/index.html"))) throw new Error("the Lab is missing: run `make lab` first");
 
-/** In the page: what the Lab says once it has found cameras, or what stands in their way. */
+/** Runs in the page: the Lab's messages once it has found cameras, or failed. */
 async function solved() {
   const rest = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
   const text = (id) => document.getElementById(id)?.textContent ?? "";
@@ -39,7 +39,7 @@ describe("the sample of the Lab", { timeout: 1_800_000 }, () => {
     }
   };
   before(async () => {
-    // Without the results that the sample comes with, every engine has to compute them.
+    // Without the precomputed results, every engine has to compute them.
     const missing = /\/sample-[^/]*\.bin$/;
     server = await serve({ mounts: { course: book }, policy: LAB_POLICY, missing });
     expected = await solve(chromium);
@@ -52,7 +52,7 @@ describe("the sample of the Lab", { timeout: 1_800_000 }, () => {
       try {
         found = await solve(ENGINES[key]);
       } catch (problem) {
-        // Where the engine itself ends, as WebKit now and then does, it gets one more try.
+        // If the engine itself crashes, as WebKit sometimes does, try once more.
         report.diagnostic(`${key} begins again: ${problem.message}`);
         found = await solve(ENGINES[key]);
       }

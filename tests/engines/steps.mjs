@@ -1,11 +1,11 @@
-// What is carried out in a page, in any engine. Each function travels as text, so it names nothing outside itself.
+// Functions that run in a page, in any engine. They are sent as text and cannot use outer names.
 
-/** How many figures the page has. */
+/** Number of figures on the page. */
 export async function figuresOf() {
   return document.querySelectorAll("epipole-figure").length;
 }
 
-/** Brings a figure to life and waits for what it computes. */
+/** Starts a figure and waits for its computation. */
 export async function ready(index) {
   await customElements.whenDefined("epipole-figure");
   const figure = document.querySelectorAll("epipole-figure")[index];
@@ -14,7 +14,7 @@ export async function ready(index) {
   figure.dispatchEvent(new PointerEvent("pointerenter"));
 }
 
-/** Puts the focus on the first slider that does something, or on the first handle; says whether there is one. */
+/** Focuses the first enabled slider, or the first handle. Returns whether there is one. */
 export async function takeHold({ index, what }) {
   const figure = document.querySelectorAll("epipole-figure")[index];
   const selector = what === "slider" ? "input[type=range]:not([aria-disabled=true])" : ".grip";
@@ -23,13 +23,13 @@ export async function takeHold({ index, what }) {
   return found !== undefined;
 }
 
-/** What a figure says once it has computed what it must. */
+/** State, readouts and description of a figure after its computation. */
 export async function look(index) {
   const figure = document.querySelectorAll("epipole-figure")[index];
   const rest = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
   await rest(50);
   figure.flush();
-  // A computation is asked for a moment after the state has changed.
+  // Poll several times, as a computation starts a moment after the state has changed.
   for (let calm = 0, tries = 0; calm < 3 && tries < 1200; tries += 1) {
     calm = figure.shadowRoot.querySelector("[aria-busy]") ? 0 : calm + 1;
     await rest(50);
@@ -49,7 +49,7 @@ export async function look(index) {
   };
 }
 
-/** The bytes of a JPEG file larger than figures take, in base 64: fine stripes, colors and slanted edges. */
+/** A base64 JPEG larger than figures accept: fine stripes, colors and slanted edges. */
 export async function drawPhotograph() {
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [1531, 1097];
@@ -65,7 +65,7 @@ export async function drawPhotograph() {
   return canvas.toDataURL("image/jpeg", 0.8).split(",")[1];
 }
 
-/** Drops a photograph onto a figure. Returns what stands beside the input then. */
+/** Drops a photograph onto a figure. Returns the note beside the input. */
 export async function dropPhotograph({ index, base64 }) {
   const figure = document.querySelectorAll("epipole-figure")[index];
   const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -73,7 +73,7 @@ export async function dropPhotograph({ index, base64 }) {
   dataTransfer.items.add(new File([bytes], "desk.jpg", { type: "image/jpeg" }));
   const picture = figure.shadowRoot.querySelector(".picture");
   const drop = new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true, composed: true });
-  // Not every engine lets a script say what was dropped.
+  // Some engines ignore the dataTransfer of synthetic events.
   if (!drop.dataTransfer) Object.defineProperty(drop, "dataTransfer", { value: dataTransfer });
   picture.dispatchEvent(drop);
   const note = figure.shadowRoot.querySelector(".photo .note");
@@ -83,9 +83,9 @@ export async function dropPhotograph({ index, base64 }) {
   return note.textContent;
 }
 
-/** Formulas whose punctuation hangs over the letter before, and those after which a line begins with a comma or the like. */
+/** Formulas with hanging punctuation, and those followed by a line that begins with punctuation. */
 export async function badlySet() {
-  // What is folded away or far off has no place on the page.
+  // Open and lay out everything, as hidden parts have no position.
   for (const folded of document.querySelectorAll("details")) folded.open = true;
   for (const element of document.querySelectorAll("main *")) {
     if (getComputedStyle(element).contentVisibility !== "visible") element.style.contentVisibility = "visible";
@@ -93,7 +93,7 @@ export async function badlySet() {
   const bad = [];
   for (const formula of document.querySelectorAll("main :is(p, li, td) math")) {
     const says = formula.querySelector("annotation")?.textContent ?? formula.textContent;
-    // Engines that do not know the property have nothing that hangs.
+    // Engines without the property have no hanging punctuation.
     if ((getComputedStyle(formula).hangingPunctuation || "none") !== "none") bad.push(`hanging: ${says}`);
     const after = formula.nextSibling;
     if (after?.nodeType !== Node.TEXT_NODE || !/^[,.;:!?)\]]/.test(after.data)) continue;

@@ -131,7 +131,7 @@ def main(arguments):
     bless = "--bless" in arguments
     names = [argument for argument in arguments if argument != "--bless"]
     chapters = [pathlib.Path(name).resolve() for name in names] or sorted(CONTENT.rglob("*.md"))
-    # Where they run there are their data, and room for what they write.
+    # Run them in a folder with their data, in which they may write.
     with tempfile.TemporaryDirectory() as folder:
         if DATA.is_dir():
             shutil.copytree(DATA, folder, dirs_exist_ok=True)

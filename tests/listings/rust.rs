@@ -1,5 +1,5 @@
-//! The Rust listings of the chapters run, and print what `content/listings/` says that they print.
-//! `make bless-listings` writes these files anew.
+//! Runs the Rust listings of the chapters and compares their output with `content/listings/`.
+//! `make bless-listings` records it anew.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -11,13 +11,13 @@ use std::{env, fs};
 /// A listing of a chapter.
 struct Listing {
     chapter: &'static str,
-    /// Empty for a fence outside of `{{#listing}}`: of that nothing is recorded.
+    /// Empty for a block outside of `{{#listing}}`, whose output is not recorded.
     name: &'static str,
     line: usize,
     run: fn(),
 }
 
-/// What the `main` of a listing may return.
+/// Return type of a listing's `main`.
 trait Ended {
     fn check(self);
 }
@@ -42,7 +42,7 @@ fn print(line: String) {
     PRINTED.with_borrow_mut(|printed| *printed += &(line + "\n"));
 }
 
-/// In a listing this is what prints.
+/// Shadows the standard macro in listings, to record their output.
 macro_rules! println {
     ($($words:tt)*) => {
         crate::print(format!($($words)*))

@@ -79,8 +79,8 @@ sift = cv2.SIFT_create(enable_precise_upscale=True)
 keypoints = sift.detect(blobs, None)
 # OpenCV's size is the diameter, twice the blur.
 save("sift_keypoints", np.array([[k.pt[0], k.pt[1], k.size / 2] for k in keypoints], np.float32))
-# Descriptors at whole pixels, where OpenCV does not round the place: u, v, blur, angle in degrees (v down),
-# then 128 numbers. Its directions run against ours: number 8 - k is our k.
+# Descriptors at whole pixels, which OpenCV need not round: u, v, blur, angle in degrees (v down),
+# then 128 numbers. Its directions run against ours: bin 8 - k is our bin k.
 given = [(40 + 12 * (k % 6), 40 + 13 * (k // 6), 1.6 * 2 ** ((1 + k % 3) / 3), 37.0 * k % 360) for k in range(24)]
 at = [cv2.KeyPoint(u, v, 2 * blur, angle, 1, (1 + k % 3) << 8, k) for k, (u, v, blur, angle) in enumerate(given)]
 at, described = sift.compute(blobs, at)

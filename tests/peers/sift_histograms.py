@@ -19,7 +19,7 @@ gray = sift._preprocess(image)
 sift.positions = np.stack([v, u], axis=1)
 sift.scales = np.round(sift.n_scales * np.log2(blur / sift.sigma_min)).astype(int)
 sift.sigmas, sift.octaves = blur, np.zeros(len(blur), int)
-# Its directions are counted from down towards right, and its patches turned by half a turn against that.
+# scikit-image measures directions from down towards right, and rotates patches by 180° more.
 sift.orientations = np.pi - np.radians(degrees)
 sift._compute_descriptor([np.gradient(octave) for octave in sift._create_scalespace(gray)])
 cells = sift.descriptors.reshape(-1, 4, 4, 8).astype(np.float64)

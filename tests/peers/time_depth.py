@@ -160,7 +160,7 @@ def ceres(index, pixels, cameras, points):
     start = clock()
     adjuster.solve()
     seconds = clock() - start
-    # What the format counts, by our own sum over all observations.
+    # Counts as in the file format, from our own sum over all observations.
     poses = [scene.images[n].cam_from_world() for n in range(1, len(cameras) + 1)]
     rotation = np.array([FLIP @ pose.rotation.matrix() for pose in poses])
     shift = np.array([FLIP @ pose.translation for pose in poses])

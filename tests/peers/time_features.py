@@ -49,7 +49,7 @@ a, b = (rng.integers(0, 160, (2048, 128)).astype(np.float32) for _ in range(2))
 broken = [x * np.float32(0.37) for x in (a, b)]
 sift, orb, matcher = cv2.SIFT_create(), cv2.ORB_create(nfeatures=1000), cv2.BFMatcher(cv2.NORM_L2)
 found = {}
-# Ours writes derivatives into images that are there, and makes a new one for the others: so does OpenCV.
+# As ours: derivatives go into existing images, the other results into new ones.
 du, dv = np.empty_like(frame), np.empty_like(frame)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 from planes import homogeneous, inside, move, shared_grid
 
 POSE_PX, WORST_DEG, WORST_PX, MIN_MATCHES = 1.0, 180.0, 100.0, 15
-# `judge(model, inliers, order)` gives the measures of an answer to the rows in that order; the model
-# is None if there is none.
+# `judge(model, inliers, order)` returns the measures of an answer to the rows in that order.
+# `model` is None if nothing was found.
 Problem = collections.namedtuple("Problem", "group kind threshold_px trials k rows judge")
 problems = []
 
@@ -222,7 +222,7 @@ def add_house(root):
     for path in files("P"):
         k, r, center = cv2.decomposeProjectionMatrix(np.loadtxt(path))[:3]
         center = center[:3, 0] / center[3, 0]
-        # The given world is mirrored: with focal lengths above zero the house is behind the cameras.
+        # The given world is mirrored: positive focal lengths put the house behind the cameras.
         front = np.sign(np.median((points - center) @ r[2]))
         mirror = np.diag([*front * np.sign(np.diag(k)[:2] / k[2, 2]), front])
         cameras.append((k @ mirror / (k @ mirror)[2, 2], mirror @ r, -mirror @ r @ center))
@@ -293,7 +293,7 @@ def add_drawn_planes():
                 in_front = homogeneous(np.array([[0, 0], [639, 0], [0, 479], [639, 479]])) @ h[2] > 0
                 if in_front.all() and abs(len(grid) / 1600 - overlap) < 0.1:
                     break
-            # Right ones lie where both images show them; one in five was placed three times as badly.
+            # Inliers are visible in both images; one in five has three times the noise.
             num_right = round(200 * (1 - wrong))
             a = np.empty((0, 2))
             while len(a) < num_right:

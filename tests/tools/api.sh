@@ -1,6 +1,6 @@
 #!/bin/sh
-# What of the library's public surface changed since a revision, and whether that breaks who uses it: by name with
-# cargo-public-api, by rule with cargo-semver-checks. What could not be asked is said, and fails.
+# Reports changes of the library's public API since a revision, and whether they break its users: by
+# name with cargo-public-api, by rule with cargo-semver-checks. A missing tool is reported and fails.
 set -u
 cd "$(dirname "$0")/../.."
 since=${1:-$(git describe --tags --abbrev=0 2>/dev/null || git rev-list --max-parents=0 HEAD)}

@@ -1,8 +1,8 @@
-// Expressions of licenses, as SPDX writes them.
+// SPDX license expressions.
 
 /**
- * What we take of an expression: of alternatives the first that is allowed, of parts that go together all; nothing
- * where that is not allowed. The order of `allow` is the order of preference.
+ * The license to use from an expression: the most preferred allowed alternative of `OR`, all parts
+ * of `AND`; undefined if it is not allowed. `allow` is in order of preference.
  */
 export function chosen(expression, allow) {
   const tokens = expression.replaceAll("/", " OR ").match(/\(|\)|[^\s()]+/g) ?? [];

@@ -1,12 +1,12 @@
-// What we build from, and what of it we ship: node tests/tools/supply.mjs [--bless]
+// Supply chain checks: node tests/tools/supply.mjs [--bless]
 //
-// 1. Lock files are complete: every package of ours is locked, comes from a registry and has a checksum.
-// 2. Every crate of the workspace's graph has a license that deny.toml allows.
-// 3. web/THIRD-PARTY.txt lists everything in the site that is not ours, with the words of its license: crates in the
-//    WebAssembly modules, npm packages in the scripts, fonts; web/THIRD-PARTY-FIGURES.txt that in the packages of the
-//    figures alone. `--bless` writes them anew.
+// 1. Lock files are complete: every package is locked, from a registry, with a checksum. 2. Every
+// crate of the workspace's graph has a license that deny.toml allows. 3. web/THIRD-PARTY.txt lists
+// all third-party parts of the site with their license texts: crates in the WebAssembly modules,
+// npm packages in the scripts, fonts. web/THIRD-PARTY-FIGURES.txt lists those in the packages of
+// the figures alone. `--bless` writes both files.
 //
-// Needs no network once everything is installed. Advisories need one: `make audit`.
+// Needs no network once everything is installed. `make audit` checks advisories, with network.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -18,11 +18,11 @@ const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const read = (path) => readFileSync(join(root, path), "utf8");
 const problems = [];
 
-/** Folders with a package.json; what each needs is locked beside it. */
+/** Folders with a package.json and its lock file. */
 const NPM = ["web", "tests/browser", "tests/browser/hosts", "tests/engines", "tests/bench"];
-/** Python requirements, each file the whole of an environment. */
+/** Requirements files of Python, each for a whole environment. */
 const PIP = ["tests/listings/requirements.txt", "tests/peers/requirements.txt", "tests/browser/hosts/requirements.txt"];
-/** The WebAssembly modules: package, feature, where they end up. */
+/** The WebAssembly modules: package, feature, description. */
 const FIGURES = [
   ["epipole-web", "figures", "figures"],
   ["epipole-web", "jobs", "long computations"],
@@ -33,13 +33,13 @@ const MODULES = [
   ["epipole-lab", "vision-worker", "Lab's workers"],
   ["epipole-lab", "files-worker", "Lab's workers"],
 ];
-/** What esbuild makes scripts of. */
+/** Entry points that esbuild bundles. */
 const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
 const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
-/** Fonts: the one inside the figures, and npm packages that the builder cuts. */
+/** Fonts: the one in the figures, and those from npm that the builder subsets. */
 const FIGURE_SANS = ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"];
 const STIX = ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"];
-/** What is listed where: for the site, and for the packages of the figures. */
+/** The lists to write: for the site, and for the packages of the figures. */
 const LISTS = [
   { file: "web/THIRD-PARTY.txt", of: "Epipole's pages, modules and packages", modules: MODULES, scripts: SCRIPTS, fonts: [STIX, FIGURE_SANS] },
   { file: "web/THIRD-PARTY-FIGURES.txt", of: "the figures of Epipole", modules: FIGURES, scripts: ELEMENTS, fonts: [FIGURE_SANS] },
@@ -49,7 +49,7 @@ function cargo(...args) {
   return execFileSync("cargo", args, { cwd: root, maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] }).toString();
 }
 
-/** Whether a package that stands at `home` finds another one in the lock file, as Node looks for it. */
+/** Whether the package at `home` finds another one in the lock file, by Node's lookup. */
 function isLocked(packages, home, other) {
   if (packages[`${home ? `${home}/` : ""}node_modules/${other}`]) return true;
   if (home === "") return false;
@@ -68,7 +68,7 @@ function checkLocks() {
       }
     }
     for (const [name, { integrity, resolved, link, dependencies, optionalDependencies }] of Object.entries(packages)) {
-      // `npm ci` refuses a file that leaves out what only other machines install.
+      // `npm ci` rejects lock files without the optional packages of other platforms.
       for (const other of Object.keys({ ...dependencies, ...optionalDependencies })) {
         if (!isLocked(packages, name, other)) problems.push(`${folder}: ${name || "the package"} needs ${other}, which is not locked`);
       }
@@ -91,7 +91,7 @@ function checkLocks() {
   }
 }
 
-/** The licenses that deny.toml allows, and what it allows single crates besides. */
+/** The licenses that deny.toml allows, and its exceptions for single crates. */
 function allowed() {
   const names = (list) => [...list.matchAll(/"([^"]+)"/g)].map(([, name]) => name);
   const text = read("deny.toml");
@@ -100,7 +100,7 @@ function allowed() {
   return { allow: names(list), besides: Object.fromEntries(exceptions.map(([, crate, more]) => [crate, names(more)])) };
 }
 
-/** Every crate by name and version; fails where Cargo.lock does not fit the manifests. */
+/** All crates by name and version. Throws if Cargo.lock does not match the manifests. */
 function crates(allow, besides) {
   const { packages } = JSON.parse(cargo("metadata", "--format-version=1", "--locked", "--all-features", "--filter-platform=x86_64-unknown-linux-gnu"));
   const wasm = JSON.parse(cargo("metadata", "--format-version=1", "--locked", "--all-features", "--filter-platform=wasm32-unknown-unknown"));
@@ -111,7 +111,7 @@ function crates(allow, besides) {
   return all;
 }
 
-/** Crates that are linked into a module: not those that only run while it is built. */
+/** Crates linked into a module, without build dependencies. */
 function linked(name, feature) {
   const tree = ["tree", "--locked", "--package", name, "--no-default-features", "--features", feature, "--target", "wasm32-unknown-unknown"];
   const lines = cargo(...tree, "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}").split("\n");
@@ -120,10 +120,10 @@ function linked(name, feature) {
   return new Set(lines.filter((line) => line && !ours(line)).map(plain));
 }
 
-/** Words of a license without what differs between copies of it. */
+/** License text without whitespace differences. */
 const folded = (text) => text.replace(/\s+/g, " ").trim();
 
-/** The words of a crate's license, as its own files have them. */
+/** License text of a crate, from its own files. */
 function words({ manifest_path: manifest }, license) {
   const folder = dirname(manifest);
   const files = readdirSync(folder).filter((file) => /^(licen[cs]e|copying|unlicense)/i.test(file));
@@ -157,7 +157,7 @@ async function thirdParty(all, allow, { of, modules, scripts, fonts: cut }) {
   const rows = [...shipped].sort(([a], [b]) => (a < b ? -1 : 1)).map(([key, where]) => {
     const crate = all.get(key);
     const license = chosen(crate.license, allow);
-    // Where a crate has only the text of its other license, that is the one we take.
+    // If a crate only contains the text of its other license, use that.
     const text = words(crate, license) ?? (license.includes("Apache") ? undefined : words(crate, "Apache"));
     if (text) keep(text, key);
     const source = text ? "" : ` | its package has no text: ${crate.authors.join(", ") || "its authors"}, ${crate.repository}`;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Sees to it that there is a display that nobody sees, hands to click on it, and an OpenGL that draws on the processor.
+# Installs a virtual display, synthetic mouse and keyboard input (xdotool), and software OpenGL.
 set -eu
 missing() {
     ! command -v "$1" >/dev/null 2>&1
@@ -7,7 +7,7 @@ missing() {
 wanted=
 missing Xvfb && wanted="$wanted xvfb"
 missing xdotool && wanted="$wanted xdotool"
-# What a window loads when it opens.
+# Libraries that a window loads when it opens.
 if command -v ldconfig >/dev/null 2>&1; then
     has() {
         ldconfig -p | grep -q "$1"

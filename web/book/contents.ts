@@ -1,6 +1,6 @@
-// The table of contents: show where the reader is.
+// Table of contents: marks the reader's place.
 
-/** Once the browser has laid the page out by itself, so that asking for places costs nothing. */
+/** Runs `work` after the first layout, when measuring positions is cheap. */
 function afterFirstFrame(work: () => void): void {
   requestAnimationFrame(() => setTimeout(work));
 }
@@ -32,7 +32,7 @@ export function followSections(): void {
   for (const link of document.querySelectorAll<HTMLAnchorElement>(".sections a")) {
     links.set(decodeURIComponent(link.hash.slice(1)), link);
   }
-  // Not the headings: to ask for the place of what a section holds would have it laid out.
+  // Observe the sections, not their headings: measuring a heading would lay out the whole section.
   const sections = new Map<HTMLElement, string>();
   for (const { id, parentElement: section } of document.querySelectorAll("article h2[id]")) {
     if (section && links.has(id)) sections.set(section, id);
@@ -61,7 +61,7 @@ export function followSections(): void {
 
 const FOLDED = "epipole-contents";
 
-/** On a broad screen the column of contents can be folded away, for good. */
+/** Lets the reader fold the contents column on a wide screen, and remembers the choice. */
 export function startFolding(): void {
   const button = document.querySelector<HTMLButtonElement>(".fold-button");
   if (!button) return;
@@ -76,7 +76,7 @@ export function startFolding(): void {
       if (folds) localStorage.setItem(FOLDED, "folded");
       else localStorage.removeItem(FOLDED);
     } catch {
-      // Not remembered, but done.
+      // Not stored; the column is folded for this visit.
     }
     show();
   });

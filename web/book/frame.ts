@@ -1,9 +1,9 @@
-// The page of one figure, for frames: what its address says becomes the figure's attributes, before the figure is
-// there. So Reset returns to what the author of the frame has chosen.
+// Page of a single figure, for iframes. The query parameters become attributes before the figure
+// starts, so Reset returns to the state that the embedding author chose.
 
 import { isParameter } from "../src/attributes";
 
-/** Attributes of the figure that are no parameters, and may stand in the address. */
+/** Attributes other than parameters that the address may set. */
 const CHOICES = new Set(["compact", "controls", "readouts", "goals"]);
 
 const figure = document.querySelector("epipole-figure");

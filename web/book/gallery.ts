@@ -1,4 +1,4 @@
-// The page of all figures: words to copy for other pages, which follow what the reader sets.
+// Gallery page: code snippets for other sites, which follow the state of each figure.
 
 import { HOSTS, type Wish } from "./snippets";
 
@@ -6,11 +6,11 @@ interface Living extends HTMLElement {
   state: Record<string, string>;
 }
 
-/** The kind of page that the reader has chosen, for all figures. */
+/** Storage key of the chosen kind of host page, shared by all figures. */
 const CHOSEN = "epipole-host";
 const lists: HTMLSelectElement[] = [];
 const updates: (() => void)[] = [];
-/** Words are written once they are about to be seen: each asks how tall its figure is, and there are many. */
+/** Margin for writing snippets ahead of time; each one measures its figure, and there are many. */
 const SOON = "50%";
 
 function remembered(): string {
@@ -39,7 +39,7 @@ function startSection(section: HTMLElement): void {
     const wish: Wish = {
       name: section.dataset.name ?? "",
       title: section.querySelector("h2")?.textContent ?? "",
-      // Before the script of the figures has come, nobody has set anything.
+      // Before the figure script has loaded there is no state.
       state: figure.state ?? {},
       book: new URL(".", new URL("..", frame)).href,
       height: Math.ceil(figure.getBoundingClientRect().height),
@@ -64,7 +64,7 @@ function startSection(section: HTMLElement): void {
     try {
       localStorage.setItem(CHOSEN, list.value);
     } catch {
-      // Not remembered, but done.
+      // Not stored; the choice holds for this visit.
     }
   });
   seen.observe(section);

@@ -1,4 +1,4 @@
-// Goals of figures: which of them the reader has reached, on any page, is remembered in this browser only.
+// Goals of figures: remembers, in this browser only, which ones the reader has reached.
 
 const PREFIX = "epipole-goals:";
 
@@ -15,7 +15,7 @@ function load(figure: string): string[] {
   }
 }
 
-/** How many of some goals, each `figure/goal`, the reader has reached. */
+/** Number of the given goals (`figure/goal`) that the reader has reached. */
 export function countReached(goals: string[]): number {
   const isReached = (goal: string) => {
     const [figure = "", id = ""] = goal.split("/");
@@ -24,17 +24,17 @@ export function countReached(goals: string[]): number {
   return goals.filter(isReached).length;
 }
 
-/** The goals that an element names. */
+/** The goals named in an element's `data-goals`. */
 export function goalsOf({ dataset }: HTMLElement): string[] {
   return (dataset.goals ?? "").split(" ").filter((goal) => goal !== "");
 }
 
-/** Forgets the goals of these figures; throws where nothing may be stored. */
+/** Forgets the goals of these figures. Throws if storage is blocked. */
 export function forget(goals: string[]): void {
   for (const goal of goals) localStorage.removeItem(PREFIX + (goal.split("/")[0] ?? ""));
 }
 
-/** Remembers the goals that are reached on this page, and tells a figure of those reached before. */
+/** Stores goals reached on this page and restores those reached before. */
 export function startGoals(): void {
   const nameOf = ({ target }: Event) => (target as HTMLElement).getAttribute("name") ?? "";
   document.addEventListener("epipole-challenge", (event) => {
@@ -44,7 +44,7 @@ export function startGoals(): void {
     try {
       localStorage.setItem(PREFIX + nameOf(event), JSON.stringify([...known, id]));
     } catch {
-      // The page of progress says so.
+      // The progress page reports blocked storage.
     }
   });
   document.addEventListener("epipole-ready", (event) => {

@@ -1,5 +1,5 @@
-// Runs before anything is drawn: the look of figures, and what the reader chose of the page, if it
-// differs from the usual.
+// Runs before the first paint: the style sheet of the figures, and the reader's settings for the
+// page.
 import "../src/early.js";
 
 document.documentElement.dataset.listing = "numpy";
@@ -10,5 +10,5 @@ try {
   if (chosen === "light" || chosen === "dark") document.documentElement.dataset.theme = chosen;
   if (localStorage.getItem("epipole-contents") === "folded") document.documentElement.dataset.contents = "folded";
 } catch {
-  // Storage may be forbidden; then the page is as it comes.
+  // Storage may be blocked; the page keeps its defaults.
 }

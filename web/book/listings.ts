@@ -1,17 +1,17 @@
-// Listings with tabs, and the button that copies. Which language is in sight is an attribute of the page, so
-// that it is set before anything is drawn, and the same everywhere in the book.
+// Listings with tabs and a copy button. The shown language is an attribute of the page: it is set
+// before the first paint and applies to the whole book.
 
 const CHOSEN = "epipole-listing";
 const root = document.documentElement;
 
-/** The key of the tab that a listing shows: the reader's, or its first. */
+/** The tab that a listing shows: the reader's language, else the first. */
 function shown(tabs: HTMLElement[]): HTMLElement | undefined {
   return tabs.find((tab) => tab.dataset.tab === root.dataset.listing) ?? tabs[0];
 }
 
 const lists: HTMLElement[][] = [];
 
-/** Tells everybody which tabs are in sight. */
+/** Updates the tabs for assistive technology. */
 function update(): void {
   for (const tabs of lists) {
     const chosen = shown(tabs);
@@ -22,7 +22,7 @@ function update(): void {
   }
 }
 
-/** Shows a language in all listings; this one stays where it is on the screen. */
+/** Shows a language in all listings, keeping this one in place on the screen. */
 function choose(tab: HTMLElement): void {
   const before = tab.getBoundingClientRect().top;
   root.dataset.listing = tab.dataset.tab ?? "";
@@ -31,7 +31,7 @@ function choose(tab: HTMLElement): void {
   try {
     localStorage.setItem(CHOSEN, root.dataset.listing);
   } catch {
-    // Not remembered, but done.
+    // Not stored; the choice holds for this visit.
   }
 }
 
@@ -60,7 +60,7 @@ function startTabs(list: HTMLElement): void {
   });
 }
 
-/** Copies by way of the selection, where a page may not write to the clipboard. */
+/** Copies through the selection, for pages without access to the clipboard. */
 function copySelected(code: Element): boolean {
   const selection = getSelection();
   selection?.selectAllChildren(code);
@@ -82,7 +82,7 @@ function startCopying(button: HTMLButtonElement): void {
     if (!code) return;
     const write = navigator.clipboard?.writeText(code.textContent ?? "");
     const done = await (write?.then(() => true, () => false) ?? false) || copySelected(code);
-    // What could not be copied is selected: the reader's own keys copy it.
+    // If copying failed, the code stays selected for the reader to copy with the keyboard.
     button.textContent = done ? "Copied" : "Selected";
     status.textContent = done ? "Code copied" : "Code selected";
     clearTimeout(timer);

@@ -1,5 +1,5 @@
-// Sentences that operate figures. `.do` takes a figure to a state, `.live` follows one of its numbers;
-// until this script runs both are plain words. A figure may not be there yet, or never come.
+// Sentences that operate figures. `.do` takes a figure to a state, `.live` follows one of its
+// readouts. Until this script runs, both are plain text. A figure may load later or never.
 
 interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>) => Promise<void>;
@@ -15,7 +15,7 @@ function parametersOf(words: HTMLElement): Record<string, string> {
   return JSON.parse(words.dataset.parameters ?? "{}") as Record<string, string>;
 }
 
-/** Makes the words a button, without another box, so that they go on breaking like the text around them. */
+/** Makes the words a button without a box of its own, so that they still wrap like text. */
 function startButton(words: HTMLElement): void {
   const figure = figureOf(words);
   if (!figure) return;
@@ -35,7 +35,7 @@ function startButton(words: HTMLElement): void {
   });
 }
 
-/** Keeps numbers of a sentence as the figure shows them. */
+/** Keeps the numbers in a sentence equal to the figure's readouts. */
 function follow(figure: Figure, numbers: HTMLElement[]): void {
   let scheduled = false;
   const update = () => {
@@ -45,7 +45,7 @@ function follow(figure: Figure, numbers: HTMLElement[]): void {
       const text = figure.readoutText?.(id) ?? figure.controlText?.(id);
       if (text === undefined || text === number.textContent) continue;
       number.textContent = text;
-      // The room that it once took is kept: a paragraph that breaks anew would move the figure below it.
+      // The width never shrinks: a paragraph that wraps differently would move the figure below it.
       const width = number.getBoundingClientRect().width;
       if (width > (parseFloat(number.style.minWidth) || 0)) number.style.minWidth = `${Math.ceil(width)}px`;
     }

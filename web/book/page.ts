@@ -1,4 +1,4 @@
-// What every page does: colors, contents, scrolling boxes; quizzes and search when they are wanted.
+// Script of every page: theme, contents, scrolling boxes; loads quizzes and search on demand.
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
 import { startGoals } from "./goals";
 import { startListings } from "./listings";
@@ -25,7 +25,7 @@ startListings();
 startSymbols();
 startHandingOn();
 
-/** A script of this page has not come, as after a new edition of the book: a sentence, once, and a way on. */
+/** Shows once that a script could not be loaded (as after a new release), with a way to reload. */
 function sayMissing(): void {
   if (document.querySelector(".page-notice")) return;
   const notice = document.createElement("p");

@@ -1,5 +1,5 @@
-// Figures that play by themselves when they come in sight: `data-play` names the button to press. Once, only for
-// readers who do not mind motion, and not for one who has taken hold of the figure.
+// Figures that play when they scroll into view; `data-play` names the button to press. Each plays
+// once, never with reduced motion and never after the reader has operated it.
 
 interface Figure extends HTMLElement {
   readonly readouts?: Record<string, number | string>;
@@ -7,11 +7,11 @@ interface Figure extends HTMLElement {
   press?: (id: string) => void;
 }
 
-/** How much of the figure is to be seen before it begins. */
+/** Visible fraction of the figure at which it starts. */
 const SHARE = 0.6;
 const CHECK_MS = 250;
 
-/** Whether the figure's own numbers are there, so that it has something to play. */
+/** Whether the figure has computed its readouts, so that there is something to play. */
 function isKnown(figure: Figure): boolean {
   const [first] = Object.keys(figure.readouts ?? {});
   return first !== undefined && figure.readoutText?.(first) !== undefined;
@@ -40,12 +40,12 @@ function play(figure: Figure): void {
   for (const taken of TAKEN) figure.addEventListener(taken, stop);
 }
 
-/** What a reader does who takes hold of a figure. */
+/** Events by which a reader takes over a figure. */
 const TAKEN = ["pointerdown", "keydown"] as const;
 
 export function startPlaying(): void {
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-  // Printing and permalinks show a state, not a story.
+  // Permalinks and printing show a state, not an animation.
   if (location.search !== "") return;
   for (const figure of document.querySelectorAll<Figure>("epipole-figure[data-play]")) play(figure);
 }

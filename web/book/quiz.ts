@@ -1,5 +1,5 @@
-// Quizzes. The page holds questions and folded answers; this checks what the reader says and
-// remembers, in this browser only, what was solved. An answer given to an earlier wording of a
+// Quizzes. The page contains questions and folded answers; this script checks the reader's answer
+// and remembers solved questions in this browser only. An answer to an earlier wording of a
 // question (another data-hash) does not count.
 
 import { countReached, forget, goalsOf } from "./goals";
@@ -12,14 +12,14 @@ function load(quiz: string): Solved {
   try {
     const stored: unknown = JSON.parse(localStorage.getItem(PREFIX + quiz) ?? "{}");
     if (typeof stored !== "object" || stored === null || Array.isArray(stored)) return {};
-    // Whatever else may have come there, what counts has the form of a hash.
+    // Ignore stored values that are not hashes.
     return Object.fromEntries(Object.entries(stored).filter(([, hash]) => typeof hash === "string"));
   } catch {
     return {};
   }
 }
 
-/** Says whether it is remembered; the page works all the same. */
+/** Stores the solved questions. Returns false if storage is blocked; the page works without it. */
 function save(quiz: string, solved: Solved): boolean {
   try {
     localStorage.setItem(PREFIX + quiz, JSON.stringify(solved));
@@ -37,7 +37,7 @@ function checkNumber(input: HTMLInputElement): Verdict | null {
   const value = Number(typed);
   if (!Number.isFinite(value)) return { right: false, say: "Please type a number." };
   const answer = Number(input.dataset.answer);
-  // A reader may type what the page prints: decimals beyond the tolerance are rounding.
+  // Readers type rounded decimals as the page prints them: allow for rounding beyond the tolerance.
   const tolerance = Number(input.dataset.tolerance) + 1e-9 * Math.max(1, Math.abs(answer));
   const right = Math.abs(value - answer) <= tolerance;
   return { right, say: right ? "Right." : value > answer ? "Not yet: too large." : "Not yet: too small." };
@@ -100,12 +100,12 @@ function prepare(form: HTMLFormElement, quiz: string): void {
   });
 }
 
-/** Where questions have been taken out, or something else has come there, more may be stored than there is. */
+/** "n of all". More may be stored than exists, if questions have been removed since. */
 function share(count: number, all: number): string {
   return `${Math.min(count, all)} of ${all}`;
 }
 
-/** Whether this browser lets the page remember anything. */
+/** Whether the page may store anything in this browser. */
 function canRemember(): boolean {
   try {
     localStorage.setItem(`${PREFIX}?`, "");
@@ -116,7 +116,7 @@ function canRemember(): boolean {
   }
 }
 
-/** The table on the page about progress. */
+/** Fills in the table of the progress page. */
 function showProgress(progress: HTMLElement): void {
   const update = () => {
     for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
@@ -145,14 +145,14 @@ function showProgress(progress: HTMLElement): void {
         localStorage.removeItem(PREFIX + (row.dataset.quiz ?? ""));
         for (const cell of row.querySelectorAll<HTMLElement>(".reached")) forget(goalsOf(cell));
       } catch {
-        // Nothing was stored then.
+        // Nothing was stored in that case.
       }
     }
     update();
   });
 }
 
-/** Below the picture of a chapter: what the reader has solved there; nothing, if that is nothing. */
+/** Shows the reader's progress below a chapter's picture; nothing if there is none. */
 function showSolved(mark: HTMLElement): void {
   const solved = Object.keys(load(mark.dataset.quiz ?? "")).length;
   const questions = Number(mark.dataset.questions);

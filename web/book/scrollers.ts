@@ -1,5 +1,5 @@
-// Listings, tables and formulas that are wider than the screen scroll in their own boxes. A box
-// that scrolls must be reachable by keyboard; one that does not must not be in the way.
+// Listings, tables and formulas wider than the screen scroll in boxes of their own. A box is a Tab
+// stop only while it scrolls.
 
 const NAMES: [string, (box: HTMLElement) => string][] = [
   ["pre", (box) => `${box.dataset.language ?? "Listing"}, scrolls sideways`],
@@ -21,7 +21,7 @@ export function makeScrollersReachable(): void {
     }
   };
   const observer = new ResizeObserver((entries) => {
-    // All are measured before any is changed, so that the page is laid out once.
+    // Measure all before changing any, so that the page is laid out once.
     const measured = entries.map(({ target }) => [target, target.scrollWidth > target.clientWidth + 1] as const);
     for (const [box, scrolls] of measured) {
       if (scrolls !== box.hasAttribute("tabindex")) update(box, scrolls);

@@ -1,4 +1,4 @@
-// Search over all sections. The index is fetched when the reader first asks for it.
+// Full-text search over all sections. The index is fetched with the first query.
 
 interface Section {
   /** Path and anchor. */
@@ -17,7 +17,7 @@ interface Hit {
 }
 
 const MAX_HITS = 20;
-/** An index that takes longer is slow enough to say so, milliseconds. */
+/** Time until the dialog says that the index is slow, milliseconds. */
 const SLOW_MS = 15_000;
 let sections: Promise<Section[]> | undefined;
 let asking = new AbortController();
@@ -25,7 +25,7 @@ let dialog: HTMLDialogElement | undefined;
 
 const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
-/** Sections that hold every word (or a word that starts so), best first. */
+/** Sections that contain every word (as a prefix at least), best first. */
 export function find(all: Section[], query: string): Hit[] {
   const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
   if (words.length === 0) return [];
@@ -50,7 +50,7 @@ export function find(all: Section[], query: string): Hit[] {
   return hits.sort((a, b) => b.score - a.score).slice(0, MAX_HITS);
 }
 
-/** How often a word of the text starts with `word`. */
+/** Number of words in the text that start with `word`. */
 function startsIn(text: string, word: string): number {
   let count = 0;
   for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
@@ -59,7 +59,7 @@ function startsIn(text: string, word: string): number {
   return count;
 }
 
-/** About 140 letters around the first match, the matches marked. */
+/** About 140 characters around the first match, with the matches marked. */
 function excerpt(text: string, query: string): HTMLElement {
   const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
   const folded = fold(text);
@@ -85,7 +85,7 @@ function excerpt(text: string, query: string): HTMLElement {
   return span;
 }
 
-/** Asks for the index, in place of a request that is under way. */
+/** Requests the index, replacing a pending request. */
 function fetchIndex(index: string): void {
   asking.abort();
   asking = new AbortController();
@@ -94,7 +94,7 @@ function fetchIndex(index: string): void {
     if (!Array.isArray(all)) throw new Error(`${response.status} for ${index}`);
     return all as Section[];
   });
-  // Who searches later asks anew.
+  // After a failure, the next search requests it again.
   asked.catch(() => sections === asked && (sections = undefined));
   sections = asked;
 }
@@ -150,7 +150,7 @@ function makeDialog(index: string, root: string): HTMLDialogElement {
     try {
       hits = find((await waited) ?? [], query);
     } catch {
-      // Another request has taken its place, or this one is to be told.
+      // Report a failure unless a newer request has replaced this one.
       if (!sections || sections === waited) offer("The index of the book could not be loaded.");
       return;
     } finally {

@@ -1,22 +1,24 @@
-// Small pictures that come to life: under the mouse, with the focus, or in the middle of a touch screen. `data-moves`
-// says where the figure goes from the state of its picture, and back, again and again. One at a time, and none for
-// readers who want no motion.
+// Thumbnails that animate: on hover, on focus, or in the middle of a touch screen. `data-moves` is
+// the state to glide to and back from, repeatedly. One runs at a time, and none with reduced
+// motion.
 
 interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>, options: { duration: number }) => Promise<void>;
 }
 
-/** One way takes so long, and then it rests, milliseconds. */
+/** Duration of one way, then of the rest after it, milliseconds. */
 const WAY_MS = 1600;
 const REST_MS = 500;
-/** How often to look whether the figure has computed what it shows. */
+/** Interval for polling whether the figure has finished computing, milliseconds. */
 const CHECK_MS = 100;
-/** What passes by faster stays a picture. */
+/** Minimum hover time before a thumbnail animates, milliseconds. */
 const LINGER_MS = 250;
 
 const pause = (duration: number) => new Promise((done) => setTimeout(done, duration));
 
-/** Whether all of a picture is to be seen: a figure that moves brings itself into view, and the page stays. */
+/**
+ * Whether a picture is fully visible; a moving figure would scroll the page to itself otherwise.
+ */
 function isWhole(card: HTMLElement): boolean {
   const box = card.querySelector("picture")?.getBoundingClientRect();
   return box !== undefined && box.top >= 0 && box.bottom <= innerHeight;
@@ -48,10 +50,10 @@ async function live(card: HTMLElement): Promise<void> {
   const home = Object.fromEntries(Object.keys(moves).map((key) => [key, state[key] ?? ""]));
   const looks = { name: card.dataset.figure ?? "", compact: "", controls: "none", readouts: "none", goals: "none" };
   for (const [key, value] of Object.entries({ ...state, ...looks })) figure.setAttribute(key, value);
-  // The picture says nothing that the words do not say, and the link is all that can be operated.
+  // The picture adds nothing to the text, and only the link is operable.
   figure.inert = true;
   figure.setAttribute("aria-hidden", "true");
-  // What it passes on its way is no goal of the reader's.
+  // Goals met by the animation are not the reader's.
   figure.addEventListener("epipole-challenge", (event) => event.stopImmediatePropagation());
   awake = { card, figure };
   card.querySelector("picture")?.append(figure);
@@ -68,11 +70,11 @@ async function live(card: HTMLElement): Promise<void> {
 
 export function startSmall(): void {
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-  // What an address says is for the figures of the text.
+  // The address's parameters are for the figures of the text.
   if (location.search !== "") return;
   const cards = document.querySelectorAll<HTMLElement>(".small[data-moves]");
   const hovers = matchMedia("(hover: hover)").matches;
-  // The middle of the screen, as high as one picture.
+  // A band in the middle of the screen, about one picture high.
   const watch = new IntersectionObserver(
     (entries) => {
       for (const { target, isIntersecting } of entries) if (!isIntersecting) rest(target as HTMLElement);

@@ -1,12 +1,12 @@
-// What stands on a page of someone else to show a figure in some state, for each kind of page.
+// Code snippets that show a figure in a given state, one for each kind of host page.
 
 export interface Wish {
   name: string;
   title: string;
   state: Record<string, string>;
-  /** Where the book is, with a slash at its end. */
+  /** Address of the book, with a trailing slash. */
   book: string;
-  /** How high the figure is, CSS pixels. */
+  /** Height of the figure, CSS pixels. */
   height: number;
 }
 
@@ -40,7 +40,7 @@ function frame(wish: Wish): string {
   );
 }
 
-/** A value as Python writes it. */
+/** A value as a Python literal. */
 function python(value: string): string {
   if (value === "true") return "True";
   if (value === "false") return "False";
@@ -56,7 +56,7 @@ export const HOSTS: readonly Host[] = [
   {
     name: "Python notebook",
     write: ({ name, state }) => {
-      // A name that Python cannot take as an argument goes into a dictionary.
+      // Names that are no Python identifiers go into a dictionary.
       const plain = Object.keys(state).every((key) => /^[a-z_]\w*$/.test(key));
       const pairs = Object.entries(state);
       const more = plain

@@ -1,5 +1,5 @@
-// Cuts a font down to some letters: node subset-font.mjs FONT LETTERS.txt OUT.woff2
-// Layout tables (kerning, ligatures, the MATH table) are kept for the letters that stay.
+// Subsets a font: node subset-font.mjs FONT LETTERS.txt OUT.woff2
+// Keeps the layout tables (kerning, ligatures, MATH) for the remaining letters.
 import { readFile, rename, writeFile } from "node:fs/promises";
 import subsetFont from "subset-font";
 

@@ -1,15 +1,15 @@
-// Letters of the prose that a figure draws as well: pointing at one lights it up in the nearest figure that
-// has it. Those of the list at the chapter's start take the keyboard's focus.
+// Symbols of the text that figures draw: pointing at one highlights it in the nearest figure that
+// has it. Those in the list at the chapter's start take keyboard focus.
 
 interface Figure extends HTMLElement {
   light?: (symbol: string | undefined) => boolean;
 }
 
-/** How long a tap lights a letter up, milliseconds. */
+/** Duration of the highlight after a tap, milliseconds. */
 const AFTER_A_TAP = 3000;
 
 let lit: Figure | undefined;
-/** A letter that is pointed at while no figure has what it stands for: one may still be computing. */
+/** Symbol under the pointer that no figure has yet; one may still be computing. */
 let waiting: HTMLElement | undefined;
 let timer = 0;
 
@@ -21,7 +21,7 @@ function end(): void {
   waiting = undefined;
 }
 
-/** How far a figure is from a letter, down the page; what is out of sight comes last. */
+/** Vertical distance of a figure from a symbol, CSS pixels; figures out of view come last. */
 function distance(figure: Element, letter: DOMRect): number {
   const { top, bottom } = figure.getBoundingClientRect();
   const apart = Math.max(top - letter.bottom, letter.top - bottom, 0);

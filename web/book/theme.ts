@@ -1,4 +1,4 @@
-// Light and dark. The system decides until the reader does; a choice that agrees with the system
+// Light and dark theme. The system decides until the reader chooses; a choice equal to the system's
 // is forgotten, so that the page follows the system again.
 
 const KEY = "epipole-theme";
@@ -10,7 +10,7 @@ function isDark(): boolean {
   return root.dataset.theme ? root.dataset.theme === "dark" : system.matches;
 }
 
-/** Posters and the browser's own frame know only the system's colors; tell them the reader's. */
+/** Applies the theme to posters and the browser's frame, which follow only the system's colors. */
 function apply(button: HTMLButtonElement | null): void {
   const dark = isDark();
   button?.setAttribute("aria-pressed", String(dark));
@@ -42,7 +42,7 @@ export function startTheme(): void {
       if (follows) localStorage.removeItem(KEY);
       else localStorage.setItem(KEY, wanted);
     } catch {
-      // Not remembered, but applied.
+      // Not stored; the theme is applied for this visit.
     }
     apply(button);
   });

@@ -1,12 +1,12 @@
-// From a figure into the Lab: the step that the figure is about, its knobs, and the reader's own photographs. They are put
-// aside in this browser for as long as it takes the Lab to open.
+// Link from a figure to the Lab: passes the matching step, parameters and the reader's photographs,
+// which this browser stores until the Lab opens.
 
 interface Figure extends HTMLElement {
   readonly photographs?: readonly File[];
   readonly state?: Record<string, string>;
 }
 
-/** A step of the Lab, and which of its knobs is which of the figure's. */
+/** Step of the Lab for a figure, and the Lab's name for each of the figure's parameters. */
 interface Way {
   step: (state: Record<string, string>) => string;
   knobs: Record<string, string>;
@@ -23,7 +23,7 @@ const WAYS: Record<string, Way> = {
   },
 };
 
-/** The address of the Lab for what a figure shows, from the folder of the page. */
+/** Address of the Lab for a figure's state, relative to the page's folder. */
 export function addressFor(name: string, state: Record<string, string>): string {
   const way = WAYS[name];
   const link = new URLSearchParams({ step: way?.step(state) ?? "photographs" });
@@ -31,16 +31,16 @@ export function addressFor(name: string, state: Record<string, string>): string 
     const value = state[knob];
     if (value !== undefined) link.set(theirs, value);
   }
-  // The Lab takes what was put aside in place of its sample.
+  // With this value the Lab loads the stored photographs instead of its sample.
   link.set("photographs", "brought");
   return `lab/index.html?${link}`;
 }
 
-/** Puts photographs aside and goes to the Lab; throws a sentence where that cannot be. */
+/** Stores the photographs and opens the Lab. Throws an error with a message for the reader. */
 async function go(figure: Figure): Promise<void> {
   const address = addressFor(figure.getAttribute("name") ?? "", figure.state ?? {});
   const photographs = figure.photographs ?? [];
-  // Nothing is put aside for a Lab that does not take it back.
+  // Store nothing unless the page there is a Lab that will read it back.
   const answer = await fetch(address).catch(() => undefined);
   const page = answer?.ok ? await answer.text() : "";
   if (!page.includes('id="lab"')) throw new Error("The Lab cannot be reached just now.");
@@ -51,7 +51,7 @@ async function go(figure: Figure): Promise<void> {
   location.assign(address);
 }
 
-/** A button below the figure, as long as the reader's photographs are in it. */
+/** Shows a button below the figure while it has photographs of the reader. */
 function offer(figure: Figure): void {
   const place = figure.parentElement?.querySelector(":scope > .to-lab");
   const count = figure.photographs?.length ?? 0;

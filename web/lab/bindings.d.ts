@@ -49,7 +49,7 @@ declare module "epipole-lab-page" {
   export default function load(options: { module_or_path: URL }): Promise<unknown>;
 }
 
-/** The bindings for its workers: what is seen in photographs, and what reads and writes files. */
+/** The bindings for its workers: `vision` processes photographs, `files` reads and writes files. */
 declare module "epipole-lab-vision" {
   export function compute(
     request: Uint8Array,
@@ -64,10 +64,12 @@ declare module "epipole-lab-files" {
   export { default } from "epipole-lab-vision";
 }
 
-/** Where the modules and the worker's script are, relative to the script; the bundler puts them in. */
+/**
+ * Addresses of the modules and the worker script relative to the page script; set by the bundler.
+ */
 declare const LAB_PAGE_WASM: string;
 declare const LAB_VISION_WASM: string;
 declare const LAB_FILES_WASM: string;
 declare const LAB_WORKER: string;
-/** Where the results of the sample are, likewise. */
+/** Address of the precomputed results of the sample; set by the bundler. */
 declare const LAB_SAMPLE: string;

@@ -1,4 +1,4 @@
-/** Photographs by the camera of the machine. */
+/** Photographs taken with the device's camera. */
 
 import { jpegOf } from "./video.js";
 
@@ -16,10 +16,10 @@ export class Camera {
   readonly #end: () => void;
   #stream: MediaStream | undefined;
   #taken = 0;
-  /** All that were ever taken: names go on counting. */
+  /** Number of photographs ever taken; file names keep counting up. */
   #total = 0;
 
-  /** `bring` gets every photograph, `end` says that all of one sitting have come. */
+  /** `bring` receives each photograph, `end` is called when the dialog closes. */
   constructor(bring: (name: string, jpeg: Uint8Array) => void, end: () => void) {
     this.#bring = bring;
     this.#end = end;
@@ -28,7 +28,7 @@ export class Camera {
     this.#dialog.addEventListener("close", () => this.#stop());
   }
 
-  /** Opens the camera. Throws an `Error` whose message is a sentence for the reader. */
+  /** Opens the camera. Throws an `Error` with a message for the reader. */
   async open(): Promise<void> {
     if (this.#dialog.open) return;
     const media = navigator.mediaDevices as MediaDevices | undefined;
@@ -51,7 +51,7 @@ export class Camera {
   async #take(): Promise<void> {
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [this.#video.videoWidth, this.#video.videoHeight];
-    // Before the first picture there is nothing to take.
+    // Before the first video frame there is nothing to take.
     if (!canvas.width) return;
     const jpeg = await jpegOf(this.#video, canvas);
     this.#total += 1;

@@ -1,9 +1,11 @@
-/** The workers of the Lab: each does one piece of work at a time; idle ones end after a while. */
+/** The Lab's worker pool: one job per worker; idle workers are terminated after a while. */
 
 export interface Order {
   work: number;
   request: Uint8Array;
-  /** An address that can be read as long as the work is wanted: a worker that computes hears of nothing else. */
+  /**
+   * Blob URL that is revoked on cancellation: a busy worker receives no messages, but can read it.
+   */
   wanted: string;
 }
 
@@ -14,7 +16,7 @@ export type Told = { work: number } & (
   | { problem: string; broken: boolean }
 );
 
-/** Which module a worker has. */
+/** Module that a worker runs. */
 export type Branch = "vision" | "files";
 
 interface Member {
@@ -25,7 +27,7 @@ interface Member {
   idleSince: number;
 }
 
-/** A worker without work ends after so long. */
+/** Idle time after which a worker is terminated, milliseconds. */
 const IDLE_MS = 20_000;
 
 export class Crew {
@@ -42,7 +44,7 @@ export class Crew {
   start(work: number, branch: Branch, request: Uint8Array): void {
     const idle = this.#members.filter((other) => other.work === undefined);
     const fit = idle.find((other) => other.branch === branch);
-    // Never more than can work at once: one that waits for other work makes room.
+    // At capacity, an idle worker of the other branch makes room.
     if (!fit && this.#members.length >= this.capacity && idle[0]) this.#dismiss(idle[0]);
     const member = fit ?? this.#hire(branch);
     member.work = work;
@@ -51,7 +53,10 @@ export class Crew {
     member.worker.postMessage(order, [request.buffer as ArrayBuffer]);
   }
 
-  /** Its worker is ended, and told so: Chromium lets one that computes go on for up to two seconds. */
+  /**
+   * Cancels a job: terminates its worker and revokes its URL, as Chromium lets a busy worker run
+   * for up to two seconds more.
+   */
   cancel(work: number): void {
     const member = this.#members.find((other) => other.work === work);
     if (member) this.#dismiss(member);
@@ -67,7 +72,7 @@ export class Crew {
         member.idleSince = performance.now();
       }
       this.#hear(data);
-      // Then the module is in no state to go on.
+      // A broken module cannot be reused.
       if ("problem" in data && data.broken) this.#dismiss(member);
     };
     worker.onerror = (event) => {

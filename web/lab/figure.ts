@@ -1,4 +1,4 @@
-/** The figure of the book that explains a step, beside the Lab; over it where there is no room. */
+/** Figure of the book that explains a step: beside the Lab, or over it on narrow screens. */
 
 function find<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -6,10 +6,10 @@ function find<T extends HTMLElement>(id: string): T {
   return found as T;
 }
 
-/** The folder of the book, as seen from this script. */
+/** Address of the book's folder. */
 const BOOK = new URL("../../", import.meta.url);
 
-/** The figures' elements under their stable name, loaded when a figure is asked for the first time. */
+/** Loads the custom element when the first figure is opened. */
 const elements = () => import(new URL("embed/epipole.js", BOOK).href);
 
 export class FigureBeside {
@@ -44,7 +44,7 @@ export class FigureBeside {
       this.#place.textContent = "The figure could not be loaded. You will find it in the chapter.";
       return;
     }
-    // Another one may have been asked for meanwhile.
+    // Another figure may have been opened meanwhile.
     if (document.body.dataset["figure"] !== name) return;
     const figure = document.createElement("epipole-figure");
     figure.setAttribute("name", name);

@@ -1,16 +1,18 @@
-/** What a reader chooses or drops: files, whole folders, and photographs that only the browser can decode. */
+/**
+ * Files that a reader chooses or drops: folders are walked, and images decoded if the Lab cannot.
+ */
 
-/** These the Lab decodes itself, so that every browser gives the same pixels. */
+/** Formats that the Lab decodes itself, for the same pixels in every browser. */
 const ITS_OWN = /\.(png|jpe?g|webp|zip)$/i;
 const QUALITY = 0.95;
 
-/** Files that were dropped, and those in folders that were, in the order of their names. */
+/** The dropped files, including those in dropped folders, sorted by name. */
 export async function dropped(transfer: DataTransfer): Promise<File[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.() ?? null);
   if (!entries.some((entry) => entry?.isDirectory)) return [...transfer.files];
   const files: File[] = [];
   for (const entry of entries) if (entry) await walk(entry, files);
-  // Of a folder only what can be a photograph, a video or a project is meant.
+  // From a folder, take only photographs, videos and projects.
   return files.filter((file) => ITS_OWN.test(file.name) || /^(image|video)\//.test(file.type));
 }
 
@@ -21,7 +23,7 @@ async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const within: FileSystemEntry[] = [];
-  // It gives some at a time, and none at the end.
+  // readEntries returns a batch at a time, and an empty one at the end.
   for (;;) {
     const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
     if (some.length === 0) break;
@@ -31,7 +33,7 @@ async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
   for (const one of within) await walk(one, files);
 }
 
-/** A photograph as the Lab can read it, its name, and whether the browser had to decode it. */
+/** A photograph in a format that the Lab reads. `foreign`: the browser decoded it. */
 export async function photographOf(file: File): Promise<{ name: string; bytes: Uint8Array; foreign: boolean }> {
   const as = (name: string, blob: Blob, foreign: boolean) =>
     blob.arrayBuffer().then((bytes) => ({ name, bytes: new Uint8Array(bytes), foreign }));
@@ -45,7 +47,7 @@ export async function photographOf(file: File): Promise<{ name: string; bytes: U
     const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/jpeg", QUALITY));
     if (blob) return await as(`${file.name}.jpg`, blob, true);
   } catch {
-    // The Lab says what is wrong with the file.
+    // The Lab reports the problem with the file.
   }
   return as(file.name, file, false);
 }

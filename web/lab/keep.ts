@@ -1,18 +1,20 @@
-/** What the browser keeps: files over one reload after the Lab has stopped, and a project for as long as the reader chooses. */
+/**
+ * Browser storage of the Lab: files across a reload, and a project for as long as the reader wants.
+ */
 
 import { erase, get, put } from "./store.js";
 
-/** What a reader gave, forgotten as soon as it is there again. */
+/** Database of the files to restore after a reload; erased once they are read. */
 const ASIDE = "epipole-lab";
-/** The project that the reader chose to keep. */
+/** Database of the project that the reader chose to keep. */
 const KEPT = "epipole-lab-kept";
 
-/** Puts files aside. Throws where the browser keeps nothing. */
+/** Stores files. Throws if storage is blocked or full. */
 export function putAside(files: readonly File[]): Promise<void> {
   return put(ASIDE, [...files]);
 }
 
-/** Takes what was put aside, and leaves nothing behind. */
+/** Returns the stored files and erases them. */
 export async function takeBack(): Promise<File[]> {
   try {
     const files = await get(ASIDE);
@@ -24,7 +26,7 @@ export async function takeBack(): Promise<File[]> {
   }
 }
 
-/** Who hears what became of the project that is kept. */
+/** Callbacks for changes of the kept project. */
 interface Listener {
   kept(numBytes: number): void;
   notKept(why: string, isThere: boolean): void;
@@ -34,9 +36,9 @@ interface Listener {
 /** The project that the reader chose to keep. */
 export class Kept {
   readonly #listener: Listener;
-  /** Other pages of the Lab that are open: one of them must not keep again what another one has forgotten. */
+  /** Other open pages of the Lab; a project erased in one must not be kept again by another. */
   readonly #others = new BroadcastChannel(KEPT);
-  /** One after the other: what is forgotten must not be put there afterwards. */
+  /** The last queued operation. Operations run in order, so that none undoes a later erasure. */
   #last: Promise<void> = Promise.resolve();
   #isThere = false;
   #isClosed = false;
@@ -49,22 +51,22 @@ export class Kept {
     };
   }
 
-  /** Whether this page can bring back the project after a restart. */
+  /** Whether a project is stored, to be restored after a restart. */
   get isThere(): boolean {
     return this.#isThere;
   }
 
-  /** Ends when everything that was asked for is done. */
+  /** Resolves when all queued operations are done. */
   get settled(): Promise<void> {
     return this.#last;
   }
 
-  /** What was asked for is done; from now on nothing more is kept. */
+  /** Stops keeping: queued operations finish, later calls do nothing. */
   close(): void {
     this.#isClosed = true;
   }
 
-  /** Keeps a project in place of the one before. */
+  /** Keeps a project, replacing the previous one. */
   keep(project: Uint8Array, then: () => void): void {
     if (this.#isClosed) return;
     this.#next(async () => {
@@ -93,7 +95,7 @@ export class Kept {
     });
   }
 
-  /** The project, if there is one. Throws an `Error` whose message is a sentence for the reader. */
+  /** The kept project, if any. Throws an `Error` with a message for the reader. */
   async read(): Promise<Uint8Array | undefined> {
     let kept: unknown;
     try {
@@ -104,7 +106,7 @@ export class Kept {
       if (kept instanceof Blob) return new Uint8Array(await kept.arrayBuffer());
     } catch (error) {
       console.warn(error);
-      // Where nobody may look there is nothing of ours.
+      // With storage blocked, nothing can have been kept.
       if (!this.#isThere) return undefined;
     }
     throw new Error("The project that this browser keeps cannot be read any more. Forget it in the Project menu.");

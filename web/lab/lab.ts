@@ -1,4 +1,6 @@
-/** The page of the Lab: file inputs, downloads, workers, theme. Everything else is in its module. */
+/**
+ * Page of the Lab: file inputs, downloads, workers, theme. Everything else is in the wasm module.
+ */
 
 import load, { Lab } from "epipole-lab-page";
 import { Camera } from "./camera.js";
@@ -22,7 +24,7 @@ const said = find("said");
 const photographs = find<HTMLInputElement>("photographs");
 const project = find<HTMLInputElement>("project");
 
-/** Words that change with every picture are told once they rest, milliseconds. */
+/** Quiet time before a changing status is announced, milliseconds. */
 const REST_MS = 400;
 
 try {
@@ -31,16 +33,18 @@ try {
     document.documentElement.dataset["theme"] = chosen;
   }
 } catch {
-  // Storage may be forbidden; then the system decides.
+  // Storage may be blocked; the theme then follows the system.
 }
 
-/** How often widgets are looked at for those who do not see them, milliseconds. */
+/** Interval for mirroring the widgets for screen readers, milliseconds. */
 const LOOK_MS = 200;
 
 const contrast = ["(prefers-contrast: more)", "(forced-colors: active)"];
 const themes = ["(prefers-color-scheme: dark)", ...contrast];
 
-/** High contrast where the reader asks for it; else what was chosen in the book, or else by the system. */
+/**
+ * High contrast if the system asks for it, else the theme chosen in the book, else the system's.
+ */
 function theme(): string {
   if (contrast.some((query) => matchMedia(query).matches)) return "high-contrast";
   const chosen = document.documentElement.dataset["theme"];
@@ -48,8 +52,8 @@ function theme(): string {
 }
 
 /**
- * Where a screen is emulated, as a phone in the tools of a browser, the size of the canvas in its pixels is told as if it
- * were not, and everything would be as many times too large.
+ * Corrects `devicePixelContentBoxSize` on emulated screens (device toolbar of developer tools),
+ * where it ignores the emulated pixel ratio and would scale the whole Lab by it.
  */
 function tellPixelsOfEmulatedScreens(): void {
   const told = Object.getOwnPropertyDescriptor(ResizeObserverEntry.prototype, "devicePixelContentBoxSize");
@@ -62,9 +66,9 @@ function tellPixelsOfEmulatedScreens(): void {
       const [first, same] = [pixels[0], points[0]];
       const inlineSize = Math.round((same?.inlineSize ?? 0) * devicePixelRatio);
       const blockSize = Math.round((same?.blockSize ?? 0) * devicePixelRatio);
-      // Rounding to whole pixels is no reason.
+      // Differences from rounding to whole pixels are expected.
       if (!first || Math.abs(first.inlineSize - inlineSize) <= 2) return pixels;
-      // The toolkit asks for one of this kind.
+      // The toolkit expects a ResizeObserverSize.
       const size = { inlineSize: { value: inlineSize }, blockSize: { value: blockSize } };
       return [Object.create(ResizeObserverSize.prototype, size) as ResizeObserverSize];
     },
@@ -74,9 +78,9 @@ function tellPixelsOfEmulatedScreens(): void {
 async function start(): Promise<void> {
   const link = new URLSearchParams(location.search);
   const linked = link.get("sample");
-  /** A figure of the book has put the reader's photographs aside: they take the place of the sample. */
+  /** A figure of the book has stored the reader's photographs, which replace the sample. */
   const isHanded = link.get("photographs") === "brought";
-  // While the module comes, so that nothing waits for it.
+  // Fetched while the module loads.
   const sample = !isHanded && (linked === null || linked === "table") ? solvedSample() : undefined;
   try {
     await load({ module_or_path: new URL(LAB_PAGE_WASM, import.meta.url) });
@@ -94,7 +98,7 @@ async function start(): Promise<void> {
   };
   const crew = new Crew(hear);
   const beside = new FigureBeside();
-  /** What the reader gave: names of files, not their bytes. */
+  /** Files that the reader has given; their bytes are not in memory. */
   const given: File[] = [];
   const camera = new Camera(
     (name, jpeg) => {
@@ -103,7 +107,7 @@ async function start(): Promise<void> {
     },
     () => lab.deliver(),
   );
-  /** Videos by their numbers. */
+  /** Videos by index. */
   const videos: Frames[] = [];
   const read = async (video: number, part: number, numParts: number) => {
     const frames = videos[video];
@@ -118,13 +122,13 @@ async function start(): Promise<void> {
     }
   };
   const kept = new Kept(lab);
-  /** So many of them are in the project that the browser keeps, and need not come back twice. */
+  /** Number of `given` files that the kept project contains, which need not be stored again. */
   let numKept = 0;
   const askForKept = async () => {
     try {
       const project = await kept.read();
       if (project) {
-        // As long as nobody forgets it.
+        // Readable until the project is forgotten.
         given.push(new File([project as BlobPart], "project.zip"));
         numKept = given.length;
         lab.keptProject(project);
@@ -201,8 +205,8 @@ async function start(): Promise<void> {
 
   letTabLeave();
   tellPixelsOfEmulatedScreens();
-  // The toolkit smooths edges itself, and asks for this context without saying so: samples of each pixel would cost as
-  // much again where a processor draws.
+  // The toolkit antialiases itself but requests the context with defaults; multisampling would
+  // double the drawing time on software renderers.
   canvas.getContext("webgl2", { antialias: false, depth: false });
   try {
     await lab.start(canvas, shell);
@@ -214,7 +218,7 @@ async function start(): Promise<void> {
   }
   void sample?.then((computed) => lab.solved(computed));
   notice.textContent = "";
-  // The toolkit takes typed letters through an input of its own.
+  // The toolkit receives typed text through an input of its own.
   for (const input of document.querySelectorAll("input:not([aria-label])")) {
     input.setAttribute("aria-label", "Letters for the Lab");
   }
@@ -223,7 +227,8 @@ async function start(): Promise<void> {
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
-    // What it has not been given by now comes back beside it, and would else come back twice.
+    // Files not yet in the kept project are restored separately; keeping them now would restore
+    // them twice.
     kept.close();
     restart(
       notice,
@@ -233,7 +238,7 @@ async function start(): Promise<void> {
     );
   };
   canvas.addEventListener("webglcontextlost", () => stop("the context of WebGL is lost"));
-  // Memory that cannot grow ends the module without a panic.
+  // Running out of memory ends the module without a panic.
   addEventListener("error", ({ error }) => {
     if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) stop(error);
   });
@@ -246,21 +251,21 @@ async function start(): Promise<void> {
   }, LOOK_MS);
   const before = await takeBack();
   if (before.length > 0) await take(before);
-  // Photographs that come show themselves; who was sent to another step wants to see that.
+  // New photographs open their own step; a link to another step overrides it.
   const step = link.get("step");
   if (isHanded && step !== null) lab.link(["step", step]);
-  // Without them there is the sample, as ever.
+  // Without photographs, show the sample.
   if (isHanded) lab.solved(before.length > 0 ? new Uint8Array() : await solvedSample());
 }
 
-/** Opens what is kept, and then what the address asks for. */
+/** Opens the kept project, then applies the address. */
 async function open(lab: Lab, isHanded: boolean, kept: Kept, askForKept: () => Promise<boolean>): Promise<void> {
   const link = new URLSearchParams(location.search);
   link.delete("photographs");
   const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
   if ((link.has("sample") || isHanded) && visit?.type !== "reload") {
-    // Whoever follows a link to a sample, or brings photographs, wants to see them, and nothing of the reader's is
-    // written over.
+    // The reader wants to see the linked sample or the new photographs; the kept project must not
+    // be overwritten by them.
     if (await kept.read().catch(() => undefined)) {
       lab.keptAside("This browser keeps a project of yours. Open it from the Project menu.");
     }
@@ -270,7 +275,7 @@ async function open(lab: Lab, isHanded: boolean, kept: Kept, askForKept: () => P
   if (link.size > 0) lab.link([...link].flat());
 }
 
-/** Nothing goes on in this page: a new one does, with the photographs. */
+/** Offers to reload the page with the reader's files after the module has stopped. */
 function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<void>, isKept: boolean): void {
   if (where.querySelector("button")) return;
   const given = rest();
@@ -280,7 +285,7 @@ function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<
   const all = [...(isKept ? ["your project"] : []), ...(given.length > 0 ? [files] : [])];
   button.textContent = all.length > 0 ? `Start the Lab again with ${all.join(" and ")}` : "Start the Lab again";
   button.addEventListener("click", () => {
-    // What was on its way into the project that is kept has come there by then.
+    // Files still being added to the kept project are in it by then.
     const aside = settled().then(() => {
       const left = rest();
       return left.length > 0 ? putAside(left) : undefined;
@@ -293,7 +298,7 @@ function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<
   );
 }
 
-/** After Escape, Tab goes where the page goes next instead of where the Lab goes. */
+/** After Escape, Tab moves on in the page instead of within the Lab. */
 function letTabLeave(): void {
   let leaving = false;
   addEventListener(

@@ -1,15 +1,16 @@
 /**
- * The widgets of the Lab as elements that nobody sees: screen readers find and operate them. With the
- * keyboard alone one is on the canvas, so nothing here is a stop of the Tab key.
+ * Hidden elements that mirror the Lab's widgets, for screen readers to find and operate. They are
+ * no Tab stops: keyboard focus stays on the canvas.
  */
 
 /**
- * A line of the module: number, role, name, value, state, least, largest, step, whether what it opens is open or closed,
- * and the number of what has opened the list that it is in.
+ * Line of the module: number, role, name, value, state, minimum, maximum, step, whether the
+ * widget's popup is open or closed, and the number of the widget that opened the list containing
+ * this one.
  */
 type Widget = [string, string, string, string, string, string, string, string, string, string];
 
-/** Does to a widget what somebody did to its element: by number, role and name, since numbers may go over to others. */
+/** Operates a widget by number, role and name, as numbers may be reassigned. */
 type Operate = (widget: string, role: string, name: string, value?: number) => void;
 
 export class Mirror {

@@ -1,9 +1,12 @@
-/** What was computed of the sample when the Lab was built: with it, the Lab opens solved. */
+/**
+ * Results of the sample, computed when the Lab is built, so that the Lab opens with a
+ * reconstruction.
+ */
 
-/** After so long it is computed here instead, milliseconds. */
+/** Time limit of the download, milliseconds. */
 const PATIENCE_MS = 20_000;
 
-/** Its bytes; none if they do not come, and then the sample is computed here. */
+/** The results; empty if they cannot be loaded, in which case the Lab computes the sample. */
 export async function solvedSample(): Promise<Uint8Array> {
   try {
     const answer = await fetch(new URL(LAB_SAMPLE, import.meta.url), { signal: AbortSignal.timeout(PATIENCE_MS) });

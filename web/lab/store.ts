@@ -1,4 +1,6 @@
-/** One value each under a name, in the storage of the browser: there is nothing under a name that nobody has put there. */
+/**
+ * Stores one value per database in IndexedDB. A database exists only after something was put there.
+ */
 
 const PLACE = "files";
 
@@ -11,7 +13,7 @@ function open(name: string): Promise<IDBDatabase> {
   });
 }
 
-/** Carries out something in a database, which is closed in any case: one that is open cannot be erased. */
+/** Runs a transaction and closes the database, as an open one could not be erased. */
 async function within<T>(name: string, mode: IDBTransactionMode, ask: (place: IDBObjectStore) => IDBRequest<T>): Promise<T> {
   const database = await open(name);
   try {
@@ -28,14 +30,14 @@ async function within<T>(name: string, mode: IDBTransactionMode, ask: (place: ID
   }
 }
 
-/** Puts a value there in place of the one before, which stays where that fails. Throws where the browser keeps nothing. */
+/** Stores a value, replacing the previous one unless that fails. Throws if storage fails. */
 export async function put(name: string, value: unknown): Promise<void> {
   await within(name, "readwrite", (place) => place.put(value, PLACE));
 }
 
-/** What is there, or nothing. Throws where the browser lets nobody look. */
+/** The stored value, or undefined. Throws if storage is blocked. */
 export async function get(name: string): Promise<unknown> {
-  // Nobody is asked to keep anything who has nothing kept.
+  // Look first: opening a database would create it.
   const there = await indexedDB.databases?.();
   if (there && !there.some((database) => database.name === name)) return undefined;
   const value: unknown = await within(name, "readonly", (place) => place.get(PLACE) as IDBRequest<unknown>);
@@ -43,7 +45,7 @@ export async function get(name: string): Promise<unknown> {
   return value;
 }
 
-/** Leaves nothing behind. Throws where that is not granted. */
+/** Deletes the database. Throws if that fails. */
 export function erase(name: string): Promise<void> {
   return new Promise((resolve, reject) => {
     const asked = indexedDB.deleteDatabase(name);

@@ -1,8 +1,11 @@
-/** Frames of a video, decoded by the browser: some of each of its parts, of which the Lab keeps the sharpest. */
+/**
+ * Frames of a video, decoded by the browser: candidates for each part, of which the Lab keeps the
+ * sharpest.
+ */
 
-/** So many frames of each part are looked at. */
+/** Number of candidate frames per part. */
 const CANDIDATES = 5;
-/** A browser that says nothing for so long will not, milliseconds. */
+/** Time limit for an event of the video, milliseconds. */
 const PATIENCE_MS = 15_000;
 const QUALITY = 0.95;
 
@@ -10,7 +13,7 @@ export function isVideo(file: File): boolean {
   return file.type.startsWith("video/") || /\.(mp4|m4v|mov|webm|mkv|ogv|avi)$/i.test(file.name);
 }
 
-/** A video that is being read, part by part: never more than the frames of one part are in memory. */
+/** A video read part by part; at most the frames of one part are in memory. */
 export class Frames {
   readonly name: string;
   readonly #video = document.createElement("video");
@@ -23,7 +26,10 @@ export class Frames {
     this.#url = URL.createObjectURL(file);
   }
 
-  /** Brings frames of a part as JPEG files. Throws an `Error` whose message is a sentence for the reader. */
+  /**
+   * Passes the candidate frames of a part to `bring` as JPEG files. Throws an `Error` with a
+   * message for the reader.
+   */
   async ofPart(part: number, numParts: number, bring: (jpeg: Uint8Array) => void): Promise<void> {
     try {
       this.#duration ??= await this.#open();
@@ -54,7 +60,7 @@ export class Frames {
     return duration;
   }
 
-  /** Lets go of everything. */
+  /** Releases the video. */
   close(): void {
     this.#video.removeAttribute("src");
     this.#video.load();
@@ -62,7 +68,7 @@ export class Frames {
   }
 }
 
-/** The picture of a video as a JPEG file. */
+/** The current frame of a video as a JPEG file. */
 export async function jpegOf(video: HTMLVideoElement, canvas: HTMLCanvasElement): Promise<Uint8Array> {
   const context = canvas.getContext("2d");
   if (!context) throw new Error("the browser gives no canvas");
@@ -78,14 +84,14 @@ async function seek(video: HTMLVideoElement, time: number): Promise<void> {
   await sought;
 }
 
-/** Videos that were recorded without an end tell it once one has been there. */
+/** Duration, seconds. Recordings without one in the header reveal it after a seek to the end. */
 async function durationOf(video: HTMLVideoElement): Promise<number> {
   if (Number.isFinite(video.duration)) return video.duration;
   await seek(video, 1e7);
   return Number.isFinite(video.duration) ? video.duration : video.currentTime;
 }
 
-/** Waits for an event of a video. */
+/** Resolves at an event of a video; rejects on an error or after `PATIENCE_MS`. */
 function heard(video: HTMLVideoElement, name: string): Promise<void> {
   return new Promise((resolve, reject) => {
     const end = (then: () => void) => {

@@ -1,26 +1,26 @@
-/** Carries out the requests of the Lab, one after the other. */
+/** Worker of the Lab: carries out one request after another. */
 
 import * as files from "epipole-lab-files";
 import * as vision from "epipole-lab-vision";
 import type { Branch, Order, Told } from "./crew.js";
 
-/** Whoever started the worker named it for the module that it is to have. */
+/** The crew passes the module to run in the worker's name. */
 const [code, place] =
   (self.name as Branch) === "files" ? ([files, LAB_FILES_WASM] as const) : ([vision, LAB_VISION_WASM] as const);
 const { compute, take_panic } = code;
 const loading = code.default({ module_or_path: new URL(place, import.meta.url) });
 
-/** Thrown out of a computation that nobody wants any more. */
+/** Thrown out of a canceled computation. */
 const STOPPED = new Error("stopped");
 
-/** How often progress is told, milliseconds. */
+/** Minimum interval between progress reports, milliseconds. */
 const TELL_MS = 60;
 
 addEventListener("message", ({ data }: MessageEvent<Order>) => {
   void carryOut(data);
 });
 
-/** Whether whoever ordered the work still wants it; what computes in a worker cannot hear of anything in another way. */
+/** Whether the job is still wanted: its URL is readable. A busy worker receives no messages. */
 function isWanted(address: string): boolean {
   const request = new XMLHttpRequest();
   request.open("GET", address, false);
@@ -40,14 +40,14 @@ async function carryOut({ work, request, wanted }: Order): Promise<void> {
     tell({ work, problem: "the code for this computation could not be loaded; reload the page", broken: true });
     return;
   }
-  // A policy may forbid it; then the end of the worker has to do.
+  // A content security policy may forbid the request; cancellation then relies on terminate().
   const canAsk = isWanted(wanted);
   let last = 0;
   const progress = (share: number, words: string) => {
     const now = performance.now();
     if (now - last < TELL_MS) return;
     last = now;
-    // Nobody uses this module again: its worker is about to end.
+    // Throwing out of the module breaks it, but this worker is about to end.
     if (canAsk && !isWanted(wanted)) throw STOPPED;
     tell({ work, share, words });
   };
@@ -61,13 +61,13 @@ async function carryOut({ work, request, wanted }: Order): Promise<void> {
       close();
       return;
     }
-    // A sentence is an answer; anything else broke the module.
+    // A string is an answer; any other error broke the module.
     if (typeof problem === "string") tell({ work, problem, broken: false });
     else tell({ work, problem: sentence(problem, take_panic()), broken: true });
   }
 }
 
-/** Why a module ended in the middle of its work. Without the message of a panic, its memory could not grow. */
+/** Message for a module that stopped halfway. Without a panic, its memory could not grow. */
 function sentence(problem: unknown, panic: string | undefined): string {
   console.warn(panic ?? problem);
   return panic === undefined

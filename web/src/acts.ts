@@ -1,18 +1,18 @@
-/** What the tree of a figure does to the figure that runs in it. */
+/** Actions that a figure's shell triggers on the running figure. */
 
 import type { Engine } from "./module.js";
 import type { Session } from "./session.js";
 import type { Acts } from "./shell.js";
 
-/** The figure as its tree needs it. */
+/** Access to the running figure. */
 export interface Running {
-  /** The running figure, unless the tree is no longer its tree. */
+  /** The running figure, or undefined if the shell has been replaced. */
   session: () => Session | undefined;
   /** The figure's name. */
   name: () => string;
 }
 
-/** Acts of hand, inputs, computations and photographs; whatever comes without a running figure does nothing. */
+/** Pointer, input, job and photograph actions; without a running figure they do nothing. */
 export function actsOn({ session, name }: Running): Pick<Acts, "send" | "hand" | "jobs" | "takePhoto"> {
   const act = (work: (engine: Engine, width: number) => string | undefined) => {
     const running = session();
@@ -32,7 +32,7 @@ export function actsOn({ session, name }: Running): Pick<Acts, "send" | "hand" |
       remove: (id) => act((engine) => engine.update({ type: "handle-removed", id })),
       click: (x, y) => {
         act((engine, width) => engine.click(width, x, y));
-        // A point that a click has made can be dragged on at once.
+        // Draw at once, so that a point created by a click can be dragged right away.
         session()?.show();
       },
       set: (id, value) => act((engine) => engine.update({ type: "set", id, value })),

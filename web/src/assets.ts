@@ -1,4 +1,4 @@
-/** Where the files are that a figure loads: beside the script, or where a page has put them. */
+/** Addresses of the files that a figure loads: next to the script, or set by the page. */
 
 /** Addresses, each absolute or relative to the page. */
 export interface AssetAddresses {
@@ -6,21 +6,21 @@ export interface AssetAddresses {
   figures?: string | URL;
   /** `epipole-jobs.wasm`, for long computations. */
   jobs?: string | URL;
-  /** `worker.js`, in which they run. */
+  /** `worker.js`, the worker that runs them. */
   worker?: string | URL;
 }
 
 const moved: AssetAddresses = {};
 
 /**
- * Tells where the files of the figures are, for bundlers that do not find `new URL(…, import.meta.url)` by
- * themselves. Call it before the first figure comes into sight.
+ * Sets the addresses of the figures' files, for bundlers that do not resolve
+ * `new URL(…, import.meta.url)`. Call it before the first figure scrolls into view.
  */
 export function setAssets(addresses: AssetAddresses): void {
   Object.assign(moved, addresses);
 }
 
-/** Where a file has been put, if a page has said so. */
+/** Address of a file, if the page has set one. */
 export function movedTo(file: keyof AssetAddresses): URL | undefined {
   const address = moved[file];
   return address === undefined ? undefined : new URL(address, document.baseURI);

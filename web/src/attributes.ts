@@ -1,8 +1,8 @@
-/** Which attributes of an element are parameters of its figure, and what they say. */
+/** Attributes of an element that are parameters of its figure. */
 
 import type { Parameters, Snapshot } from "./contract.js";
 
-/** Attributes that are no parameters: ours, and those that any element may have. */
+/** Attributes that are no parameters: those of the element, and global HTML attributes. */
 const NOT_PARAMETERS =
   /^(name|theme|compact|controls|readouts|goals|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
 
@@ -11,14 +11,14 @@ export function isParameter(name: string): boolean {
   return !NOT_PARAMETERS.test(name);
 }
 
-/** The parameters that the page's author has set. */
+/** The parameters set in the page's markup. */
 export function parametersOf(element: Element): Parameters {
   return [...element.attributes]
     .filter(({ name }) => isParameter(name))
     .map(({ name, value }) => [name, value]);
 }
 
-/** What changed attributes ask for; one that is gone asks for the default. */
+/** New values of changed attributes; a removed attribute takes the default. */
 export function changedParameters(
   element: Element,
   records: MutationRecord[],
@@ -36,8 +36,8 @@ export function changedParameters(
 }
 
 /**
- * A state that holds on top of the attributes: what differs from the defaults, and what the
- * attributes say and the reader has set back to the default.
+ * Complete state, to apply on top of the attributes: values other than the default, and default
+ * values that override an attribute.
  */
 export function wholeState(
   element: Element,
@@ -60,7 +60,7 @@ export function wholeState(
   return [...back, ...state];
 }
 
-/** Parameters as text, as attributes have them. */
+/** Parameters as strings, as in attributes. */
 export function textOf(parameters: Record<string, string | number | boolean>): Parameters {
   return Object.entries(parameters).map(([key, value]) => [key, String(value)]);
 }

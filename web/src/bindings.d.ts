@@ -58,16 +58,16 @@ declare module "epipole-jobs" {
   export default function load(options: { module_or_path: WebAssembly.Module }): Promise<unknown>;
 }
 
-/** Where the WebAssembly module of a page is, relative to the script; the bundler puts it in. */
+/** Address of the page's wasm module relative to the script; set by the bundler. */
 declare const EPIPOLE_WASM: string;
 
-/** Where the WebAssembly module of a worker is, likewise. */
+/** Address of the workers' wasm module, likewise. */
 declare const EPIPOLE_JOBS_WASM: string;
 
-/** Where the worker's script is, likewise. */
+/** Address of the worker script, likewise. */
 declare const EPIPOLE_WORKER: string;
 
-/** The style sheet `figure.css` with all that it imports, in one piece; the bundler puts it in. */
+/** The style sheet `figure.css` with its imports, as one string; set by the bundler. */
 declare module "epipole-look" {
   const text: string;
   export default text;

@@ -1,14 +1,14 @@
-/** Goals for the reader, one at a time, and which are reached. A goal once reached stays reached. */
+/** Goals for the reader, shown one at a time. A goal once reached stays reached. */
 
 import type { Choice } from "./choice.js";
 import type { Challenge, Snapshot } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";
 
-/** What a page may know of a goal. */
+/** A goal as reported to the page. */
 export interface Goal {
   id: string;
   goal: string;
-  /** The reader has reached it, now or before. */
+  /** Whether the reader has reached it, now or on an earlier visit. */
   solved: boolean;
 }
 
@@ -19,7 +19,7 @@ export class Challenges {
   readonly #line = make("div", { class: "goal-line", tabindex: -1 });
   readonly #mark = make("span", { class: "mark" });
   readonly #goal = make("span");
-  /** The hint, or why what the reader did was the answer. */
+  /** The hint; once solved, the explanation. */
   readonly #note = make("p", { class: "note" });
   readonly #hint = make("button", { type: "button", "aria-expanded": "false" }, "Hint");
   readonly #show = make("button", { type: "button" }, "Show how");
@@ -29,7 +29,7 @@ export class Challenges {
   readonly #list = make("ol", { hidden: true });
   #rows: { row: HTMLElement; mark: HTMLElement }[] = [];
   readonly #solved = new Set<string>();
-  /** Met by how the figure began, and ever since: the reader has not reached them. */
+  /** Goals met since the figure started, which the reader has not earned. */
   readonly #given = new Set<string>();
   #known: Challenge[] = [];
   #goals: Choice["goals"] = "one";
@@ -38,7 +38,7 @@ export class Challenges {
   #opened = false;
   #playing: string | undefined;
 
-  /** `show` plays the way to a goal, or ends that. */
+  /** `show` plays the solution of a goal, or stops it. */
   constructor(show: (id: string) => void) {
     const words = make("div", { class: "words" }, make("p", { class: "goal" }, this.#mark, this.#goal), this.#note);
     const acts = make("div", { class: "acts" }, this.#hint, this.#show, this.#back, this.#count, this.#next);
@@ -58,8 +58,8 @@ export class Challenges {
   }
 
   /**
-   * Shows the goals and returns those that have just been reached for the first time: by somebody, if the figure
-   * has been `touched`. While it is `waiting`, it may not know what it meets.
+   * Shows the goals and returns those reached for the first time. They count only if the reader has
+   * `touched` the figure; while it is `waiting` for a computation, goals may not be evaluated yet.
    */
   update(
     { challenges, waiting }: Snapshot,
@@ -79,18 +79,18 @@ export class Challenges {
     return news;
   }
 
-  /** Every goal, and whether it has been reached. */
+  /** All goals, with whether each has been reached. */
   get goals(): Goal[] {
     return this.#known.map(({ id, goal }) => ({ id, goal, solved: this.#solved.has(id) }));
   }
 
-  /** Takes goals for reached: the reader has reached them another time. */
+  /** Marks goals as reached on an earlier visit. */
   recall(ids: string[]): void {
     for (const { id } of this.#known) if (ids.includes(id)) this.#solved.add(id);
     this.#refresh();
   }
 
-  /** Tells which goal is being shown, so that the button ends it. */
+  /** The goal whose solution is playing; its button stops it. */
   set playing(id: string | undefined) {
     this.#playing = id;
     this.#refresh();
@@ -113,7 +113,7 @@ export class Challenges {
       const button = make("button", { type: "button" }, make("span", {}, mark, goal));
       button.addEventListener("click", () => {
         this.#go(index);
-        // The row leaves the list, and the reader goes where it went.
+        // The list closes, so focus moves to the chosen goal.
         this.#line.focus();
       });
       const box = make("span", { class: "box" }, icon(CHECK));
@@ -146,7 +146,7 @@ export class Challenges {
       const { row, mark } = this.#rows[index] ?? {};
       if (!row || !mark) return;
       setAttribute(row, "data-solved", this.#solved.has(id));
-      // The goal at hand stands above the others.
+      // The current goal is shown above the list.
       row.hidden = index === this.#at;
       setText(mark, this.#solved.has(id) ? "Solved: " : "");
     });

@@ -1,4 +1,4 @@
-/** What of a figure its page wants to show: the attributes `controls`, `readouts` and `goals`. */
+/** The page's choice of controls, readouts and goals: attributes of the same names. */
 
 import type { Snapshot } from "./contract.js";
 
@@ -8,14 +8,14 @@ export interface Choice {
   /** Names of the only readouts to show. */
   readouts: string[] | undefined;
   goals: "none" | "one" | "all";
-  /** What `goals` says, if that means nothing. */
+  /** Value of `goals` if it is invalid. */
   odd: string | undefined;
 }
 
-/** The attributes that choose; none of them is a parameter of a figure. */
+/** Attributes for the choice; none is a parameter of a figure. */
 export const CHOOSING = ["controls", "readouts", "goals"] as const;
 
-/** Reads the attributes through `get`, which gives null for one that is not there. */
+/** Reads the attributes with `get`, which returns null for a missing one. */
 export function choiceOf(get: (name: string) => string | null): Choice {
   const goals = get("goals")?.trim() ?? "one";
   const known = goals === "none" || goals === "one" || goals === "all";
@@ -34,8 +34,8 @@ function namesIn(text: string | null): string[] | undefined {
 }
 
 /**
- * A sentence for each kind of name that the figure does not have. Which readouts there are is known once
- * the figure waits for nothing.
+ * One message per kind of unknown name. The readouts are known only when the figure is not waiting
+ * for a computation.
  */
 export function misnamed(choice: Choice, { controls, readouts, waiting }: Snapshot): string[] {
   const shown = controls.filter(({ place }) => place !== "hidden");

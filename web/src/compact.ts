@@ -1,16 +1,16 @@
 /**
- * A figure in no more height than its host gives: picture, main buttons and numbers. The rest lies in a
+ * Compact layout for a fixed height: picture, main buttons and readouts. Everything else is in a
  * drawer that opens over the picture, so that nothing moves.
  */
 
 import { make, setAttribute, setText } from "./dom.js";
 import { shownIn, type Size } from "./room.js";
 
-/** Where the bar with buttons and numbers is. */
+/** Position of the bar with buttons and readouts. */
 type Side = "below" | "beside";
 
 export class Compact {
-  /** What is always there beside the picture. */
+  /** Always visible next to the picture. */
   readonly bar = make("div", { class: "bar later" });
   /** Everything else. */
   readonly drawer = make("div", { class: "drawer", id: "drawer", role: "group", "aria-label": "Settings", hidden: true });
@@ -25,7 +25,7 @@ export class Compact {
     this.#button.addEventListener("click", () => this.open(this.drawer.hidden));
   }
 
-  /** Puts what stays into the bar, and the others into the drawer. */
+  /** Distributes the elements between bar and drawer. */
   take(staying: Element[], others: Element[]): void {
     this.bar.replaceChildren(...staying, this.#button);
     this.drawer.replaceChildren(...others);
@@ -37,7 +37,7 @@ export class Compact {
     setText(this.#button, opened ? "Less" : "More");
   }
 
-  /** Closes the drawer for whoever is in it or has just opened it; says whether that was so. */
+  /** Closes the drawer if focus is in it or on its button. Returns whether it did. */
   leave(focused: Element): boolean {
     if (this.drawer.hidden || !(this.drawer.contains(focused) || focused === this.#button)) return false;
     this.open(false);
@@ -46,14 +46,14 @@ export class Compact {
   }
 
   /**
-   * Puts the bar where it leaves the picture the most room. `picture` is the element that has that room, and
-   * `sizes` are those of the picture for each width that it can be laid out for. Returns the width to use.
+   * Chooses the side of the bar that leaves the most room for the picture. `picture` is the element
+   * that provides the room; `sizes` holds the size of each layout. Returns the layout width to use.
    */
   arrange(root: HTMLElement, picture: HTMLElement, sizes: Size[]): number {
     const ways = (["below", "beside"] as Side[]).map((side) => {
       setAttribute(root, "data-compact", side);
       const { bar } = this;
-      // What does not fit can be scrolled to, but should not have to be.
+      // A cut-off bar can be scrolled, but is much worse.
       const cut = bar.scrollHeight > bar.clientHeight + 1 || bar.scrollWidth > bar.clientWidth + 1;
       const style = getComputedStyle(picture);
       const room = {

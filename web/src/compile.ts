@@ -1,20 +1,20 @@
-/** A WebAssembly module, from the answer of a server; and in words why there is none. */
+/** Compiles a WebAssembly module from a response, and explains failures. */
 
-/** The smallest module that there is. */
+/** The smallest valid module. */
 const EMPTY = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
 
-/** The module came, and is not the one that its page was made for. */
+/** The response is a module of another version. */
 class Misfit extends Error {}
 
 /**
- * Compiles a module while it arrives. `wanted` are functions that it must have: a file that some cache has kept from
- * another version is refused here, before the generated script takes it for its own and keeps it for good.
+ * Compiles a module while it downloads. `wanted` lists its required exports: a stale cached file is
+ * rejected here, before the generated script initializes it (which cannot be undone).
  */
 export async function compile(answer: Promise<Response>, wanted: readonly string[]): Promise<WebAssembly.Module> {
   const response = await answer;
   if (!response.ok) throw new Error(`${response.status} for ${response.url}`);
   const typed = response.headers.get("Content-Type")?.startsWith("application/wasm");
-  // Servers that know no WebAssembly send it as any file; that compiles in one piece.
+  // Some servers lack the MIME type for WebAssembly; compile those responses in one piece.
   const module =
     typed && "compileStreaming" in WebAssembly
       ? await WebAssembly.compileStreaming(response)
@@ -25,7 +25,7 @@ export async function compile(answer: Promise<Response>, wanted: readonly string
   return module;
 }
 
-/** Whether browser and page allow WebAssembly at all. */
+/** Whether browser and page allow WebAssembly. */
 function isAllowed(): boolean {
   try {
     return new WebAssembly.Module(EMPTY) instanceof WebAssembly.Module;
@@ -34,7 +34,9 @@ function isAllowed(): boolean {
   }
 }
 
-/** Why `what` is not there, a sentence without its end: what a reader can do something about is told apart. */
+/**
+ * Reason why `what` is missing, without final period; distinguishes causes that the reader can fix.
+ */
 export function whyMissing(problem: unknown, what: string): string {
   if (!isAllowed()) return `${what} needs WebAssembly, which this browser or this page does not allow`;
   if (problem instanceof Misfit || problem instanceof WebAssembly.LinkError) {

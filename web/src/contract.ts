@@ -1,6 +1,6 @@
-/** What a figure says of itself: the plain data of `epipole-widgets`, as it arrives here. */
+/** Data that figures exchange with the page, as serialized by `epipole-widgets`. */
 
-/** A number that the reader slides. */
+/** A numeric control. */
 export interface Slider {
   kind: "slider";
   unit: string;
@@ -12,14 +12,14 @@ export interface Slider {
   value: number;
 }
 
-/** Something that is on or off. */
+/** An on/off control. */
 export interface Toggle {
   kind: "toggle";
   default: boolean;
   value: boolean;
 }
 
-/** One of a few named options. */
+/** A choice between a few options. */
 export interface Choice {
   kind: "choice";
   /** Permanent name and label of each option. */
@@ -28,23 +28,23 @@ export interface Choice {
   value: string;
 }
 
-/** Something that happens when pressed. */
+/** A button that triggers an action. */
 export interface Button {
   kind: "button";
   role: "run" | "step" | "restart" | "action";
-  /** True while the animation that it starts is running. */
+  /** True while its animation is running. */
   pressed: boolean;
 }
 
-/** A control with its present value. */
+/** A control with its current value. */
 export type Control = {
   id: string;
   label: string;
-  /** The value in words, such as "0.30 m". */
+  /** The value as text, such as "0.30 m". */
   value_text: string;
-  /** False when it can do nothing now. */
+  /** False if it has no effect at present. */
   enabled: boolean;
-  /** Always there, folded with what a reader seldom wants, or part of the permalink only. */
+  /** Always visible, folded with rarely used controls, or part of the permalink only. */
   place: "first" | "more" | "hidden";
 } & (Slider | Toggle | Choice | Button);
 
@@ -61,19 +61,19 @@ export interface Handle {
   step: [number, number];
   digits: number;
   removable: boolean;
-  /** Where it is in the picture, CSS pixels of the layout. */
+  /** Position in the picture, CSS pixels of the layout. */
   place: [number, number];
 }
 
-/** A number or words beside the picture. */
+/** A number or text beside the picture. */
 export interface Readout {
   id: string;
   label: string;
   value: number | string;
   unit: string;
-  /** The value as shown, with its unit. */
+  /** The value as displayed, with its unit. */
   text: string;
-  /** Whether it carries the figure's point: then it is large and always there. The others fold. */
+  /** Whether it is displayed large and always visible; the others are folded. */
   main: boolean;
 }
 
@@ -82,25 +82,25 @@ export interface Challenge {
   id: string;
   goal: string;
   hint: string;
-  /** Why that reaches it, in one sentence. */
+  /** Why the solution works, in one sentence. */
   why: string;
   solved: boolean;
 }
 
-/** A place for a photograph of the reader's own. */
+/** An input for a reader's photograph. */
 export interface PhotoSlot {
   id: string;
   label: string;
-  /** Larger photographs are made smaller. */
+  /** Longer side in pixels to which larger photographs are downscaled. */
   max_side_px: number;
 }
 
-/** What can be saved besides the picture. */
+/** A file to save besides the picture. */
 export interface FileOffer {
   label: string;
   hint: string;
   extension: string;
-  /** Whether there is something to save already. */
+  /** Whether the file can be saved already. */
   is_ready: boolean;
 }
 
@@ -111,27 +111,29 @@ export interface Panel {
   clickable: boolean;
 }
 
-/** A panel that shows things in three dimensions. */
+/** A panel that shows a 3D scene. */
 export interface Space {
   panel: string;
-  /** The handle that turns them; a drag from anywhere in the panel moves it. */
+  /** The handle that rotates the scene; a drag anywhere in the panel moves it. */
   orbit: string;
-  /** The handle that moves them across the panel; a drag with Shift, or two fingers. */
+  /** The handle that pans the scene; dragged with Shift or two fingers. */
   pan: string;
-  /** The slider that enlarges them; the wheel with Ctrl, or two fingers spread. */
+  /** The slider that zooms; Ctrl and the wheel, or pinching. */
   zoom: string;
 }
 
-/** A letter of the book that the picture shows: a point, or a line between two. CSS pixels of the layout. */
+/** A symbol of the text in the picture: a point or a line segment. CSS pixels of the layout. */
 export interface PlacedSymbol {
   name: string;
   from: [number, number];
   to: [number, number] | null;
 }
 
-/** Everything that a page shows, for one width of the picture. */
+/** Everything that the page shows, for one layout width. */
 export interface Snapshot {
-  /** The picture's: broad ones take the whole width, beside tall ones stands what the reader moves. */
+  /**
+   * Shape of the picture: broad ones take the full width, tall ones have the controls beside them.
+   */
   aspect: "broad" | "tall";
   layout: { width: number; height: number; panels: Panel[] };
   controls: Control[];
@@ -144,31 +146,31 @@ export interface Snapshot {
   running: boolean;
   photos: PhotoSlot[];
   file: FileOffer | null;
-  /** What to say while the figure waits for a long computation. */
+  /** Message while the figure waits for a long computation. */
   waiting: string | null;
 }
 
-/** What the reader does. */
+/** An action of the reader. */
 export type FigureEvent =
   | { type: "set"; id: string; value: string | number | boolean }
   | { type: "press"; id: string }
   | { type: "handle-removed"; id: string }
   | { type: "reset" };
 
-/** What the proven solution of a challenge consists of. Places are in the world units of panels. */
+/** Step of the verified solution of a challenge. Positions are in the world units of panels. */
 export type SolutionEvent =
   | FigureEvent
   | { type: "handle-moved"; id: string; x: number; y: number }
   | { type: "clicked"; panel: string; x: number; y: number }
   | { type: "tick"; dt_s: number };
 
-/** Where an arrow key points. */
+/** Direction of an arrow key. */
 export type Direction = "left" | "right" | "up" | "down";
 
-/** Parameters in their order, as in a permalink. */
+/** Parameters in permalink order. */
 export type Parameters = [key: string, value: string][];
 
-/** A parameter that could not be used. */
+/** A rejected parameter. */
 export interface Refused {
   /** True if the figure has no such parameter. */
   unknown: boolean;

@@ -5,18 +5,18 @@ import { fold, make, setAttribute, setText } from "./dom.js";
 
 type Send = (event: FigureEvent) => void;
 
-/** Options with more letters than that take the room of two inputs. */
+/** Choices whose options have more characters take the width of two inputs. */
 const BROAD_OPTIONS = 18;
 
-/** One control on the page: its element, and how to bring it up to date. */
+/** A control on the page: its element, and the function that updates it. */
 interface Row {
   element: HTMLElement;
   update: (control: Control) => void;
 }
 
 /**
- * The controls of one figure, in the figure's order and in three places: buttons for under the
- * picture, inputs that are always there, and what folds.
+ * The controls of one figure in the figure's order: buttons below the picture, inputs that are
+ * always visible, and folded inputs.
  */
 export class Controls {
   readonly inputs = make("div", { class: "inputs" });
@@ -32,7 +32,7 @@ export class Controls {
     this.#hideEmpty();
   }
 
-  /** Shows the controls; where `only` names some, no others, and none of them folded. */
+  /** Shows the controls; if `only` is given, just those, with none folded. */
   update(controls: Control[], only: string[] | undefined): void {
     for (const control of controls) {
       if (control.place === "hidden" || (only && !only.includes(control.id))) continue;
@@ -50,7 +50,7 @@ export class Controls {
     this.#hideEmpty();
   }
 
-  /** Shows the values that a stand-in shows, until the next update. */
+  /** Shows a stand-in's values until the next update. */
   borrow(tree: ParentNode): void {
     for (const output of tree.querySelectorAll("output")) {
       const shown = this.#rows.get(output.htmlFor.value.replace("control-", ""))?.element.querySelector("output");
@@ -58,17 +58,17 @@ export class Controls {
     }
   }
 
-  /** Takes everything away; the next update starts anew. */
+  /** Removes all controls; the next update creates them again. */
   clear(): void {
     for (const { element } of this.#rows.values()) {
-      // Chromium keeps what leaves a group of radio buttons, and with it everything around it.
+      // Chromium leaks radio buttons that are removed while in a group, and everything around them.
       for (const radio of element.querySelectorAll("input[type=radio]")) radio.removeAttribute("name");
     }
     this.#rows = new Map();
     for (const group of [this.inputs, this.buttons, this.#rest]) group.replaceChildren();
   }
 
-  /** What stands for a control on the page. */
+  /** The element of a control. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#rows.get(id)?.element;
   }
@@ -93,7 +93,7 @@ function makeRow(control: Control, send: Send): Row {
   }
 }
 
-/** A disabled control stays where it is and can be found; it only does nothing. */
+/** Marks a control as disabled; it keeps its place and stays focusable. */
 function setEnabled(element: Element, control: Control): void {
   setAttribute(element, "aria-disabled", control.enabled ? undefined : "true");
 }
@@ -121,7 +121,7 @@ function sliderRow(control: Control & Slider, send: Send): Row {
       if (now.kind !== "slider") return;
       shown = now;
       const value = now.value.toFixed(now.digits);
-      // First: a browser cuts a value at the range that there is.
+      // Set the range first: browsers clamp the value to it.
       if (Number(input.max) !== now.max) input.max = String(now.max);
       if (Number(input.value) !== now.value) input.value = value;
       const share = (now.value - now.min) / (now.max - now.min || 1);
@@ -218,7 +218,7 @@ function buttonRow(control: Control & Button, send: Send): Row {
     update(now) {
       if (now.kind !== "button") return;
       shown = now;
-      // The label says what the next press does, so it is no pressed state on top.
+      // The label names the next action, so there is no pressed state in addition.
       setText(element, now.role === "run" && now.pressed ? "Pause" : now.label);
       setAttribute(element, "data-running", now.pressed);
       setEnabled(element, now);

@@ -1,4 +1,4 @@
-/** Making elements in one expression. */
+/** Creates elements in one expression. */
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
@@ -14,7 +14,7 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Sets or removes an attribute, only if that changes something: readers hear what is set. */
+/** Sets or removes an attribute only if that changes it, as screen readers announce changes. */
 export function setAttribute(
   element: Element,
   name: string,
@@ -33,19 +33,19 @@ export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** Something folded away under a few words. */
+/** A collapsed section with a summary. */
 export function fold(words: string, kind: string): HTMLDetailsElement {
   return make("details", { class: `fold ${kind}` }, make("summary", {}, words));
 }
 
-/** A sentence with its first letter a capital. */
+/** The sentence with a capital first letter. */
 export function capitalize(sentence: string): string {
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
 }
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A small line drawing, 20 by 20, made of paths. */
+/** A line icon of 20 × 20, made of paths. */
 export function icon(...paths: string[]): SVGElement {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "0 0 20 20");

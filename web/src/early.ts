@@ -1,7 +1,7 @@
 /**
- * For the head of a page that brings the trees of its figures along, as a script that the page waits
- * for: gives them their look before anything is painted. Their own `<link>` may come too late for
- * that, and would then move what is below them; it serves readers without script.
+ * Blocking script for the head of a page with prerendered figures: applies their style sheet before
+ * the first paint. Their own `<link>` may load too late and shift the content below; it is for
+ * readers without JavaScript.
  */
 
 import { sheet } from "./sheet.js";
@@ -12,7 +12,7 @@ function dress(): void {
   }
 }
 
-// Its callback runs before the page is painted with what has just come.
+// The observer's callback runs before the new elements are painted.
 const coming = new MutationObserver(dress);
 coming.observe(document.documentElement, { childList: true, subtree: true });
 document.addEventListener("DOMContentLoaded", () => {

@@ -1,4 +1,6 @@
-/** What figures ask of a photograph's file: the focal length that its camera noted, and whether the file is whole. */
+/**
+ * Metadata of a photograph's file: the focal length from Exif, and whether the file is complete.
+ */
 
 /** JPEG markers: start of the image, application data, start of the scan, end of the image. */
 const [START, APP1, SCAN, END] = [0xffd8, 0xffe1, 0xffda, 0xffd9];
@@ -6,13 +8,13 @@ const [START, APP1, SCAN, END] = [0xffd8, 0xffe1, 0xffda, 0xffd9];
 const EXIF = 0x45786966;
 const EXIF_DIRECTORY = 0x8769;
 const FOCAL_LENGTH_IN_35MM_FILM = 0xa405;
-/** Where the block is, it is near the beginning. */
+/** The Exif block, if any, is near the beginning of the file. */
 export const HEAD_BYTES = 256 * 1024;
 /** The diagonal of a frame of 36 mm × 24 mm. */
 const FULL_FRAME_DIAGONAL = Math.hypot(36, 24);
 
 /**
- * The focal length in units of the photograph's longer side; undefined if the file does not tell.
+ * Focal length in units of the photograph's longer side; undefined if the file has none.
  *
  * The 35 mm equivalent compares diagonals (CIPA DCG-001).
  */
@@ -21,22 +23,22 @@ export function focalOf(head: ArrayBuffer, width: number, height: number): numbe
   try {
     equivalent = equivalentIn(new DataView(head));
   } catch {
-    // A file that ends in the middle of what it announces.
+    // Truncated Exif block.
   }
   if (!equivalent) return undefined;
   return (equivalent * Math.hypot(width, height)) / (FULL_FRAME_DIAGONAL * Math.max(width, height));
 }
 
 /**
- * Whether a JPEG file ends before its picture does. Some browsers show what there is of it and gray below, others nothing.
- * What cameras write behind the end does not matter, nor the small picture in the head.
+ * Whether a JPEG file ends before its image does; browsers show such a file half gray, or not at
+ * all. Ignores trailing data that cameras append, and the thumbnail in the header.
  */
 export function isCutOff(bytes: ArrayBuffer): boolean {
   const file = new DataView(bytes);
   if (file.byteLength < 4 || file.getUint16(0) !== START) return false;
   let at = 2;
   while (at + 4 <= file.byteLength && file.getUint16(at) !== SCAN) {
-    // A head of another kind is left to the browser.
+    // Leave unknown headers to the browser.
     if (file.getUint16(at) < 0xff00 || file.getUint16(at + 2) < 2) return false;
     at += 2 + file.getUint16(at + 2);
   }
@@ -56,7 +58,7 @@ function equivalentIn(file: DataView): number | undefined {
   return undefined;
 }
 
-/** Reads a block in the manner of TIFF: directories of tags, in either order of bytes. */
+/** Reads a TIFF block: directories of tags, in either byte order. */
 function inBlock(file: DataView, start: number): number | undefined {
   const little = file.getUint16(start) === 0x4949;
   const find = (directory: number, wanted: number): number | undefined => {

@@ -1,4 +1,4 @@
-/** Defines `<epipole-figure>`; importing this module is all that a page does. */
+/** Defines `<epipole-figure>`; a page only needs to import this module. */
 
 import { EpipoleFigure } from "./element.js";
 import { connect } from "./messages.js";
@@ -11,7 +11,7 @@ export type { Goal } from "./challenges.js";
 export type { Saved } from "./saved.js";
 export type * from "./contract.js";
 
-/** What the events of a figure carry. */
+/** Events of a figure and their details. */
 export interface EpipoleEvents {
   /** The first frame is drawn. */
   "epipole-ready": CustomEvent<{
@@ -19,15 +19,15 @@ export interface EpipoleEvents {
     state: Record<string, string>;
     readouts: Record<string, number | string>;
   }>;
-  /** The state has changed; the detail is all that differs from the defaults. */
+  /** The state has changed; the detail has all values other than the default. */
   "epipole-change": CustomEvent<Record<string, string>>;
-  /** A readout has changed; the detail is all of them. */
+  /** A readout has changed; the detail has all readouts. */
   "epipole-readout": CustomEvent<Record<string, number | string>>;
   /** The reader has reached a goal for the first time. */
   "epipole-challenge": CustomEvent<{ id: string; goal: string }>;
   /** The figure has been reset. */
   "epipole-reset": CustomEvent<Record<string, never>>;
-  /** The reader has given it a photograph, or it has let go of them. */
+  /** The reader has added a photograph, or the figure has dropped its photographs. */
   "epipole-photographs": CustomEvent;
   /** The figure has stopped; Reset starts it again. */
   "epipole-error": CustomEvent<{ message: string }>;
@@ -40,7 +40,9 @@ declare global {
   interface HTMLElementEventMap extends EpipoleEvents {}
 }
 
-/** In a frame: connects the figure that the page is for. A page with more of them connects those that it means. */
+/**
+ * In an iframe: connects the page's only figure. A page with several connects those that it wants.
+ */
 function connectAlone(): void {
   const [figure, another] = document.querySelectorAll("epipole-figure");
   if (figure instanceof EpipoleFigure && !another) connect(figure);

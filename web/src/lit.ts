@@ -1,9 +1,9 @@
-/** A letter of the prose, lit up in the picture: a ring around a point, or a broad line. */
+/** Highlight of a symbol of the text in the picture: a ring around a point, or a broad line. */
 
 import type { PlacedSymbol, Snapshot } from "./contract.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-/** How large the ring is, CSS pixels of the layout. */
+/** Radius of the ring, CSS pixels of the layout. */
 const RADIUS = 15;
 
 export class Lit {
@@ -16,7 +16,7 @@ export class Lit {
     this.element.setAttribute("aria-hidden", "true");
   }
 
-  /** Lights this letter up, and no other; says whether the picture has it. */
+  /** Highlights the symbol of this name only. Returns whether the picture has it. */
   show(name: string | undefined, snapshot: Snapshot | undefined): boolean {
     this.#name = name;
     const found = snapshot?.symbols.filter((symbol) => symbol.name === name) ?? [];
@@ -24,7 +24,7 @@ export class Lit {
     return found.length > 0;
   }
 
-  /** Follows the picture. */
+  /** Follows changes of the picture. */
   update(snapshot: Snapshot): void {
     if (this.#name !== undefined) this.show(this.#name, snapshot);
   }
@@ -34,7 +34,7 @@ export class Lit {
     if (state === this.#drawn) return;
     this.#drawn = state;
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    // Twice each: a light casing, and the color of the letter.
+    // Each shape is drawn twice: a light casing, then the color of the symbol.
     const shapes = symbols.flatMap((symbol) => ["casing", "color"].map((layer) => shape(symbol, layer)));
     this.element.replaceChildren(...shapes);
   }

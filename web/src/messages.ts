@@ -1,36 +1,36 @@
 /**
- * What a figure in a frame and the page around it say to each other: how high the figure is (LTI), what the reader
- * has reached, and the state to come back to (SPLICE, Perseus). Only the page right around the frame is heard.
+ * Messages between a figure in an iframe and its host page: height (LTI), score and saved state
+ * (SPLICE, Perseus). Only messages of the direct parent are accepted.
  */
 
 import type { EpipoleFigure } from "./element.js";
 import { readSaved, type Saved } from "./saved.js";
 
 export interface Connection {
-  /** What learning records call this figure; the address of its page, unless said otherwise. */
+  /** Identifier of this figure in learning records [default: the address of its page]. */
   activity?: string;
 }
 
-/** Smaller changes of height are not worth a message, CSS pixels. */
+/** Minimum change of height to report, CSS pixels. */
 const HEIGHT_STEP = 2;
-/** A height that keeps changing is told once it stays, milliseconds. */
+/** Time for which a height must be stable to be reported, milliseconds. */
 const HEIGHT_REST_MS = 150;
-/** The reader rests: the state is worth keeping, milliseconds. */
+/** Time without input after which the state is reported, milliseconds. */
 const REST_MS = 1000;
-/** How often a state without a new goal is reported at most, milliseconds. */
+/** Minimum interval between reports without a new goal, milliseconds. */
 const REPORT_MS = 30_000;
 
 const connected = new WeakMap<EpipoleFigure, () => void>();
 let count = 0;
 
-/** Unlike `crypto.randomUUID`, this is there on pages without encryption, too. */
+/** A unique id. `crypto.randomUUID` is missing on pages served without https. */
 function messageId(): string {
   count += 1;
   return `epipole-${Date.now().toString(36)}-${Math.random().toString(36).slice(2)}-${count}`;
 }
 
 function post(message: unknown): void {
-  // Who is around the frame is not known, and nothing that is said is secret.
+  // The origin of the parent is unknown, and the messages contain nothing private.
   parent.postMessage(message, "*");
 }
 
@@ -41,8 +41,8 @@ function tell(subject: string, more: object): string {
 }
 
 /**
- * Lets a figure talk to the page around its frame; outside of frames this does nothing. A figure that is alone on
- * a page in a frame is connected by itself. Returns how to end it.
+ * Connects a figure to the page around its iframe; does nothing outside of iframes. A figure alone
+ * on the page in an iframe is connected automatically. Returns a function that disconnects it.
  */
 export function connect(figure: EpipoleFigure, { activity }: Connection = {}): () => void {
   if (parent === window) return () => {};
@@ -63,7 +63,7 @@ function addressOf(figure: EpipoleFigure): string {
 
 /** State, scores and events. */
 function talk(figure: EpipoleFigure, activity_id: string): () => void {
-  /** The question whose answer is still welcome. */
+  /** Message id of the state request that is still open. */
   let asked: string | undefined;
   let touched = false;
   let unreported = false;
@@ -97,7 +97,7 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
     if (message?.["subject"] !== "SPLICE.getState.response") return;
     if (asked === undefined || message["message_id"] !== asked) return;
     asked = undefined;
-    // A page that keeps no states says so, or says nothing.
+    // Hosts without stored state answer with an error or not at all.
     if (message["error"] != null || !figure.isConnected || touched) return;
     const saved = readSaved(message["state"], figure.getAttribute("name") ?? "");
     if (typeof saved === "string") void figure.whenReady().then(() => figure.warn(saved));
@@ -105,11 +105,11 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
   };
   const restore = async ({ state, solved }: Saved) => {
     await figure.whenReady();
-    // The reader may have been faster.
+    // The reader may have started meanwhile.
     if (touched) return;
     await figure.restore(state, { solved });
     figure.flush();
-    // What the page has just told need not be told to the page.
+    // The restored state came from the host and need not be reported.
     clearTimeout(rest);
     unreported = false;
   };
@@ -150,7 +150,7 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
   };
 }
 
-/** A message as an object, whether it came as one or as text. */
+/** A message as an object; it may arrive as JSON text. */
 function recordOf(data: unknown): Record<string, unknown> | undefined {
   let value = data;
   if (typeof data === "string") {
@@ -163,20 +163,23 @@ function recordOf(data: unknown): Record<string, unknown> | undefined {
   return typeof value === "object" && value !== null ? (value as Record<string, unknown>) : undefined;
 }
 
-/** Tells how high the page is, so that the frame can be as high. A compact figure takes the height that it gets. */
+/**
+ * Reports the page's height, for the host to fit the iframe. Compact figures fit the iframe
+ * instead.
+ */
 function watchHeight(figure: EpipoleFigure): () => void {
   let told = 0;
   let rest: ReturnType<typeof setTimeout> | undefined;
   const measure = () => {
     const { body } = document;
     const { bottom } = body.getBoundingClientRect();
-    // Not that of the document, which is never lower than the frame.
+    // Not the document's height, which is never less than the iframe's.
     const height = Math.ceil(bottom + scrollY + parseFloat(getComputedStyle(body).marginBottom));
     if (figure.compact || Math.abs(height - told) < HEIGHT_STEP) return;
     told = height;
     const message = { subject: "lti.frameResize", message_id: messageId(), height };
     post(message);
-    // Some hosts hear text alone.
+    // Some hosts accept only text.
     post(JSON.stringify(message));
   };
   const later = () => {

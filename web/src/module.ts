@@ -1,4 +1,4 @@
-/** The one WebAssembly module of a page: loaded when the first figure wants it. */
+/** The page's WebAssembly module, loaded for the first figure that needs it. */
 
 import load, { Figure, figures, take_panic } from "epipole-web";
 import { movedTo } from "./assets.js";
@@ -14,7 +14,7 @@ import type { Photo } from "./photos.js";
 
 type Loaded = { memory: WebAssembly.Memory };
 
-/** What the module must export for this script: a class's methods go by its name. */
+/** Exports that this script requires; a class's methods are prefixed with its name. */
 const WANTED = [
   "figures",
   "take_panic",
@@ -23,14 +23,14 @@ const WANTED = [
     .map((name) => `figure_${name}`),
 ];
 
-/** A request that takes longer is slow enough to say so, milliseconds. */
+/** Time until loading is reported as slow, milliseconds. */
 const SLOW_MS = 15_000;
 
-/** Loads the module, once for all figures of the page; of several attempts the last one counts. */
+/** Loads the module once for all figures of the page; the latest attempt wins. */
 const loader = {
   loading: undefined as Promise<Loaded> | undefined,
   attempt: 0,
-  /** Settled once the newest attempt has ended, one way or the other. */
+  /** Resolves when the latest attempt has ended, successful or not. */
   ended: Promise.resolve(),
   abort: new AbortController(),
   settle: undefined as { done: (loaded: Loaded) => void; failed: (why: unknown) => void } | undefined,
@@ -47,7 +47,7 @@ const loader = {
   async try(): Promise<void> {
     const attempt = ++this.attempt;
     this.abort.abort();
-    // The generated script joins an attempt to one that is under way.
+    // The generated script would join a new attempt to one that is still running.
     await this.ended;
     if (attempt !== this.attempt) return;
     this.abort = new AbortController();
@@ -55,7 +55,7 @@ const loader = {
       for (const tell of this.slow) tell();
     }, SLOW_MS);
     const { signal } = this.abort;
-    // What a cache has of it did not help the last time.
+    // Bypass the cache on a retry: its copy failed before.
     const cache = attempt > 1 ? "reload" : "default";
     const answer = fetch(movedTo("figures") ?? new URL(EPIPOLE_WASM, import.meta.url), { signal, cache });
     this.ended = compile(answer, WANTED)
@@ -73,8 +73,8 @@ const loader = {
 };
 
 /**
- * Loads the module, or waits for it; `slow` is called if that takes long. A failed load may be tried
- * again by another call, a slow one by `hurryModule`.
+ * Loads the module or waits for it; calls `slow` if that takes long. To retry, call it again after
+ * a failure, or `hurryModule` while it is slow.
  */
 export async function loadModule(slow: () => void = () => {}): Promise<Loaded> {
   loader.slow.add(slow);
@@ -85,28 +85,28 @@ export async function loadModule(slow: () => void = () => {}): Promise<Loaded> {
   }
 }
 
-/** Asks for the module anew, in place of a request that does not end. */
+/** Requests the module again, replacing a request that hangs. */
 export function hurryModule(): void {
   if (loader.loading) void loader.try();
 }
 
-/** Every figure of the module with its title and what a reader can do with it. */
+/** Lists the figures of the module, with title and help text. */
 export async function listFigures(): Promise<{ name: string; title: string; help: string }[]> {
   await loadModule();
   return JSON.parse(figures());
 }
 
-/** What the last panic said. */
+/** Message of the last panic. */
 export function panicMessage(): string | undefined {
   return take_panic();
 }
 
-/** A figure in some state, typed. Whatever a method throws is a panic of the module. */
+/** Typed wrapper of a figure. An exception from any method is a panic of the module. */
 export class Engine {
   readonly #figure: Figure;
   readonly #memory: WebAssembly.Memory;
 
-  /** Throws a sentence if there is no such figure. */
+  /** Throws a string if there is no figure of this name. */
   constructor(name: string, memory: WebAssembly.Memory) {
     this.#figure = new Figure(name);
     this.#memory = memory;
@@ -193,12 +193,12 @@ export class Engine {
     return refused;
   }
 
-  /** What can be saved besides the picture: a copy, which outlives the module's memory. */
+  /** The file to save besides the picture, copied out of the module's memory. */
   file(): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.#figure.file());
   }
 
-  /** The long computation that the figure waits for. */
+  /** The long computation that the figure waits for, if any. */
   job(): { key: string; request: () => Uint8Array } | undefined {
     const key = this.#figure.job_key();
     return key === undefined ? undefined : { key, request: () => this.#figure.job_request() };
@@ -212,12 +212,12 @@ export class Engine {
     return this.#figure.job_failed(key, sentence);
   }
 
-  /** Gives the figure's memory back; nothing may be asked of it any more. */
+  /** Frees the figure's memory. It must not be used afterwards. */
   free(): void {
     try {
       this.#figure.free();
     } catch {
-      // A figure that has panicked still counts as busy.
+      // After a panic, the figure counts as borrowed forever.
     }
   }
 
@@ -229,7 +229,7 @@ export class Engine {
     return this.#figure.refine();
   }
 
-  /** Draws a frame onto a canvas, which takes the frame's size. Returns a sentence on failure. */
+  /** Draws a frame onto a canvas, resized to fit. Returns a message on failure. */
   draw(
     canvas: HTMLCanvasElement,
     width: number,
@@ -243,7 +243,7 @@ export class Engine {
       : figure.draw(width, scale, theme);
     if (refused !== undefined) return refused;
     const [columns, rows] = [figure.pixel_width(), figure.pixel_height()];
-    // A view of the module's memory: the only copy is the one that the canvas makes.
+    // A view of the module's memory; putImageData makes the only copy.
     const bytes = new Uint8ClampedArray(
       this.#memory.buffer as ArrayBuffer,
       figure.pixels(),

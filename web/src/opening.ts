@@ -1,4 +1,4 @@
-/** The state that a figure opens with: what attributes, the page's address and early properties ask for. */
+/** Initial state of a figure: attributes, the page's address, and properties set early. */
 
 import { parametersOf } from "./attributes.js";
 import type { Refused, Snapshot } from "./contract.js";
@@ -7,20 +7,20 @@ import { parametersIn } from "./permalink.js";
 import { defineProperties, type Host } from "./properties.js";
 
 export interface Opened {
-  /** The figure as it would be laid out in `width`. */
+  /** Snapshot for the layout width. */
   first: Snapshot;
-  /** What could not be used. */
+  /** Rejected parameters. */
   problems: Refused[];
-  /** The page's address speaks of this figure. */
+  /** Whether the page's address has parameters of this figure. */
   linked: boolean;
 }
 
-/** Brings a new engine into that state; the address counts if `withAddress` says so. */
+/** Applies the initial state to a new engine; `withAddress` includes the page's address. */
 export function openState(engine: Engine, host: Host, width: number, withAddress: boolean): Opened {
   const problems = engine.apply(parametersOf(host));
   const { own, loose } = parametersIn(withAddress ? location.search : "", host);
   problems.push(...engine.apply(own));
-  // Without a key, what the figure does not know is someone else's.
+  // Unknown parameters without a key belong to the page.
   const others = engine.apply(loose);
   problems.push(...others.filter(({ unknown }) => !unknown));
   const linked = own.length + loose.length > others.filter(({ unknown }) => unknown).length;

@@ -1,10 +1,10 @@
 /**
- * A figure's state in the page's address.
+ * State of a figure in the page's address.
  *
- * `?fig-race.outliers=0.4&fig-race.seed=7#fig-race`: each parameter carries the key of its figure,
- * which is the `id` of the element or of the `<figure>` around it, else the figure's name (with
- * `-2`, `-3`, … for further ones of that name). On a page with a single figure the key may be left
- * out; what the figure does not know there belongs to the page and is passed over.
+ * `?fig-race.outliers=0.4&fig-race.seed=7#fig-race`: each parameter is prefixed with its figure's
+ * key, which is the `id` of the element or of the `<figure>` around it, else the figure's name
+ * (with `-2`, `-3`, … for repeated figures). With a single figure on the page, the key may be
+ * omitted; unknown parameters without a key belong to the page and are ignored.
  */
 
 import type { Parameters } from "./contract.js";
@@ -50,7 +50,7 @@ export function parametersIn(
   };
 }
 
-/** The page's address with a figure's state in place of the one that it holds. */
+/** The page's address with a figure's state, replacing the state in it. */
 export function linkTo(
   element: HTMLElement,
   state: Parameters,
@@ -73,7 +73,7 @@ export function linkTo(
   );
 }
 
-/** As `encodeURIComponent`, but a place stays readable: `1.5,2`. */
+/** As `encodeURIComponent`, but keeps positions such as `1.5,2` readable. */
 function encode(text: string): string {
   return encodeURIComponent(text).replace(/%2C/g, ",");
 }

@@ -1,6 +1,6 @@
 /**
- * Photographs of the reader's own: chosen, dropped or taken, decoded and made smaller here; they go
- * nowhere else.
+ * The reader's own photographs: chosen, dropped or taken with the camera, decoded and downscaled on
+ * this device. They are never uploaded.
  */
 
 import type { PhotoSlot } from "./contract.js";
@@ -12,16 +12,16 @@ export interface Photo {
   width: number;
   height: number;
   rgba: Uint8Array;
-  /** Focal length in units of the longer side, if the file tells. */
+  /** Focal length in units of the longer side, if the file has one. */
   focal?: number | undefined;
 }
 
-/** What becomes of photographs. */
+/** Callbacks for photographs. */
 export interface PhotoHooks {
-  /** Hands one to the figure; a sentence if it is refused. */
+  /** Passes one to the figure. Returns a message if it is rejected. */
   take: (slot: string, photo: Photo) => string | undefined;
   warn: (sentence: string) => void;
-  /** There is something to be seen beside the inputs. */
+  /** The inputs have a note to show. */
   noted: () => void;
 }
 
@@ -29,9 +29,9 @@ interface Row {
   slot: PhotoSlot;
   row: HTMLElement;
   note: HTMLElement;
-  /** How many photographs have been chosen: only the last one counts. */
+  /** Number of photographs chosen so far; results of all but the last are discarded. */
   chosen: number;
-  /** The photograph that the figure has, as it was given. */
+  /** The original file of the photograph in the figure. */
   file?: File | undefined;
 }
 
@@ -51,7 +51,7 @@ export class Photos {
     return this.#rows.length > 0;
   }
 
-  /** The photographs that the figure has, as the reader gave them, in the order of its slots. */
+  /** Original files of the figure's photographs, in the order of its slots. */
   get files(): File[] {
     return this.#rows.flatMap(({ file }) => file ?? []);
   }
@@ -64,7 +64,7 @@ export class Photos {
     this.element.replaceChildren(...this.#rows.map(({ row }) => row));
   }
 
-  /** Files may be dropped anywhere on `target`: onto a slot's row for that slot, else for the first. */
+  /** Accepts files dropped on `target`: on a slot's row for that slot, elsewhere for the first. */
   listen(target: HTMLElement): void {
     target.addEventListener("dragover", (event) => {
       if (this.#rows.length === 0 || !event.dataTransfer?.types.includes("Files")) return;
@@ -81,7 +81,7 @@ export class Photos {
     });
   }
 
-  /** The figure has none of them any more, and wants none that is still being read. */
+  /** Drops all photographs, and discards those still being read. */
   forget(): void {
     const had = this.files.length > 0;
     for (const row of this.#rows) {
@@ -92,7 +92,7 @@ export class Photos {
     if (had) this.#tell();
   }
 
-  /** The page may do something with the files, as hand them to the Lab. */
+  /** Notifies the page, which may pass the files to the Lab. */
   #tell(): void {
     this.element.dispatchEvent(new CustomEvent("epipole-photographs", { bubbles: true, composed: true }));
   }
@@ -106,7 +106,7 @@ export class Photos {
       input.addEventListener("change", () => {
         const file = input.files?.[0];
         if (file) void this.#read(row, file);
-        // The same photograph may be chosen again.
+        // Reset, so that choosing the same file again triggers an event.
         input.value = "";
       });
       const label = make("label", { for: id }, kind === "camera" ? "Take one now" : slot.label);
@@ -134,7 +134,7 @@ export class Photos {
     }
     const head = await file.slice(0, HEAD_BYTES).arrayBuffer();
     const [few, low] = smaller(bitmap, slot.max_side_px);
-    // A large photograph takes longer than a small one that was chosen after it.
+    // A smaller photograph, chosen later, may be finished first.
     const rgba = await reduced(bitmap, few, low, () => turn === row.chosen).catch(() => undefined);
     const { width, height } = bitmap;
     bitmap.close();
@@ -146,7 +146,7 @@ export class Photos {
     const [whole, now] = [`${width} × ${height}`, `${few} × ${low}`];
     const refused = this.#hooks.take(slot.id, { width: few, height: low, rgba, focal: focalOf(head, width, height) });
     if (refused !== undefined) {
-      // The reader knows the photograph by its name and its own size. What is wanted stands behind the colon.
+      // Name the original file and size. The figure's requirement is after the colon.
       const wanted = refused.split(": it ").at(-1) ?? refused;
       const size = whole === now ? `${now} pixels` : `${whole} pixels, made smaller to ${now}`;
       this.#hooks.warn(`${file.name} has ${size}. This figure ${wanted}.`);
@@ -160,7 +160,7 @@ export class Photos {
   }
 }
 
-/** How large a photograph is made: no side longer than `most`. */
+/** Size of a photograph downscaled to at most `most` pixels per side. */
 function smaller({ width, height }: ImageBitmap, most: number): [width: number, height: number] {
   const scale = Math.min(1, most / Math.max(width, height));
   return [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];

@@ -1,11 +1,11 @@
-/** The canvas and what lies on it: handles to focus, a crosshair for the keys, pointers. */
+/** The canvas with its overlays: focusable handles, crosshairs for the keyboard, pointer input. */
 
 import type { Direction, Handle, Panel, Snapshot, Space } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
 import { Lit } from "./lit.js";
 import { Pinch } from "./pinch.js";
 
-/** What a reader can do in the picture. Places are CSS pixels of the layout. */
+/** Actions of the reader in the picture. Positions are CSS pixels of the layout. */
 export interface Hand {
   handleAt: (x: number, y: number) => string | undefined;
   drag: (id: string, x: number, y: number) => void;
@@ -16,17 +16,21 @@ export interface Hand {
   set: (id: string, value: number) => void;
 }
 
-/** Beyond this many handles, one focus stop and a list to choose from stand for all. */
+/**
+ * Maximum number of handles with a focus stop each; beyond it, one stop and a list replace them.
+ */
 const MOST_FOCUS_STOPS = 12;
-/** How near a mouse or pen must come to take a handle; a finger has the figure's own radius. */
+/** Radius in which a mouse or pen takes a handle, CSS pixels; for touch, the figure decides. */
 const FINE_RADIUS = 14;
-/** How near a finger must come to the handle that turns a space; elsewhere it scrolls the page. */
+/**
+ * Radius in which a finger takes the handle that rotates a 3D scene; elsewhere it scrolls the page.
+ */
 const FINGER_RADIUS = 22;
-/** What one press of + or −, or one notch of the wheel, multiplies a space's size by. */
+/** Zoom factor of one press of + or −, or of one notch of the wheel. */
 const ZOOM_STEP = 1.2;
-/** What a wheel reports for one notch, pixels. */
+/** Wheel delta of one notch, pixels. */
 const NOTCH = 100;
-/** How far a finger may wander and still tap. */
+/** Maximum movement of a finger during a tap, CSS pixels. */
 const TAP_SLOP = 10;
 const FINE_STEPS = 0.2;
 const COARSE_STEPS = 5;
@@ -40,11 +44,11 @@ const ARROWS: Record<string, Direction> = {
 export type Place = [x: number, y: number];
 
 export class Picture {
-  /** The room that there is for the picture. */
+  /** Container that reserves room for the picture. */
   readonly element = make("div", { class: "picture" });
-  /** The picture itself, which is narrower where the room is low. */
+  /** The picture itself, narrower than its container where height is limited. */
   readonly sheet = make("div", { class: "sheet" });
-  /** What lies over its lower edge for a while. */
+  /** Overlay at the lower edge, for temporary messages. */
   readonly overlay = make("div", { class: "overlay" });
   readonly canvas = make("canvas", { role: "img", hidden: true });
   readonly #hand: Hand;
@@ -60,7 +64,7 @@ export class Picture {
   readonly #grips = new Map<string, HTMLElement>();
   readonly #crosshairs = new Map<string, { element: HTMLElement; share: Place }>();
   #snapshot: Snapshot | undefined;
-  /** Sizes of spaces that the snapshot does not know yet: keys may come faster than frames. */
+  /** Zoom values not in the snapshot yet, as keys may repeat faster than frames. */
   readonly #sizes = new Map<string, number>();
   #listed = "";
   #chosen = "";
@@ -87,7 +91,7 @@ export class Picture {
     this.#listen();
   }
 
-  /** Puts the handles where the figure has them. */
+  /** Updates the handles' positions. */
   update(snapshot: Snapshot): void {
     this.#snapshot = snapshot;
     this.#sizes.clear();
@@ -98,17 +102,17 @@ export class Picture {
     this.#refresh();
   }
 
-  /** Lights up what the book has this letter for, and nothing else; says whether the picture has it. */
+  /** Highlights a symbol of the text and no other. Returns whether the picture has it. */
   light(symbol: string | undefined): boolean {
     return this.#lit.show(symbol, this.#snapshot);
   }
 
-  /** What stands for a handle on the page. */
+  /** The element of a handle. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#grips.get(id);
   }
 
-  /** Shows the canvas in place of the poster. */
+  /** Replaces the poster by the canvas. */
   reveal(): void {
     if (!this.canvas.hidden) return;
     this.canvas.hidden = false;
@@ -158,7 +162,7 @@ export class Picture {
       });
       grip.addEventListener("keydown", (event) => this.#onGripKey(event, id));
       this.#grips.set(id, grip);
-      // Handles before crosshairs, whenever they come: the order of Tab.
+      // Keep handles before crosshairs in Tab order.
       this.#marks.insertBefore(grip, this.#marks.querySelector(".crosshair"));
     }
     const sideways = handle.x_range[0] < handle.x_range[1];
@@ -172,7 +176,7 @@ export class Picture {
     this.#put(grip, handle.place);
   }
 
-  /** A handle that is gone gives its focus to the next, so that the keys are never lost. */
+  /** Removes a handle; its focus moves to the next one, so that the keyboard keeps working. */
   #drop(id: string, element: HTMLElement, stops: Handle[]): void {
     const focused = element.matches(":focus");
     element.remove();
@@ -273,7 +277,7 @@ export class Picture {
     stage.addEventListener("pointerup", (event) => this.#onUp(event, true));
     stage.addEventListener("pointercancel", (event) => this.#onUp(event, false));
     stage.addEventListener("lostpointercapture", (event) => this.#onUp(event, false));
-    // A finger that starts on a handle must not scroll the page; anywhere else it may.
+    // Touch on a handle must not scroll the page; elsewhere it may.
     stage.addEventListener(
       "touchstart",
       (event) => {
@@ -283,7 +287,7 @@ export class Picture {
           (touch && event.touches.length === 1 && this.#take(this.#placeOf(touch), "touch"));
         if (!taken) return;
         event.preventDefault();
-        // A finger that holds something does not swipe the page away.
+        // A drag must not trigger swipe gestures of the page.
         event.stopPropagation();
       },
       { passive: false },
@@ -297,7 +301,7 @@ export class Picture {
     stage.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
   }
 
-  /** With Ctrl or ⌘, which is also what two fingers on a touchpad send; alone it scrolls the page. */
+  /** Zooms with Ctrl or ⌘ (touchpad pinches set Ctrl); otherwise the wheel scrolls the page. */
   #onWheel(event: WheelEvent): void {
     if (!(event.ctrlKey || event.metaKey)) return;
     const space = this.#spaceAt(this.#placeOf(event));
@@ -320,7 +324,7 @@ export class Picture {
     this.#hand.set(space.zoom, size);
   }
 
-  /** Enlarges a space, by one step of its slider at least. */
+  /** Zooms a 3D scene, by at least one step of its slider. */
   #zoomBy(space: Space, factor: number): void {
     const slider = this.#zoomOf(space);
     if (!slider || factor === 1) return;
@@ -329,7 +333,7 @@ export class Picture {
     this.#zoomTo(space, size + (factor > 1 ? step : -step));
   }
 
-  /** CSS pixels to a pixel of the layout. */
+  /** CSS pixels per pixel of the layout. */
   get #scale(): number {
     return this.sheet.clientWidth / (this.#snapshot?.layout.width || 1);
   }
@@ -343,7 +347,7 @@ export class Picture {
   }
 
   #placeOf({ clientX, clientY }: { clientX: number; clientY: number }): Place {
-    // The poster, where that is still shown, has the same place.
+    // The poster, if still shown, has the same box.
     const box = this.sheet.getBoundingClientRect();
     const { width, height } = this.#snapshot?.layout ?? { width: 0, height: 0 };
     return [
@@ -352,7 +356,7 @@ export class Picture {
     ];
   }
 
-  /** The handle that a pointer at a place takes. */
+  /** The handle that a pointer at a position takes. */
   #take([x, y]: Place, pointerType: string): Handle | undefined {
     const id = this.#hand.handleAt(x, y);
     const handle = this.#snapshot?.handles.find((known) => known.id === id);
@@ -363,7 +367,7 @@ export class Picture {
     return pointerType === "touch" || distance <= FINE_RADIUS ? handle : undefined;
   }
 
-  /** The handle that a mouse or pen takes anywhere in a space; with Shift the one that moves it. */
+  /** The handle that a mouse or pen drags anywhere in a 3D scene: orbit, or pan with Shift. */
   #takeSpace(place: Place, event: PointerEvent): Handle | undefined {
     const space = event.pointerType === "touch" ? undefined : this.#spaceAt(place);
     const id = event.shiftKey ? space?.pan : space?.orbit;
@@ -379,14 +383,14 @@ export class Picture {
 
   #onDown(event: PointerEvent): void {
     if (!event.isPrimary || event.button !== 0) return;
-    // Lists and labels that lie on the picture are no part of it.
+    // Overlays on the picture are not part of it.
     const lies = [this.#chooserBox, this.overlay];
     if (event.target instanceof Node && lies.some((over) => over.contains(event.target as Node))) return;
     const place = this.#placeOf(event);
     let handle = this.#take(place, event.pointerType) ?? this.#takeSpace(place, event);
     if (!handle && this.#panelAt(place)) {
       if (event.pointerType === "touch") {
-        // It may become a scroll; whether it was a tap shows when the finger leaves.
+        // This may become a scroll; a tap is recognized on pointerup.
         this.#pressing = { pointer: event.pointerId, place };
         return;
       }
@@ -422,7 +426,7 @@ export class Picture {
     setAttribute(this.element, "data-over", over);
   }
 
-  /** What one finger held is let go when a second one comes. */
+  /** Ends a one-finger drag or press when a second finger touches. */
   #letGo(): void {
     this.#dragging = this.#pressing = undefined;
     setAttribute(this.element, "data-dragging", false);

@@ -1,4 +1,4 @@
-/** Two fingers in a space: together they move it across the panel, apart they enlarge it. */
+/** Two-finger gestures in a 3D scene: moving both fingers pans, spreading them zooms. */
 
 import type { Handle, Space } from "./contract.js";
 import type { Place } from "./picture.js";
@@ -8,13 +8,13 @@ export interface PinchHand {
   spaceAt: (place: Place) => Space | undefined;
   handle: (id: string) => Handle | undefined;
   zoomOf: (space: Space) => number;
-  /** Whatever one finger held is let go. */
+  /** Ends the drag of a single finger. */
   begin: () => void;
   drag: (id: string, x: number, y: number) => void;
   zoom: (space: Space, value: number) => void;
 }
 
-/** Fingers are never nearer to each other than this, pixels. */
+/** Minimum distance between fingers in the zoom ratio, pixels. */
 const CLOSEST = 12;
 
 export class Pinch {
@@ -25,7 +25,7 @@ export class Pinch {
     this.#hand = hand;
   }
 
-  /** Takes two fingers that lie in one space; whether they do. */
+  /** Starts a gesture if both fingers are in the same scene. Returns whether it did. */
   start(event: TouchEvent): boolean {
     const fingers = this.#fingers(event);
     const space = fingers && this.#hand.spaceAt(fingers[0]);

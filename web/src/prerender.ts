@@ -1,4 +1,4 @@
-/** A figure's tree as text, for pages that show it before any script has run. */
+/** Prerenders a figure's shadow tree as HTML, for pages to show before any script runs. */
 
 import { choiceOf } from "./choice.js";
 import type { Snapshot } from "./contract.js";
@@ -11,16 +11,19 @@ export interface Wanted {
   help: string;
   snapshot: Snapshot;
   attributes: Record<string, string>;
-  /** Width and height of the picture at each of the layout widths: room for a poster that is on its way. */
+  /** Width and height of the picture for each layout width, to reserve room for its poster. */
   sizes?: [width: number, height: number][];
 }
 
-/** What can be operated in a living figure. */
+/** Parts that are operable in a running figure. */
 const OPERATED = ".toolbar, .under, .inputs, .folds, .challenges";
-/** What only a living one has. */
+/** Parts that only a running figure has. */
 const ALIVE = ".marks, .overlay, .chooser, canvas, .photos, .link";
 
-/** The inside of `<template shadowrootmode="open">`; `{{figure.css}}` stands for the style sheet's address. */
+/**
+ * Content of `<template shadowrootmode="open">`, with `{{figure.css}}` as the style sheet's
+ * address.
+ */
 export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wanted): string {
   const nothing = () => undefined;
   const hand = { handleAt: nothing, drag: nothing, nudge: nothing, moveToEnd: nothing, remove: nothing, click: nothing, set: nothing };
@@ -28,7 +31,7 @@ export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wan
     {
       send: nothing,
       hand,
-      // Whether the reader's browser lets figures fill the screen shows in the reader's browser.
+      // Only the reader's browser knows whether full screen is available.
       deeds: { reset: nothing, link: () => "", save: nothing, saveFile: nothing, fullscreen: nothing },
       jobs: { next: nothing, done: nothing, failed: nothing },
       takePhoto: nothing,
@@ -42,7 +45,7 @@ export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wan
   shell.reveal();
   const { root } = shell;
   for (const dead of root.querySelectorAll(ALIVE)) dead.remove();
-  // A drawing without marks has the shape that its box says, and needs no styles of its own.
+  // An empty SVG gets its aspect ratio from the viewBox, so no inline style is needed.
   for (const [width, height] of sizes) {
     const shape = icon();
     shape.setAttribute("class", `size-${width}`);
@@ -50,7 +53,7 @@ export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wan
     shell.picture.sheet.append(shape);
   }
   for (const part of root.querySelectorAll(OPERATED)) part.setAttribute("inert", "");
-  // A strict policy allows no styles in the page; the share of a slider is set when the script comes.
+  // Strict content security policies forbid inline styles; the script sets slider fills later.
   for (const styled of root.querySelectorAll("[style]")) styled.removeAttribute("style");
   for (const button of root.querySelectorAll("[aria-controls]")) button.removeAttribute("aria-controls");
   for (const input of root.querySelectorAll("input")) if (input.checked) input.setAttribute("checked", "");

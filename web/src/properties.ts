@@ -2,7 +2,7 @@
 
 import type { Control, Parameters } from "./contract.js";
 
-/** What the properties need of the element. */
+/** Members of the element that its properties use. */
 export interface Host extends HTMLElement {
   readonly controlValue: (id: string) => number | boolean | string | undefined;
   apply: (parameters: Record<string, string | number | boolean>) => void;
@@ -11,9 +11,9 @@ export interface Host extends HTMLElement {
 const defined = new WeakMap<Host, string[]>();
 
 /**
- * Makes each control a property of its element: `figure.outliers = 0.4`. A name that elements have
- * already keeps its meaning; such a control is reached through `state`. Returns what was set before
- * the figure was there. Properties of the figure that was there before are gone.
+ * Defines a property for each control: `figure.outliers = 0.4`. Names that elements already have
+ * keep their meaning; those controls are reached through `state`. Replaces the properties of the
+ * previous figure. Returns the values that were assigned before the figure existed.
  */
 export function defineProperties(host: Host, controls: Control[]): Parameters {
   for (const id of defined.get(host) ?? []) Reflect.deleteProperty(host, id);

@@ -1,11 +1,11 @@
-/** The numbers beside the picture: a few that are large and always there, and the others, folded. */
+/** Readouts beside the picture: a few large ones that are always visible, the others folded. */
 
 import type { Readout } from "./contract.js";
 import { fold, make, setText } from "./dom.js";
 
-/** Longer texts take the room of two, in smaller letters. */
+/** Texts with more characters take two columns, in a smaller font. */
 const LONG = 11;
-/** Still longer ones take a second line. */
+/** Texts with more characters take a second line. */
 const TWO_LINES = 34;
 
 export class Readouts {
@@ -19,7 +19,7 @@ export class Readouts {
     this.others.append(this.#rest);
   }
 
-  /** Shows the readouts; where `only` names some, these and no others, all large. */
+  /** Shows the readouts; if `only` is given, just those, all large. */
   update(readouts: Readout[], only: string[] | undefined): void {
     const shown = only ? readouts.filter(({ id }) => only.includes(id)) : readouts;
     const main = only ? new Set(only) : mainOf(readouts);
@@ -29,16 +29,16 @@ export class Readouts {
       const value = this.#values.get(id);
       if (!value) continue;
       setText(value, text);
-      // Once wide, always wide: nothing jumps while numbers change.
+      // Cells never shrink, so that nothing moves while values change.
       const cell = value.parentElement?.classList;
       if (text.length > LONG) cell?.add("long");
       if (text.length > TWO_LINES) cell?.add("two-lines");
     }
   }
 
-  /** Shows what a stand-in shows, until the next update. */
+  /** Shows a stand-in's readouts until the next update. */
   borrow(tree: ParentNode): void {
-    // Copies: the stand-in is still to be seen.
+    // Clone them: the stand-in is still visible.
     const cells = (part: string) =>
       [...tree.querySelectorAll(`${part} [data-readout]`)].map((cell) => cell.cloneNode(true));
     this.main.replaceChildren(...cells(".readouts.main"));
@@ -48,7 +48,7 @@ export class Readouts {
     this.#ids = "borrowed";
   }
 
-  /** What stands for a readout on the page. */
+  /** The element of a readout. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#values.get(id)?.parentElement ?? undefined;
   }
@@ -69,7 +69,7 @@ export class Readouts {
   }
 }
 
-/** Those that carry the point; the first two of a figure that does not say which. */
+/** Ids of the main readouts; of the first two if the figure marks none. */
 function mainOf(readouts: Readout[]): Set<string> {
   const said = readouts.filter(({ main }) => main);
   return new Set((said.length > 0 ? said : readouts.slice(0, 2)).map(({ id }) => id));

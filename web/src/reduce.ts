@@ -1,22 +1,22 @@
 /**
- * The pixels of a photograph, made fewer by averaging. Browsers that decode a photograph to the same pixels shrink it each
- * in another way, by up to 15 gray levels a pixel: what a figure finds in it would differ from browser to browser.
+ * Downscales photographs by area averaging. Browsers' own downscaling differs by up to 15 gray
+ * levels per pixel for equal input, so a figure's results would differ between browsers.
  */
 
 import { make } from "./dom.js";
 
-/** So many pixels are read at a time: between two such strips the page answers its reader. */
+/** Pixels read per strip; between strips the page handles events. */
 const STRIP_PIXELS = 1 << 19;
 
-/** The pixels of a line that one pixel of the shorter line covers: from the first of them on, with the share of each. */
+/** Source pixels covered by one target pixel along a line: index of the first, and weights. */
 interface Cover {
   first: number;
   shares: Float64Array;
 }
 
 /**
- * The average of what each of `width` × `height` pixels covers of the photograph; `undefined` as soon as it is not
- * `wanted` any more, or where the page has no memory for it.
+ * Averages the photograph to `width` × `height` RGBA pixels. Returns `undefined` when no longer
+ * `wanted`, or without a canvas context for lack of memory.
  */
 export async function reduced(
   photograph: ImageBitmap,
@@ -30,11 +30,11 @@ export async function reduced(
   const line = new Float64Array(3 * width);
   const most = Math.max(1, Math.floor(STRIP_PIXELS / photograph.width));
   const canvas = make("canvas", { width: photograph.width, height: Math.min(most, photograph.height) });
-  // What shows through a transparent picture is black.
+  // Transparent pixels are composited over black.
   const context = canvas.getContext("2d", { alpha: false, willReadFrequently: true });
   if (!context) return undefined;
 
-  // The first row of the result that the present row of the photograph has a share in.
+  // First target row that the current source row contributes to.
   let target = 0;
   for (let top = 0; top < photograph.height; top += canvas.height) {
     if (top > 0) await new Promise((resolve) => setTimeout(resolve));
@@ -56,7 +56,10 @@ export async function reduced(
   return rgba;
 }
 
-/** What each of `few` equal parts of a line of `many` pixels covers. The shares of a part add up to 1. */
+/**
+ * Source pixels covered by each of `few` equal parts of a line of `many`. Weights of a part sum to
+ * 1.
+ */
 function covers(many: number, few: number): Cover[] {
   return Array.from({ length: few }, (_, part) => {
     const [from, to] = [(part * many) / few, ((part + 1) * many) / few];
@@ -67,7 +70,7 @@ function covers(many: number, few: number): Cover[] {
   });
 }
 
-/** A row of the photograph, averaged along itself. */
+/** Averages a source row horizontally. */
 function average(row: Uint8ClampedArray, columns: Cover[], line: Float64Array): void {
   let out = 0;
   for (const { first, shares } of columns) {
@@ -86,7 +89,10 @@ function average(row: Uint8ClampedArray, columns: Cover[], line: Float64Array): 
   }
 }
 
-/** Adds an averaged row to the one or two rows of the result that cover it. Returns the first that covers the next. */
+/**
+ * Adds an averaged row to the target rows that it overlaps. Returns the first row for the next
+ * call.
+ */
 function spread(line: Float64Array, row: number, rows: Cover[], from: number, sums: Float64Array): number {
   let target = from;
   for (;;) {

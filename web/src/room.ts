@@ -1,26 +1,29 @@
-/** For which widths pictures are laid out, and how finely they are drawn. */
+/** Layout widths and drawing scale of pictures. */
 
-/** Layout widths of the figures (`WIDTHS` of `epipole-widgets`), each with the room that it ends below, CSS pixels. */
+/**
+ * Layout widths (`WIDTHS` of `epipole-widgets`), each with the room below which it applies, CSS
+ * pixels.
+ */
 const CLASSES: readonly (readonly [below: number, width: number])[] = [
   [500, 360],
   [860, 720],
   [Infinity, 1088],
 ];
 
-/** More device pixels to a CSS pixel than that cost time and are not seen. */
+/** Maximum of drawn device pixels per CSS pixel; more cost time without a visible gain. */
 const DENSEST = 2;
-/** Nor does a picture in little room get so few that its lines break up. */
+/** Minimum of drawn pixels per layout pixel; with fewer, lines break up. */
 const COARSEST = 0.5;
 
 /**
- * The width that a picture is laid out for in some room; it is then scaled to that room. Posters are
- * drawn at the same few widths, so a living picture has the very shape of its poster.
+ * Layout width of a picture for some available width; the picture is then scaled to fit. Posters
+ * are rendered at the same few widths, so that a running figure has exactly its poster's shape.
  */
 export function layoutWidth(room: number): number {
   return CLASSES.find(([below]) => room < below)?.[1] ?? 0;
 }
 
-/** Device pixels to a pixel of the layout, for a picture shown `shown` CSS pixels wide. */
+/** Device pixels per layout pixel for a picture displayed `shown` CSS pixels wide. */
 export function drawScale(shown: number, width: number, density: number): number {
   const fit = shown / width;
   const scale = Math.min(fit * Math.min(Math.max(density, 1), DENSEST), Math.max(DENSEST, fit));
@@ -32,12 +35,12 @@ export interface Size {
   height: number;
 }
 
-/** Where a picture is shown smaller than that, its letters are hard to read. */
+/** Minimum scale at which labels are easy to read. */
 const LEGIBLE = 0.8;
 
 /**
- * For a picture that must fit the width and the height of some room: the widest of its layouts that can still
- * be read there, else the one that is shown at the largest scale; and its size there.
+ * Layout for a picture that must fit both width and height: the widest one that is still legible,
+ * else the one displayed at the largest scale. Also returns its displayed size.
  */
 export function shownIn(room: Size, sizes: Size[]): { width: number; shown: Size } {
   const ways = sizes.map((size) => ({ size, scale: Math.min(room.width / size.width, room.height / size.height) }));
@@ -46,5 +49,5 @@ export function shownIn(room: Size, sizes: Size[]): { width: number; shown: Size
   return { width: size.width, shown: { width: size.width * scale, height: size.height * scale } };
 }
 
-/** The widths that pictures are laid out for. */
+/** Layout widths of pictures. */
 export const WIDTHS = CLASSES.map(([, width]) => width);

@@ -1,15 +1,15 @@
-/** What a page keeps of a figure, to come back to it: its state, and which goals the reader has reached. */
+/** Saved state of a figure, as a host page stores it: parameters and reached goals. */
 
-/** The newest form that there is. */
+/** Current version of the format. */
 const VERSION = 1;
 
 export interface Saved {
   v: number;
   /** The figure's name. */
   figure: string;
-  /** What differs from its defaults. */
+  /** Parameters that differ from their defaults. */
   state: Record<string, string>;
-  /** The goals that have been reached. */
+  /** Ids of the reached goals. */
   solved: string[];
 }
 
@@ -17,7 +17,10 @@ export function toSaved(figure: string, state: Record<string, string>, solved: s
   return { v: VERSION, figure, state, solved };
 }
 
-/** Reads what was kept, as an object or as its JSON text. Nothing if nothing was kept; a sentence if it is of no use. */
+/**
+ * Reads a saved state, as an object or JSON text. Nothing for empty input; a message if it is
+ * invalid.
+ */
 export function readSaved(kept: unknown, figure: string): Saved | string | undefined {
   let value = kept;
   if (typeof kept === "string" && kept.trim() !== "") {

@@ -1,15 +1,15 @@
 /**
- * The script of a figure in a SCORM 1.2 package: brings the state back, keeps it, and reports the share of goals
- * reached. It looks for the platform's `API` in the frames around it, as the standard says; without one the figure
- * works, and nothing is kept.
+ * Script of a figure in a SCORM 1.2 package: restores and stores its state, and reports the
+ * fraction of goals reached. Searches the parent frames for the platform's `API`, as the standard
+ * specifies; without it, the figure works but nothing is stored.
  */
 
-// Beside this script in the package.
+// Next to this script in the package.
 import "./index.js";
 import type { EpipoleFigure } from "./element.js";
 import { readSaved } from "./saved.js";
 
-/** What a platform offers: all texts, "true" or "false" for success. */
+/** SCORM 1.2 API of a platform; all values are strings, with "true" or "false" for success. */
 interface Api {
   LMSInitialize: (empty: "") => string;
   LMSGetValue: (name: string) => string;
@@ -18,11 +18,11 @@ interface Api {
   LMSFinish: (empty: "") => string;
 }
 
-/** The standard gives a state so many characters. */
+/** Maximum length of `cmi.suspend_data` in the standard, characters. */
 const LONGEST = 4096;
-/** How many frames the standard allows around a package. */
+/** Maximum depth of parent frames searched, from the standard. */
 const DEEPEST = 7;
-/** The reader rests: the state is worth keeping, milliseconds. */
+/** Time without input after which the state is stored, milliseconds. */
 const REST_MS = 1000;
 
 function find(from: Window): Api | undefined {
@@ -32,7 +32,7 @@ function find(from: Window): Api | undefined {
       const { API } = at as unknown as { API?: Api };
       if (API) return API;
     } catch {
-      // A frame of another origin has none for us.
+      // Frames of another origin are not accessible.
       return undefined;
     }
     if (at.parent === at) break;

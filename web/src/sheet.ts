@@ -1,10 +1,10 @@
-/** The look of the figures. */
+/** Style sheet of the figures. */
 
 import text from "epipole-look" with { type: "text" };
 
 let shared: CSSStyleSheet | undefined;
 
-/** The one style sheet that all figures of a page share. */
+/** The style sheet, shared by all figures of a page. */
 export function sheet(): CSSStyleSheet {
   if (!shared) {
     shared = new CSSStyleSheet();

@@ -1,4 +1,4 @@
-/** What a figure is made of on the page: its tree, which needs nothing but a snapshot. */
+/** The shadow tree of a figure, built from snapshots alone. */
 
 import { Challenges, type Goal } from "./challenges.js";
 import { Compact } from "./compact.js";
@@ -15,19 +15,19 @@ import { Speaker } from "./speaker.js";
 import type { Theme } from "./theme.js";
 import { Toolbar, type Deeds } from "./toolbar.js";
 
-/** What the parts do to the figure. */
+/** Actions that the parts of the tree trigger on the figure. */
 export interface Acts {
   send: (event: FigureEvent) => void;
   hand: Hand;
   deeds: Deeds;
   jobs: JobHooks;
-  /** Hands a photograph to the figure; a sentence if it is refused. */
+  /** Passes a photograph to the figure. Returns a message if it is rejected. */
   takePhoto: (slot: string, photo: Photo) => string | undefined;
-  /** Plays the way to a goal, or ends that. */
+  /** Plays the solution of a goal, or stops it. */
   showHow: (challenge: string) => void;
 }
 
-/** How long what has changed stays marked, milliseconds. */
+/** Duration for which changed values stay marked, milliseconds. */
 const MARKED_MS = 1800;
 
 export class Shell {
@@ -55,10 +55,10 @@ export class Shell {
   readonly #under: HTMLElement;
   readonly #panel: HTMLElement;
   #choice: Choice;
-  /** The stand-in whose numbers are still shown. */
+  /** Stand-in whose readouts are still shown. */
   #borrowed: ParentNode | undefined;
   #marked: ReturnType<typeof setTimeout> | undefined;
-  /** The figure waits for a computation. */
+  /** Whether the figure waits for a computation. */
   #waiting = false;
 
   constructor(acts: Acts, choice: Choice) {
@@ -74,7 +74,7 @@ export class Shell {
       warn: (sentence) => this.speaker.warn([sentence], true),
       noted: () => this.#toolbar.openPhotos(this.photos.element, true),
     });
-    // Its room is kept from the start, so that nothing moves when the figure is there.
+    // Reserve its room from the start, so that nothing moves when the figure starts.
     this.#toolbar.element.classList.add("later");
     this.#under = make("div", { class: "under", hidden: true });
     this.#folds = make("div", { class: "folds" }, this.#controls.more, this.#readouts.others);
@@ -88,7 +88,7 @@ export class Shell {
     for (const type of ["keydown", "keypress", "keyup"] as const) {
       this.root.addEventListener(type, (event) => this.#keep(event));
     }
-    // Whoever holds a slider does not swipe the page away.
+    // Dragging a slider must not trigger swipe gestures of the page.
     for (const type of ["pointerdown", "pointermove", "touchstart", "touchmove"] as const) {
       const holds = ({ target }: Event) => target instanceof HTMLInputElement && target.type === "range";
       this.root.addEventListener(type, (event) => holds(event) && event.stopPropagation(), { passive: true });
@@ -103,9 +103,10 @@ export class Shell {
     setAttribute(this.root, "data-theme", theme);
   }
 
-  /** Puts everything where it is if there is room: one part below the other. */
+  /** Arranges the parts below each other, as in the normal (not compact) layout. */
   #spread(): void {
-    // In this order a page that is still coming moves nothing: the title fills what the row leaves.
+    // In this order nothing moves while the page loads: the title fills the rest of the toolbar's
+    // row.
     this.#head.append(this.#toolbar.element, this.#title);
     this.#body.before(this.#toolbar.link, this.photos.element);
     this.#under.append(this.#controls.buttons);
@@ -114,7 +115,9 @@ export class Shell {
     this.root.append(this.#caption);
   }
 
-  /** Whether picture, main buttons and numbers share the height that the host gives, and the rest is in a drawer. */
+  /**
+   * Whether picture, main buttons and readouts share the host's height, with the rest in a drawer.
+   */
   set compact(wanted: boolean) {
     if (wanted === (this.#compact !== undefined)) return;
     this.#compact?.drawer.remove();
@@ -135,7 +138,7 @@ export class Shell {
     this.#body.append(this.#compact.drawer, this.#compact.bar);
   }
 
-  /** In a compact figure: the width to lay the picture out for, once the bar has found its place. */
+  /** Places the bar of a compact figure. Returns the layout width for the picture. */
   arrange(sizes: Size[]): number | undefined {
     return this.#compact?.arrange(this.root, this.picture.element, sizes);
   }
@@ -145,29 +148,32 @@ export class Shell {
     setText(this.#help, help);
   }
 
-  /** Shows other controls, readouts and goals with the next update. */
+  /** Sets which controls, readouts and goals to show from the next update on. */
   choose(choice: Choice): void {
     this.#choice = choice;
     this.#controls.clear();
   }
 
-  /** What is wrong with the names of what is to be shown. */
+  /** Messages about unknown names in the choice. */
   misnamed(snapshot: Snapshot): string[] {
     return misnamed(this.#choice, snapshot);
   }
 
-  /** Shows the numbers of a stand-in, which are those of a figure that waits for nothing any more. */
+  /** Shows the readouts of a stand-in, which are those of the finished figure. */
   borrowNumbers(tree: ParentNode): void {
     this.#readouts.borrow(tree);
     this.#borrowed = tree;
   }
 
-  /** Whether the numbers are known: not before a figure that nobody has touched has computed its own. */
+  /**
+   * Whether the readouts are the figure's own. An untouched figure borrows them until it has
+   * computed.
+   */
   get settled(): boolean {
     return this.#borrowed === undefined;
   }
 
-  /** Brings everything up to date. Returns the goals that have just been reached. */
+  /** Updates all parts. Returns the goals reached for the first time. */
   update(snapshot: Snapshot, touched: boolean): Challenge[] {
     if (touched || snapshot.waiting === null) this.#borrowed = undefined;
     setAttribute(this.root, "data-aspect", snapshot.aspect);
@@ -187,40 +193,40 @@ export class Shell {
     return solved;
   }
 
-  /** A figure whose computation was stopped is at rest. */
+  /** Sets `aria-busy`; a figure with a stopped computation is not busy. */
   #tellBusy(): void {
     setAttribute(this.root, "aria-busy", this.#waiting && !this.jobs.stopped ? "true" : undefined);
   }
 
-  /** The figure can be operated: everything beside the picture comes. */
+  /** Shows the parts around the picture once the figure can be operated. */
   reveal(): void {
     this.#panel.hidden = false;
     this.#toolbar.element.classList.remove("later");
     this.#compact?.bar.classList.remove("later");
   }
 
-  /** Takes back what a stand-in had borrowed. */
+  /** Takes back the elements that a stand-in borrowed. */
   settle(): void {
     this.root.querySelector(".head")?.after(this.speaker.home);
     this.#help.after(this.speaker.region);
   }
 
-  /** Tells which goal is being shown. */
+  /** The goal whose solution is playing. */
   set playing(challenge: string | undefined) {
     this.#challenges.playing = challenge;
   }
 
-  /** Every goal, and whether the reader has reached it. */
+  /** All goals, with whether the reader has reached each. */
   get goals(): Goal[] {
     return this.#challenges.goals;
   }
 
-  /** Takes goals for reached. */
+  /** Marks goals as reached on an earlier visit. */
   recall(ids: string[]): void {
     this.#challenges.recall(ids);
   }
 
-  /** Marks for a moment what has changed between two snapshots. */
+  /** Marks for a moment the values that differ between two snapshots. */
   markChanges(before: Snapshot, now: Snapshot): void {
     const words = (snapshot: Snapshot) => [
       ...snapshot.controls.map((control) => ["control", control.id, control.value_text] as const),
@@ -252,7 +258,7 @@ export class Shell {
     }
   }
 
-  /** The figure is no longer that of the element: nothing of it may speak or compute. */
+  /** Ends announcements and jobs when the element replaces its figure. */
   end(): void {
     this.unmark();
     this.speaker.silence();
@@ -263,8 +269,8 @@ export class Shell {
   }
 
   /**
-   * Keys that are pressed here mean nothing to the page, whose shortcuts would turn it around. Tab
-   * goes on, what a browser does with Ctrl, Alt or ⌘ goes on, and Escape gives the focus back.
+   * Keeps key presses in a figure from the page's shortcuts. Tab and combinations with Ctrl, Alt or
+   * ⌘ pass; Escape returns focus to the page.
    */
   #keep(event: KeyboardEvent): void {
     if (event.key === "Tab" || event.ctrlKey || event.altKey || event.metaKey) return;

@@ -1,21 +1,24 @@
-/** What a figure says: one polite live region, and notices that everyone sees. */
+/** Announcements of a figure: one polite live region, and visible notices. */
 
 import { capitalize, make } from "./dom.js";
 
-/** How long the figure must rest before it is described, milliseconds. */
+/** Time without changes before the figure is described, milliseconds. */
 const REST_MS = 300;
 
 export class Speaker {
   /** The figure's only live region. */
   readonly region = make("p", { class: "spoken", role: "status", "aria-live": "polite" });
-  /** Problems, to be read by eye; the live region speaks them too. */
+  /** Visible problem messages; the live region announces them as well. */
   readonly notice = make("div", { class: "notice", hidden: true });
-  /** Where passing problems are shown: over something, so that nothing moves. Others stay above it all. */
+  /**
+   * Parent of passing notices: an overlay, so that nothing moves. Lasting ones are above the
+   * picture.
+   */
   readonly #passingHome: HTMLElement;
   readonly home = make("div", { class: "sentences" });
   #timer: ReturnType<typeof setTimeout> | undefined;
   #urgent = "";
-  /** What the figure shows, until it is said: nothing urgent makes it forgotten. */
+  /** Description to announce next; urgent messages do not discard it. */
   #described = "";
   #passing = 0;
 
@@ -24,13 +27,13 @@ export class Speaker {
     this.home.append(this.notice);
   }
 
-  /** Says what the figure shows, once it has rested. */
+  /** Announces the figure's description once it has stopped changing. */
   describe(text: string): void {
     this.#described = text;
     this.#later();
   }
 
-  /** Shows sentences above the controls and says them; passing ones go when the figure moves on. */
+  /** Shows and announces messages; passing ones disappear with the figure's next state. */
   warn(sentences: string[], passing = false): void {
     this.#passing = passing ? 2 : 0;
     const home = passing ? this.#passingHome : this.home;
@@ -42,7 +45,7 @@ export class Speaker {
     if (unique.length > 0) this.#later();
   }
 
-  /** A sentence, and a way on. */
+  /** Shows a message with a button to try again. */
   offer(sentence: string, again: (() => void) | undefined): void {
     this.warn([sentence]);
     if (!again) return;
@@ -51,7 +54,7 @@ export class Speaker {
     this.notice.append(retry);
   }
 
-  /** Shows in the figure and on the console what is wrong with what its page has asked for. */
+  /** Shows problems with the page's markup in the figure and on the console. */
   complain(messages: string[]): void {
     if (messages.length === 0) return;
     const sentences = messages.map((message) => capitalize(message));
@@ -59,15 +62,15 @@ export class Speaker {
     this.warn(sentences.map((sentence) => `${sentence}.`));
   }
 
-  /** Says something at the next rest, before what the figure shows. */
+  /** Announces a message before the description. */
   say(sentence: string): void {
     this.#urgent = `${this.#urgent} ${sentence}`.trim();
     this.#later();
   }
 
-  /** The figure has taken a new state. */
+  /** Notes that the figure has taken a new state. */
   moveOn(): void {
-    // The first is the state in which the figure has just refused something.
+    // The first state is still the one that raised the notice.
     if (this.#passing > 0 && --this.#passing === 0) this.notice.hidden = true;
   }
 

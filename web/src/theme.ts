@@ -1,12 +1,12 @@
-/** Which colors a figure takes: those of its reader, then of its page. */
+/** Color theme of a figure: the reader's settings first, then the page's. */
 
 export type Theme = "light" | "dark" | "high-contrast";
 
 const queries = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "(forced-colors: active)"];
 
 /**
- * The theme for a figure: its `theme` attribute; else high contrast where the reader asks for it;
- * else what `data-theme` around it says, else its `color-scheme`, else how dark the page behind it is.
+ * Theme for a figure: its `theme` attribute; else high contrast if the system asks for it; else the
+ * nearest `data-theme`, else its `color-scheme`, else light or dark by the background behind it.
  */
 function themeOf(element: HTMLElement): Theme {
   const wish = element.getAttribute("theme");
@@ -28,8 +28,8 @@ function themeOf(element: HTMLElement): Theme {
 const asking = new Map<HTMLElement, (theme: Theme) => void>();
 
 /**
- * Tells the theme of an element before anything is painted. Those of all who ask together are found
- * before any is told: finding it needs a layout of the page, and taking it makes that layout stale.
+ * Passes an element's theme to `tell` before the next paint. Requests are batched, reading all
+ * themes before applying any: reading needs the page's layout, and applying invalidates it.
  */
 export function askTheme(element: HTMLElement, tell: (theme: Theme) => void): void {
   if (asking.size === 0) {
@@ -42,7 +42,7 @@ export function askTheme(element: HTMLElement, tell: (theme: Theme) => void): vo
   asking.set(element, tell);
 }
 
-/** An element and what is around it, out of every shadow tree that it is in. */
+/** An element and its ancestors, through shadow roots and slots. */
 function* outwards(element: HTMLElement): Generator<HTMLElement> {
   for (let at: Node | null = element; at; at = outside(at)) if (at instanceof HTMLElement) yield at;
 }
@@ -52,7 +52,7 @@ function outside(node: Node): Node | null {
   return (node instanceof Element && node.assignedSlot) || node.parentNode;
 }
 
-/** Whether the first opaque background around an element is a dark one; a bare page is white. */
+/** Whether the nearest opaque background behind an element is dark; a page without one is white. */
 function behindIsDark(element: HTMLElement): boolean {
   for (const at of outwards(element)) {
     if (at === element) continue;
@@ -63,26 +63,29 @@ function behindIsDark(element: HTMLElement): boolean {
   return false;
 }
 
-/** A page that changes its colors may take so long to blend from one to the other, milliseconds; longer ones tell. */
+/**
+ * Delay after which themes are read again once a short color transition of the page has ended,
+ * milliseconds; longer ones are noticed by `transitionend`.
+ */
 const BLEND_MS = 400;
 
-/** Who is to be told, of all figures of the page. */
+/** Callbacks of all figures of the page. */
 const watching = new Set<() => void>();
 
-/** What looks at the page for all of them, while there is one. */
+/** Observers shared by all figures, active while there is a callback. */
 const page = {
   observer: undefined as MutationObserver | undefined,
   lists: [] as MediaQueryList[],
   blended: undefined as ReturnType<typeof setTimeout> | undefined,
 
-  /** Which attribute a page switches its colors by is its own affair, and so is which style sheet. */
+  /** Observes all attributes and style sheets, as pages switch themes in different ways. */
   watch(): void {
     this.observer = new MutationObserver(changed);
     const attributes = { attributes: true };
     this.observer.observe(document.documentElement, attributes);
     if (document.body) this.observer.observe(document.body, attributes);
     this.observer.observe(document.head, { attributes: true, childList: true, subtree: true });
-    // A style sheet that has been put there counts once it has come.
+    // A new style sheet takes effect when it has loaded.
     document.head.addEventListener("load", changed, true);
     document.addEventListener("transitionend", blended);
     this.lists = queries.map((query) => matchMedia(query));
@@ -106,13 +109,13 @@ function changed(): void {
   }, BLEND_MS);
 }
 
-/** The background of something with a figure in it has its new color at last. */
+/** Reads the themes again when the background behind a figure has finished a transition. */
 function blended({ propertyName, target }: TransitionEvent): void {
   if (propertyName !== "background-color" || !(target instanceof Element)) return;
   if (target.querySelector("epipole-figure") || target.contains(document.body)) changed();
 }
 
-/** Calls back whenever the answer of `themeOf` may have changed. Returns how to stop. */
+/** Calls back whenever `themeOf` may have changed. Returns a function that stops it. */
 export function watchTheme(tell: () => void): () => void {
   if (watching.size === 0) page.watch();
   watching.add(tell);
@@ -122,10 +125,10 @@ export function watchTheme(tell: () => void): () => void {
   };
 }
 
-/** Calls back whenever a pixel of the page has another number of device pixels. */
+/** Calls back whenever `devicePixelRatio` changes. */
 export function watchDensity(changed: () => void): () => void {
   let list: MediaQueryList;
-  // A query knows one density; at another, another one is due.
+  // A media query matches one density, so each change needs a new query.
   const again = () => {
     list.removeEventListener("change", again);
     watch();
@@ -139,7 +142,7 @@ export function watchDensity(changed: () => void): () => void {
   return () => list.removeEventListener("change", again);
 }
 
-/** Whether the reader wants things to stand still. */
+/** Whether the reader prefers reduced motion. */
 export function wantsStillness(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

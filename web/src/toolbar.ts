@@ -1,6 +1,6 @@
 /**
- * One quiet row of what figures can do: start over, share the state, save the picture, fill the
- * screen, take photographs of the reader's own.
+ * Toolbar of a figure: reset, copy the link, save the picture, full screen, and photographs of the
+ * reader's own.
  */
 
 import type { FileOffer } from "./contract.js";
@@ -18,7 +18,7 @@ const COPIED_MS = 2000;
 
 export class Toolbar {
   readonly element = make("div", { class: "toolbar", role: "group", "aria-label": "Figure" });
-  /** The link to read, where it could not be copied. */
+  /** The link as text, if it could not be copied. */
   readonly link = make("div", { class: "link", hidden: true });
   readonly #deeds: Deeds;
   #photos: HTMLButtonElement | undefined;
@@ -48,7 +48,7 @@ export class Toolbar {
     }
   }
 
-  /** Adds the button that opens and closes what photographs are chosen with. */
+  /** Adds the button that opens and closes the photograph inputs. */
   offerPhotos(panel: HTMLElement): void {
     if (this.#photos) return;
     const paths = ["M3 6.5h3.2l1.3-2h5l1.3 2H17v9.5H3z", "M10 8.2a2.8 2.8 0 1 0 0 5.6a2.8 2.8 0 1 0 0-5.6"];
@@ -60,7 +60,7 @@ export class Toolbar {
     this.element.prepend(button);
   }
 
-  /** Shows the button that saves what the figure offers besides its picture, or none. */
+  /** Shows the button that saves the figure's data file; removes it for null. */
   offerFile(file: FileOffer | null): void {
     if (!file) {
       this.#file?.remove();
@@ -106,12 +106,12 @@ export class Toolbar {
     this.#copied = setTimeout(() => setText(label, "Copy link"), COPIED_MS);
   }
 
-  /** Nobody looks any more: a button that waited for its words would keep the whole figure. */
+  /** Clears the timer, which would keep the whole figure in memory. */
   end(): void {
     clearTimeout(this.#copied);
   }
 
-  /** Clipboards can be out of reach, in frames for one: then the reader copies by hand. */
+  /** Shows the link for copying by hand, as clipboards are blocked in some iframes. */
   #show(link: string): void {
     const input = make("input", { type: "text", readonly: true, value: link });
     this.link.replaceChildren(make("label", {}, "Link to this state", input));

@@ -1,8 +1,8 @@
-/** When a figure nears the reader, when it is in sight, and how it comes there. */
+/** Visibility of figures: near the viewport, in view, and scrolling into view. */
 
 import { wantsStillness } from "./theme.js";
 
-/** The longest time that scrolling to a figure may take, milliseconds. */
+/** Time limit for scrolling to a figure, milliseconds. */
 const SCROLL_MS = 700;
 
 type Seen = (near: boolean) => void;
@@ -21,7 +21,7 @@ function observer(kind: "near" | "seen", margin: string): IntersectionObserver {
 let near: IntersectionObserver | undefined;
 let seen: IntersectionObserver | undefined;
 
-/** Watches an element: `near` within one screen of being visible, `seen` when visible itself. */
+/** Observes an element: `near` within one screen of the viewport, `seen` in the viewport. */
 export function watchVisibility(element: Element, callbacks: { near: Seen; seen: Seen }): () => void {
   near ??= observer("near", "100% 0px");
   seen ??= observer("seen", "0px");
@@ -37,11 +37,13 @@ export function watchVisibility(element: Element, callbacks: { near: Seen; seen:
 
 let calm: Promise<void> | undefined;
 
-/** Resolves when the page has loaded and the browser has a moment: text and pictures come first. */
+/**
+ * Resolves when the page has loaded and the browser is idle, so that text and pictures come first.
+ */
 export function pageIsCalm(): Promise<void> {
   calm ??= new Promise((resolve) => {
     const wait = () => {
-      // Safari has no requestIdleCallback.
+      // Safari lacks requestIdleCallback.
       if ("requestIdleCallback" in window) requestIdleCallback(() => resolve(), { timeout: 1000 });
       else setTimeout(resolve, 200);
     };
@@ -53,13 +55,13 @@ export function pageIsCalm(): Promise<void> {
 
 let turn = Promise.resolve();
 
-/** Resolves in a task of its own, for one caller after the other, each after a frame of the display. */
+/** Resolves for one caller per frame, in a task of its own. */
 export function myTurn(): Promise<void> {
   turn = turn.then(() => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve))));
   return turn;
 }
 
-/** Scrolls so that all of an element is seen, if it is not; the focus stays where it is. */
+/** Scrolls the whole element into view if needed, without moving focus. */
 export async function bringIntoView(element: Element): Promise<void> {
   const box = element.getBoundingClientRect();
   const top = parseFloat(getComputedStyle(element).scrollMarginTop) || 0;
@@ -68,7 +70,7 @@ export async function bringIntoView(element: Element): Promise<void> {
   const behavior = still ? "instant" : "smooth";
   if (parent === window) element.scrollIntoView({ block: "nearest", behavior });
   else {
-    // What is in a frame moves, and never the page around it.
+    // Scroll only the frame's own document, never the page around it.
     const up = box.top - top;
     scrollBy({ top: up < 0 ? up : Math.min(up, box.bottom - innerHeight), behavior });
   }
@@ -76,7 +78,7 @@ export async function bringIntoView(element: Element): Promise<void> {
   await new Promise<void>((resolve) => {
     const done = () => {
       clearTimeout(timer);
-      // Where nothing was left to scroll no end comes, and who waits for it would wait with every glide.
+      // Without scrolling no scrollend fires, and each glide would leave a listener behind.
       removeEventListener("scrollend", done, true);
       resolve();
     };

@@ -1,4 +1,4 @@
-/** Long computations, away from the page: one request at a time, one answer each. */
+/** Worker for long computations: one request at a time, with one answer each. */
 
 import load, { compute, take_panic } from "epipole-jobs";
 import { compile, whyMissing } from "./compile.js";
@@ -6,13 +6,13 @@ import { CODE, TRY_AGAIN, type Answer, type Request } from "./jobs.js";
 
 let loading: Promise<unknown> | undefined;
 
-/** What the module must export for this script. */
+/** Exports that this script requires. */
 const WANTED = ["compute", "take_panic"];
 
-/** How often progress is told, milliseconds. */
+/** Minimum interval between progress reports, milliseconds. */
 const TELL_MS = 50;
 
-/** Carries out a request. A page calls this itself only where it may have no workers. */
+/** Carries out a request. Called in the page itself if workers are not allowed. */
 export async function carryOut(
   { name, key, request, module, anew }: Request,
   tell: (answer: Answer, transfer?: Transferable[]) => void,
@@ -32,7 +32,7 @@ export async function carryOut(
     ).then((compiled) => load({ module_or_path: compiled }));
     await loading;
   } catch (problem) {
-    // The next request may have more luck.
+    // Let the next request try again.
     loading = undefined;
     tell({ key, problem: `${whyMissing(problem, CODE)}; ${TRY_AGAIN}`, missing: true });
     return;
@@ -47,7 +47,7 @@ export async function carryOut(
   }
 }
 
-// In a worker there is no document.
+// Workers have no document.
 if (typeof document === "undefined") {
   addEventListener("message", ({ data }: MessageEvent<Request>) => {
     void carryOut(data, (answer, transfer = []) => postMessage(answer, { transfer }));

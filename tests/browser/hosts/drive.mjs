@@ -1,4 +1,4 @@
-// What a figure must do in every host.
+// Requirements for a figure in every host.
 
 import { expect, followed, test } from "../fixtures.mjs";
 
@@ -10,7 +10,7 @@ async function ready(figure) {
   await figure.dispatchEvent("pointerenter");
 }
 
-/** Somewhere on the first movable point of the figure, once that stands still: pages go on arranging themselves. */
+/** Position of the first handle once it has stopped moving, as pages lay themselves out late. */
 async function grip(figure) {
   const found = figure.locator(".grip").first();
   await found.scrollIntoViewIfNeeded();
@@ -24,7 +24,7 @@ async function grip(figure) {
   return place;
 }
 
-/** Mouse, finger and keys move `ransac-race`; none of it reaches the page. */
+/** Operates `ransac-race` by mouse, touch and keys; no event reaches the page. */
 export async function operate(page, figure) {
   await ready(figure);
   const before = await state(figure);
@@ -58,7 +58,7 @@ export async function operate(page, figure) {
   await page.keyboard.press("Escape");
 }
 
-/** The long computation of `disparity-map` comes to an answer. */
+/** Waits for the long computation of `disparity-map`. */
 export async function answers(figure) {
   await ready(figure);
   await figure.evaluate((element) => element.flush());
@@ -67,7 +67,9 @@ export async function answers(figure) {
   await expect(figure.locator(".notice")).toBeHidden();
 }
 
-/** The figure follows its page into the dark and back, within a second; a busy machine may delay one of them. */
+/**
+ * Expects the figure to follow its page to dark and back within 1 s; load may delay one of the two.
+ */
 export async function follows(figure, darken, lighten) {
   await expect(figure.locator(".root")).toHaveAttribute("data-theme", "light");
   const took = [await followed(figure, "dark", darken), await followed(figure, "light", lighten)];

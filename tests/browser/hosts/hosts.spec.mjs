@@ -1,4 +1,4 @@
-// Figures in the pages of others: built by each host's own tool from the recipe that we give, and dragged.
+// Figures in third-party sites: each host's own tool builds our recipe, and the figure is operated.
 
 import { execFile, spawn } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
@@ -17,7 +17,7 @@ const tools = join(here, "hosts/node_modules");
 const python = join(work, "python/bin");
 
 const test = base.extend({
-  /** The book's own server: another origin than that of the course. */
+  /** The book's server, on another origin than the course. */
   book: [
     async ({}, use) => {
       const server = await serve({ mounts: { embed: join(elements, "embed"), assets: join(elements, "assets") }, policy: false });
@@ -33,7 +33,7 @@ const test = base.extend({
     await context.close();
   },
 
-  /** Requests to other places than those that the test names. */
+  /** Requests to origins that the test does not name. */
   strangers: async ({ page, book }, use) => {
     const known = [book];
     const strange = [];
@@ -51,7 +51,7 @@ test.afterEach(endServers);
 /** Runs a tool in a folder. */
 const tool = (folder, command, ...args) => toolIn({}, folder, command, ...args);
 
-/** Runs a tool with settings of the environment. What it warns of is ours if it names us. */
+/** Runs a tool with environment variables. Expects no warnings that mention the figures. */
 async function toolIn(env, folder, command, ...args) {
   const { stdout, stderr } = await run(command, args, { cwd: folder, env: { ...process.env, NO_COLOR: "1", ...env }, maxBuffer: 1 << 26 });
   const ours = `${stdout}\n${stderr}`.split("\n").filter((line) => /warn/i.test(line) && /epipole/i.test(line));
@@ -73,7 +73,7 @@ async function visit(page, address, strangers) {
 const race = (page) => page.locator('epipole-figure[name="ransac-race"]');
 const map = (page) => page.locator('epipole-figure[name="disparity-map"]');
 
-/** The package as npm would install it. */
+/** Installs the package as npm would. */
 function withPackage(folder) {
   const home = join(folder, "node_modules/@epipole");
   mkdirSync(home, { recursive: true });
@@ -93,13 +93,13 @@ test("the packages are small, and say rightly what is in them", async () => {
   expect(bytes.wheel).toBeLessThanOrEqual(1_200_000);
   expect(bytes._esm).toBeLessThanOrEqual(75_000);
   await tool(work, npx("publint"), "run", packed, "--strict");
-  // Node's oldest way and CommonJS find no modules there: they are for browsers and bundlers.
+  // Older module resolution and CommonJS are unsupported: the package is for browsers and bundlers.
   await tool(work, npx("attw"), packed, "--profile", "esm-only", "--no-color", "--no-emoji");
 });
 
 test("viewers without widgets", async ({ page, strangers }) => {
   await tool(join(root, "python/tests"), join(python, "python"), "-m", "unittest", "--quiet");
-  // As whoever exports a notebook that ran where nobody looked.
+  // A notebook executed without a viewer, then exported.
   const folder = join(work, "made/viewers");
   mkdirSync(folder, { recursive: true });
   const cell = (source) => ({ cell_type: "code", id: `cell-${source.length}`, metadata: {}, execution_count: null, outputs: [], source });
@@ -203,7 +203,7 @@ test("Sphinx with MyST", async ({ page, book, strangers }) => {
   await server.close();
 });
 
-// Generators that leave the look of a page to their authors, and where they put it.
+// Generators that leave the design to authors, with their output folders.
 const generators = {
   hugo: async (folder) => (await tool(folder, join(python, "hugo"), "--quiet", "--panicOnWarning"), join(folder, "public")),
   jekyll: async (folder) => (await tool(folder, "jekyll", "build", "--quiet", "--disable-disk-cache"), join(folder, "_site")),
@@ -225,7 +225,7 @@ for (const [name, build] of Object.entries(generators)) {
 
 test("MyST", async ({ page, book, strangers }) => {
   const folder = folderOf("myst", book);
-  // Its own themes are downloaded; this one shows widgets by the same package.
+  // Its own themes are downloaded; this one uses the same package for widgets.
   const config = join(folder, "myst.yml");
   writeFileSync(config, readFileSync(config, "utf8").replace("book-theme", "theme"));
   mkdirSync(join(folder, "theme"));
@@ -262,10 +262,10 @@ test("PreTeXt", async ({ page, book, strangers }) => {
   const offline = '<target name="web" format="html"><stringparams debug.rs.dev="yes"/></target>';
   writeFileSync(project, readFileSync(project, "utf8").replace('<target name="web" format="html"/>', offline));
   mkdirSync(join(folder, "home"));
-  // It unpacks itself at home, and would install what builds its styles if npm were there; it brings those along, too.
+  // It unpacks itself into HOME. Without npm on the PATH, it uses the built styles that it ships.
   await toolIn({ HOME: join(folder, "home"), PATH: python }, folder, join(python, "pretext"), "build", "web");
   const site = join(folder, "output/web");
-  // What it asks of others for its own pages, and what such a build expects of Runestone: nothing here.
+  // Requests of its own pages, and files that such a build expects of Runestone: all stubbed.
   const theirs = ["https://cdn.jsdelivr.net", "https://fonts.googleapis.com", "https://fonts.gstatic.com"];
   await page.route(({ origin }) => theirs.includes(origin), (route) => route.fulfill({ body: "" }));
   const server = await fileServer(site);
@@ -274,7 +274,7 @@ test("PreTeXt", async ({ page, book, strangers }) => {
   await visit(page, `${server.origin}/fitting.html`, strangers);
   const figure = race(page.frameLocator("iframe"));
   await operate(page, figure);
-  // Its pages follow the system, as the frame does.
+  // Its pages follow the system, as the iframe does.
   const choose = (colorScheme) => () => page.emulateMedia({ colorScheme });
   await follows(figure, choose("dark"), choose("light"));
   await page.goto(`${server.origin}/stereo.html`);
@@ -316,7 +316,7 @@ test("Docusaurus", async ({ page, book, strangers }) => {
   const choose = (theme) => () => page.evaluate((name) => (document.documentElement.dataset.theme = name), theme);
   await choose("light")();
   await follows(race(page), choose("dark"), choose("light"));
-  // There and back without loading a page.
+  // Navigation without a page load.
   await page.getByRole("main").getByRole("link", { name: "stereo", exact: true }).click();
   await answers(map(page));
   await page.getByRole("main").getByRole("link", { name: "fitting", exact: true }).click();
@@ -334,28 +334,28 @@ test("JupyterLab", async ({ page, book, strangers }) => {
   strangers.push(server.origin.replace("http", "ws"));
   await visit(page, `${server.origin}/lab/tree/figures.ipynb?token=t`, strangers);
   const cells = page.locator(".jp-Notebook .jp-CodeCell");
-  // What is run before the kernel is connected is lost.
+  // Cells run before the kernel is connected are lost.
   await expect(page.getByRole("button", { name: /\| Idle$/ })).toBeVisible({ timeout: 90_000 });
   await cells.first().locator(".cm-content").click();
   for (let cell = 0; cell < 2; cell += 1) await page.keyboard.press("Shift+Enter");
   await operate(page, race(page));
-  // What its menu of settings does, without the time that a hand takes.
+  // As its settings menu does, without the delay of clicking.
   const wear = (theme) => async () => {
-    // The picture that it shows meanwhile must be gone, or it is taken away twice, which is an error of its own.
+    // Wait for its splash screen to be gone, as removing it twice raises an error.
     await expect(page.locator("#jupyterlab-splash")).toHaveCount(0);
     await page.evaluate((name) => window.jupyterapp.commands.execute("apputils:change-theme", { theme: name }), theme);
   };
-  // A theme is loaded when it is worn for the first time, which is the host's time.
+  // Load each theme once, so that the timing below excludes the host's loading.
   for (const theme of ["JupyterLab Dark", "JupyterLab Light"]) {
     await wear(theme)();
-    // What is asked for while another one is being loaded is lost.
+    // Requests during the loading of a theme are lost.
     await expect.poll(() => page.evaluate(() => document.body.dataset.jpThemeName), { timeout: 30_000 }).toBe(theme);
   }
   await expect(page.locator("#jupyterlab-splash")).toHaveCount(0);
   await follows(race(page), wear("JupyterLab Dark"), wear("JupyterLab Light"));
   await answers(map(page));
   await expect(cells).toHaveCount(3);
-  // What the reader has set is in Python, and what Python sets is on the page.
+  // State set by the reader is visible in Python, and vice versa.
   const type = async (words) => {
     await cells.last().locator(".cm-content").click();
     await page.keyboard.type(words);
@@ -378,14 +378,14 @@ test("JupyterLab", async ({ page, book, strangers }) => {
       { timeout: 60_000, intervals: [1000] },
     )
     .toBe(`${stepped}\n`);
-  // A new figure of the same state shows the same bits.
+  // A new figure of the same state gives the same readouts.
   await type("Figure('ransac-race', **race.state)");
   const both = page.locator('epipole-figure[name="ransac-race"]');
   await expect(both).toHaveCount(2);
   await expect(both.last()).toHaveAttribute("data-ready", "", { timeout: 60_000 });
   const told = (index) => both.nth(index).evaluate((element) => (element.flush(), [element.state, element.readouts]));
   expect(await told(1)).toEqual(await told(0));
-  // What a viewer without widgets is given: the picture as it is, once the figure has rested.
+  // Static viewers get the current picture as PNG once the figure has settled.
   await expect
     .poll(
       async () => {
@@ -397,14 +397,14 @@ test("JupyterLab", async ({ page, book, strangers }) => {
     .toBe("True b'PNG'\n");
   const modules = await page.evaluate(() => performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm")).length);
   expect(modules, "modules come through the kernel").toBe(0);
-  // A page that is left asks nothing of a server that goes.
+  // Leave the page first, so that it requests nothing from the closing server.
   await page.goto("about:blank");
   await server.close();
 });
 
 test("marimo", async ({ page, book, strangers }) => {
   const folder = folderOf("marimo", book);
-  // An app may follow its reader's system.
+  // Apps may follow the reader's system.
   writeFileSync(join(folder, "pyproject.toml"), '[tool.marimo.display]\ntheme = "system"\n');
   const child = spawn(join(python, "marimo"), ["run", "course.py", "--headless", "--no-token", "--host", "127.0.0.1", "--port", String(await freePort())], {
     cwd: folder,
@@ -417,7 +417,7 @@ test("marimo", async ({ page, book, strangers }) => {
   const system = (colorScheme) => () => page.emulateMedia({ colorScheme });
   await follows(race(page), system("dark"), system("light"));
   await answers(map(page));
-  // A page that is left asks nothing of a server that goes.
+  // Leave the page first, so that it requests nothing from the closing server.
   await page.goto("about:blank");
   await server.close();
 });
@@ -450,7 +450,7 @@ test("SCORM 1.2", async ({ page, strangers }) => {
   const listed = [...new TextDecoder().decode(files["imsmanifest.xml"]).matchAll(/<file href="([^"]+)"/g)].map(([, name]) => name);
   expect([...listed, "imsmanifest.xml"].sort()).toEqual(Object.keys(files).sort());
   cpSync(join(tools, "scorm-again/dist/scorm12.min.js"), join(folder, "scorm12.js"));
-  // The platform: a player that keeps what it is told from one visit to the next.
+  // The platform: a player that stores values between visits.
   writeFileSync(
     join(folder, "index.html"),
     `<!doctype html><html lang="en"><title>A course</title><script src="scorm12.js"></script>

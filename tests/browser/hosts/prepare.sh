@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the hosts install: the npm package, packed and unpacked as npm does it, and the Python wheel.
+# Builds what the hosts install: the npm package, packed and unpacked by npm, and the Python wheel.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 work=${CARGO_TARGET_DIR:-target}/hosts

@@ -1,17 +1,17 @@
-// Recipes as folders: the files that a page of docs/embed/ shows, written as a reader would write them.
+// Recipes as folders: the files shown on a page of docs/embed/, as a reader would write them.
 
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { root } from "../places.mjs";
 
 const target = process.env.CARGO_TARGET_DIR ?? join(root, "target");
-/** Where hosts are built, and what they are built from. */
+/** Folder in which the hosts are built. */
 export const work = join(target, "hosts");
 
-/** Every file of a recipe, by name: a line "`name`:" and the fence below it. */
+/** Files of a recipe, by name: each is a line "`name`:" followed by a fence. */
 export function filesOf(recipe) {
   const text = readFileSync(join(root, "docs/embed", `${recipe}.md`), "utf8");
-  // A fence around fences is longer than they.
+  // A fence around fences has more backticks.
   const files = [...text.matchAll(/^`([\w./-]+)`[^\n]*:\n\n((?:(`{3,})\w*\n[\s\S]*?^\3\n+)+)/gm)].map(([, name, fences]) => {
     const parts = [...fences.matchAll(/^(`{3,})\w*\n([\s\S]*?)^\1$/gm)].map(([, , part]) => part);
     return [name, parts];
@@ -20,7 +20,7 @@ export function filesOf(recipe) {
   return files;
 }
 
-/** A new folder with the files of a recipe; the book is at `book`. */
+/** Writes the files of a recipe to a new folder; `book` is the book's address. */
 export function folderOf(recipe, book) {
   const folder = join(work, "made", recipe);
   rmSync(folder, { recursive: true, force: true });

@@ -1,4 +1,4 @@
-// Folders as a course's own server sends them, and servers that hosts bring along.
+// Static servers of a course, and servers that hosts bring along.
 
 import { createServer } from "node:http";
 import { readFile, stat } from "node:fs/promises";
@@ -14,7 +14,7 @@ const TYPES = {
   ".wasm": "application/wasm",
 };
 
-/** Serves a folder under some path; a folder in it answers with its index.html. */
+/** Serves a folder under a path, with index.html for folders. */
 export async function fileServer(folder, under = "/") {
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
@@ -35,17 +35,20 @@ export async function fileServer(folder, under = "/") {
   return {
     origin: `http://127.0.0.1:${server.address().port}`,
     close: () => {
-      // The browser may have opened a connection that it has not used yet, which would never end.
+      // Connections opened in advance by the browser would never end.
       server.closeAllConnections();
       return new Promise((resolve) => server.close(resolve));
     },
   };
 }
 
-/** How long a server may take to end by itself once it is asked to, milliseconds. */
+/** Time for a server to end by itself when asked, milliseconds. */
 const GRACE_MS = 10_000;
 
-/** Some servers tell their address before they listen there; of one that has ended nothing more is expected. */
+/**
+ * Waits until a server answers, as some print their address before they listen; gives up if it has
+ * ended.
+ */
 async function answering(origin, isOver) {
   while (!isOver()) {
     const answer = await fetch(origin, { signal: AbortSignal.timeout(GRACE_MS) }).catch(() => undefined);
@@ -54,7 +57,7 @@ async function answering(origin, isOver) {
   }
 }
 
-/** A port that nobody uses, for servers that do not look for one themselves. */
+/** A free port, for servers that do not choose one themselves. */
 export async function freePort() {
   const server = createServer();
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
@@ -65,9 +68,9 @@ export async function freePort() {
 
 const running = new Set();
 
-/** Ends a server: one that does not listen to being asked is not asked twice. */
+/** Ends a server; kills it after `GRACE_MS`. */
 function end(child) {
-  // By a signal a process ends without a code.
+  // A process ended by a signal has no exit code.
   if (child.exitCode !== null || child.signalCode !== null) return Promise.resolve();
   return new Promise((resolve) => {
     const late = setTimeout(() => child.kill("SIGKILL"), GRACE_MS);
@@ -79,12 +82,12 @@ function end(child) {
   });
 }
 
-/** Ends the servers that a test has left behind. */
+/** Ends the servers that a test has left running. */
 export async function endServers() {
   await Promise.all([...running].map(end));
 }
 
-/** Waits until a server says its address, which `pattern` captures. */
+/** Waits until a server prints its address, captured by `pattern`. */
 export function started(child, pattern, patience = 90_000) {
   let said = "";
   running.add(child);
