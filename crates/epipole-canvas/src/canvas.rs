@@ -12,6 +12,7 @@ mod markers;
 mod marks;
 mod photograph;
 mod picture;
+mod place;
 mod polygons;
 mod scaled;
 mod stamp;
@@ -21,6 +22,7 @@ mod text;
 mod warped;
 
 pub use picture::Picture;
+pub use place::Place;
 pub use style::{Align, Dash, Shape, Stroke, TextStyle};
 pub use text::{paragraph_height, text_width};
 
@@ -31,9 +33,6 @@ use coverage::Coverage;
 use scaled::Scaled;
 use strokes::At;
 use tiny_skia::{Color, Pixmap};
-
-/// A place on the picture, CSS pixels.
-pub type Place = (f64, f64);
 
 /// The picture cannot be drawn at this size.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

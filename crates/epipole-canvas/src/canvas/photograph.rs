@@ -1,6 +1,7 @@
 //! Photographs, scaled to where they are shown.
 
 use super::Canvas;
+use super::scaled::Target;
 use crate::Rect;
 use image::RgbImage;
 use std::ops::Range;
@@ -37,16 +38,6 @@ impl Canvas {
             scale(photograph, &columns, &rows, (picture, stride));
         });
     }
-}
-
-/// Which device pixels a photograph takes.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Target {
-    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
-    asked: [i64; 4],
-    /// What the picture has of it.
-    pub(super) columns: Range<usize>,
-    pub(super) rows: Range<usize>,
 }
 
 /// Draws the photograph into RGBA bytes with so many bytes a row.

@@ -1,8 +1,19 @@
 //! Photographs as they were last scaled: most frames show the same ones in the same places, and
 //! copying them takes a fraction of the time.
 
-use super::photograph::Target;
 use image::RgbImage;
+use std::ops::Range;
+
+/// Device pixels that a photograph takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Target {
+    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
+    pub(super) asked: [i64; 4],
+    /// Columns of the picture within these sides.
+    pub(super) columns: Range<usize>,
+    /// Rows of the picture within these sides.
+    pub(super) rows: Range<usize>,
+}
 
 /// What was scaled to where.
 #[derive(PartialEq)]
