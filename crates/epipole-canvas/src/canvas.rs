@@ -6,6 +6,7 @@
 
 mod clip;
 mod coverage;
+mod edge;
 mod glyphs;
 mod lines;
 mod markers;
@@ -30,8 +31,8 @@ use crate::Rect;
 use crate::theme::{Rgb, Role, Theme};
 use clip::clip_polygon;
 use coverage::Coverage;
+use place::At;
 use scaled::Scaled;
-use strokes::At;
 use tiny_skia::{Color, Pixmap};
 
 /// The picture cannot be drawn at this size.

@@ -4,7 +4,7 @@
 //! color is blended: where parts overlap, as the pieces of a curve do at their joints, nothing is
 //! drawn twice.
 
-use super::polygons::Edge;
+use super::edge::Edge;
 use crate::theme::Rgb;
 use std::ops::Range;
 

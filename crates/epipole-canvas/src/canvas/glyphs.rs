@@ -5,8 +5,9 @@
 //! then only blended.
 
 use super::coverage::Coverage;
+use super::place::At;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
-use super::strokes::{At, Cap};
+use super::strokes::Cap;
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
 use std::cell::RefCell;

@@ -1,7 +1,8 @@
 //! Filled polygons: covered by exact area.
 
 use super::coverage::{Coverage, greater, lesser, parts};
-use super::strokes::At;
+use super::edge::Edge;
+use super::place::At;
 use std::ops::Range;
 
 /// Pixels that are looked at together.
@@ -84,31 +85,6 @@ impl Coverage {
             changes.fill(0.0);
         }
         (self.sums, self.edges) = (sums, edges);
-    }
-}
-
-/// A side of a polygon.
-pub(super) struct Edge {
-    upper: At,
-    lower: At,
-    /// How far it goes to the right for each row down.
-    slope: f32,
-    /// 1 if it goes down, −1 if it goes up.
-    sign: f32,
-}
-
-impl Edge {
-    fn new(from: At, to: At) -> Self {
-        let (sign, upper, lower) = match from.1 <= to.1 {
-            true => (1.0, from, to),
-            false => (-1.0, to, from),
-        };
-        Self {
-            upper,
-            lower,
-            slope: (lower.0 - upper.0) / (lower.1 - upper.1),
-            sign,
-        }
     }
 }
 

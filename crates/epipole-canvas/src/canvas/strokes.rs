@@ -4,6 +4,7 @@
 //! no edges and no samples, which is why hundreds of lines fit into a frame.
 
 use super::coverage::{Coverage, greater, lesser, parts};
+use super::place::At;
 
 /// How a stroke ends.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -13,9 +14,6 @@ pub(super) enum Cap {
     /// At the end.
     Flat,
 }
-
-/// A place, device pixels.
-pub(super) type At = (f32, f32);
 
 /// How much of a pixel a band of half-width `half` covers, if the pixel's center is `distance` from
 /// the band's middle.
