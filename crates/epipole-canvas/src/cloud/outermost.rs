@@ -1,6 +1,6 @@
 //! The places that decide how far away a view has to be: of many, those few that are ever at an edge of the picture.
 
-use super::orbit::{FOCAL, NEAREST};
+use super::perspective::{FOCAL, NEAREST};
 use nalgebra::Vector3;
 
 /// Places in the frame of a camera that may come nearer, go farther and step aside, but does not turn.
