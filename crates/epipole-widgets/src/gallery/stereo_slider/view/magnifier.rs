@@ -1,6 +1,6 @@
 //! The match through a magnifying glass, in a corner of the right photograph: there a pixel more or less can be seen.
 
-use super::UNCERTAIN;
+use super::style::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Panel, Rect};
 use crate::gallery::stereo_slider::rig::ERROR_PX;
