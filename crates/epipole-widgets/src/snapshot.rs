@@ -2,9 +2,10 @@
 //! and the builder of pages, which writes it without one, take it from here.
 
 use crate::contract::{
-    Aspect, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space,
+    Aspect, ChallengeStatus, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout,
+    Space,
 };
-use crate::{ChallengeStatus, Figure, pointing};
+use crate::{Figure, pointing};
 use serde::Serialize;
 
 /// A figure's present state, laid out for a width of the page.

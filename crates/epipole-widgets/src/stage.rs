@@ -2,9 +2,9 @@
 
 use crate::canvas::Canvas;
 use crate::contract::{
-    Aspect, Challenge, Declared, Event, Layout, Model, PhotoSlot, Space, View, Words,
+    Aspect, Challenge, ChallengeStatus, Declared, Event, Layout, Model, PhotoSlot, Space, View,
+    Words,
 };
-use crate::figure::ChallengeStatus;
 
 /// What [`Figure`](crate::Figure) needs of any model and view.
 pub(crate) trait Stage {

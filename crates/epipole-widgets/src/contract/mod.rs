@@ -19,7 +19,7 @@ mod symbol;
 mod view;
 mod words;
 
-pub use challenge::Challenge;
+pub use challenge::{Challenge, ChallengeStatus};
 pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Place, Slider, Toggle};
 pub(crate) use decimal::parse_decimal;

@@ -1,17 +1,11 @@
 //! State to parameters and back: what a permalink, an attribute and a chapter say of a figure.
 
 use super::Figure;
+use super::untouched::Untouched;
 use crate::contract::{ControlKind, Event, Handle, Place, Problem, Value, parse_decimal};
 
 /// The value of a handle's parameter after the reader has removed it.
 const REMOVED: &str = "removed";
-
-/// What a figure is like before the reader moves a handle.
-pub(super) struct Untouched {
-    /// The visible controls that differ from the default state.
-    controls: Vec<(String, String)>,
-    handles: Vec<Handle>,
-}
 
 impl Figure {
     /// The state as parameters: everything that differs from the default state.
