@@ -6,12 +6,14 @@
 
 mod clip;
 mod coverage;
+mod edge;
 mod glyphs;
 mod lines;
 mod markers;
 mod marks;
 mod photograph;
 mod picture;
+mod place;
 mod polygons;
 mod scaled;
 mod stamp;
@@ -21,6 +23,7 @@ mod text;
 mod warped;
 
 pub use picture::Picture;
+pub use place::Place;
 pub use style::{Align, Dash, Shape, Stroke, TextStyle};
 pub use text::{paragraph_height, text_width};
 
@@ -28,12 +31,9 @@ use crate::Rect;
 use crate::theme::{Rgb, Role, Theme};
 use clip::clip_polygon;
 use coverage::Coverage;
+use place::At;
 use scaled::Scaled;
-use strokes::At;
 use tiny_skia::{Color, Pixmap};
-
-/// A place on the picture, CSS pixels.
-pub type Place = (f64, f64);
 
 /// The picture cannot be drawn at this size.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -2,8 +2,10 @@
 //! core's default, the same for every command.
 
 mod kinds;
+mod numbers;
 
 use self::kinds::KindArguments;
+use self::numbers::{above_0_up_to_1, not_negative};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::photo::Photo;
@@ -99,25 +101,6 @@ pub(crate) struct MatchArguments {
     /// The largest distance of two descriptors [default: any].
     #[arg(long, value_name = "D", value_parser = not_negative)]
     pub(crate) max_distance: Option<f32>,
-}
-
-fn number(text: &str, fits: impl Fn(f32) -> bool, range: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(value) if fits(value) && value.is_finite() => Ok(value),
-        // Beyond what fits 32 bits, as 1e60.
-        Ok(value) if fits(value) && text.parse::<f64>().is_ok_and(f64::is_finite) => {
-            Err(format!("\"{text}\" is too large: at most 3e38"))
-        }
-        _ => Err(format!("\"{text}\" is not a number {range}")),
-    }
-}
-
-fn above_0_up_to_1(text: &str) -> Result<f32, String> {
-    number(text, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1")
-}
-
-fn not_negative(text: &str) -> Result<f32, String> {
-    number(text, |x| x >= 0.0, "of 0 or more")
 }
 
 impl MatchArguments {

@@ -25,5 +25,5 @@ mod snapshot;
 mod stage;
 
 pub use epipole_canvas::{canvas, theme};
-pub use figure::{Answers, ChallengeStatus, Figure, POSTER_WIDTH};
+pub use figure::{Answers, Figure, POSTER_WIDTH};
 pub use snapshot::Snapshot;

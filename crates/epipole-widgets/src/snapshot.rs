@@ -2,9 +2,10 @@
 //! browser and for pages built ahead of time.
 
 use crate::contract::{
-    Aspect, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout, Space,
+    Aspect, ChallengeStatus, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout,
+    Space,
 };
-use crate::{ChallengeStatus, Figure, pointing};
+use crate::{Figure, pointing};
 use serde::Serialize;
 
 /// A figure's current state, laid out for a page width.

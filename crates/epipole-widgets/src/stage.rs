@@ -2,9 +2,9 @@
 
 use crate::canvas::Canvas;
 use crate::contract::{
-    Aspect, Challenge, Declared, Event, Layout, Model, PhotoSlot, Space, View, Words,
+    Aspect, Challenge, ChallengeStatus, Declared, Event, Layout, Model, PhotoSlot, Space, View,
+    Words,
 };
-use crate::figure::ChallengeStatus;
 
 /// Interface of [`Figure`](crate::Figure) to any model and view.
 pub(crate) trait Stage {

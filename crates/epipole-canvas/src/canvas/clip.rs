@@ -1,6 +1,6 @@
 //! Lines and areas cut at the sides of a rectangle.
 
-use super::Place;
+use super::place::Place;
 use crate::Rect;
 
 /// The part of a segment inside a rectangle.

@@ -3,7 +3,7 @@
 //! All parts of a mark add to its coverage before its color is blended once, so that overlapping
 //! parts, such as the pieces of a curve at their joints, are not drawn twice.
 
-use super::polygons::Edge;
+use super::edge::Edge;
 use crate::theme::Rgb;
 use std::ops::Range;
 

@@ -4,8 +4,9 @@
 //! frame. So each is rasterized once per size and quarter pixel, and then only blended.
 
 use super::coverage::Coverage;
+use super::place::At;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
-use super::strokes::{At, Cap};
+use super::strokes::Cap;
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
 use std::cell::RefCell;

@@ -4,8 +4,9 @@
 //! in both directions, and then only blended.
 
 use super::coverage::Coverage;
+use super::place::At;
 use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
-use super::strokes::{At, Cap};
+use super::strokes::Cap;
 use super::{Canvas, Place, Shape};
 use crate::theme::{Rgb, Role};
 use std::cell::RefCell;

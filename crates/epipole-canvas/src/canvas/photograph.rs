@@ -1,6 +1,7 @@
 //! Photographs, scaled to their place in the picture.
 
 use super::Canvas;
+use super::scaled::Target;
 use crate::Rect;
 use image::RgbImage;
 use std::ops::Range;
@@ -37,16 +38,6 @@ impl Canvas {
             scale(photograph, &columns, &rows, (picture, stride));
         });
     }
-}
-
-/// Device pixels of a photograph.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Target {
-    /// Requested left, top, right and bottom, possibly beyond the picture.
-    asked: [i64; 4],
-    /// The part within the picture.
-    pub(super) columns: Range<usize>,
-    pub(super) rows: Range<usize>,
 }
 
 /// Draws the photograph into RGBA bytes, with the stride in bytes.

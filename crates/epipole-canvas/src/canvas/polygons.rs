@@ -1,7 +1,8 @@
 //! Filled polygons with exact-area coverage.
 
 use super::coverage::{Coverage, greater, lesser, parts};
-use super::strokes::At;
+use super::edge::Edge;
+use super::place::At;
 use std::ops::Range;
 
 /// Number of pixels checked together.
@@ -84,31 +85,6 @@ impl Coverage {
             changes.fill(0.0);
         }
         (self.sums, self.edges) = (sums, edges);
-    }
-}
-
-/// A side of a polygon.
-pub(super) struct Edge {
-    upper: At,
-    lower: At,
-    /// Change of x per row down.
-    slope: f32,
-    /// 1 if it goes down, −1 if it goes up.
-    sign: f32,
-}
-
-impl Edge {
-    fn new(from: At, to: At) -> Self {
-        let (sign, upper, lower) = match from.1 <= to.1 {
-            true => (1.0, from, to),
-            false => (-1.0, to, from),
-        };
-        Self {
-            upper,
-            lower,
-            slope: (lower.0 - upper.0) / (lower.1 - upper.1),
-            sign,
-        }
     }
 }
 

@@ -1,8 +1,19 @@
 //! Cache of scaled photographs: most frames show the same ones in the same places, and a copy takes
 //! a fraction of the time.
 
-use super::photograph::Target;
 use image::RgbImage;
+use std::ops::Range;
+
+/// Device pixels that a photograph takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Target {
+    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
+    pub(super) asked: [i64; 4],
+    /// Columns of the picture within these sides.
+    pub(super) columns: Range<usize>,
+    /// Rows of the picture within these sides.
+    pub(super) rows: Range<usize>,
+}
 
 /// Cache key: photograph and target.
 #[derive(PartialEq)]

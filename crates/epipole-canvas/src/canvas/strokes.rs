@@ -4,6 +4,7 @@
 //! needs no outline, edges or samples, so hundreds of lines fit into a frame.
 
 use super::coverage::{Coverage, greater, lesser, parts};
+use super::place::At;
 
 /// End of a stroke.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -13,9 +14,6 @@ pub(super) enum Cap {
     /// Cut at the end.
     Flat,
 }
-
-/// A place, device pixels.
-pub(super) type At = (f32, f32);
 
 /// Returns the coverage of a pixel by a band of half-width `half`, for a pixel center at `distance`
 /// from the band's middle.

@@ -16,6 +16,7 @@
 mod frame;
 mod orbit;
 mod outermost;
+mod perspective;
 mod picture;
 
 pub use frame::{Frame, Look};

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::outermost::Outermost;
+use super::perspective::{FOCAL, NEAREST};
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 /// A view of a space.
@@ -21,11 +22,6 @@ pub struct Orbit {
     /// Size of the scene, which bounds the distance.
     size: f64,
 }
-
-/// Focal length over the shorter side of the picture.
-pub(super) const FOCAL: f64 = 1.2;
-/// Depth over the size of the scene below which nothing is seen.
-pub(super) const NEAREST: f64 = 1e-3;
 
 impl Orbit {
     /// Creates a view of all but the outermost points.

@@ -1,7 +1,7 @@
 //! The outermost points, which determine how near a view can be: few of many ever touch an edge of
 //! the picture.
 
-use super::orbit::{FOCAL, NEAREST};
+use super::perspective::{FOCAL, NEAREST};
 use nalgebra::Vector3;
 
 /// Outermost points in the frame of a camera that may translate but not rotate.

@@ -14,7 +14,7 @@ use crate::robust::RobustArguments;
 use crate::turn::{self, find_turn, left_open};
 use crate::{files, picture};
 use clap::Args;
-use epipole::camera::RigidTransform;
+use epipole::camera::{Camera, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
 use epipole::robust::MatchSet;
 use epipole::stereo::{PixelMap, RectifyOptions, rectify_calibrated, rectify_uncalibrated};
@@ -99,7 +99,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let (photos, found, num_matches) = match &arguments.rig {
         Some(file) => {
-            let (photos, found) = rig::rectify(arguments, context, file)?;
+            let paths = [&*arguments.first, &*arguments.second];
+            let (photos, cameras, right_from_left) = rig::read(file, paths, context)?;
+            let found = calibrated(arguments, &cameras, &right_from_left, None)?;
             (photos, found, None)
         }
         None => by_matches(arguments, context)?,
@@ -177,13 +179,12 @@ fn rectify(
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
-        let rectification = rectify_calibrated(&cameras, &cam2_from_cam1, &arguments.shape())?;
-        return Ok(Found {
-            homographies: rectification.homographies,
-            maps: [rectification.map(0)?, rectification.map(1)?],
-            q: Some(rectification.q),
-            num_inliers: Some(report.num_inliers),
-        });
+        return calibrated(
+            arguments,
+            &cameras,
+            &cam2_from_cam1,
+            Some(report.num_inliers),
+        );
     }
     let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
     let report = arguments.robust.run(estimator, context)?;
@@ -214,5 +215,21 @@ fn rectify(
         homographies: rectification.homographies,
         q: None,
         num_inliers: Some(report.num_inliers),
+    })
+}
+
+/// Rectification of two known cameras.
+fn calibrated(
+    arguments: &Arguments,
+    cameras: &[Camera; 2],
+    cam2_from_cam1: &RigidTransform,
+    num_inliers: Option<usize>,
+) -> Result<Found, Failure> {
+    let rectification = rectify_calibrated(cameras, cam2_from_cam1, &arguments.shape())?;
+    Ok(Found {
+        homographies: rectification.homographies,
+        maps: [rectification.map(0)?, rectification.map(1)?],
+        q: Some(rectification.q),
+        num_inliers,
     })
 }

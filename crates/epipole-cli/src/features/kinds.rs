@@ -1,6 +1,6 @@
 //! The options of features that only one of the kinds knows.
 
-use super::{above_0_up_to_1, number};
+use super::numbers::{above_0_up_to_1, number};
 use crate::matrices::not_negative;
 use clap::Args;
 use epipole::feature::FeatureOptions;

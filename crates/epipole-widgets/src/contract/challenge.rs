@@ -1,6 +1,7 @@
 //! Challenges: goals that the reader reaches by operating the figure.
 
 use super::event::Event;
+use serde::Serialize;
 
 /// A goal with its check and one solution.
 ///
@@ -18,4 +19,19 @@ pub struct Challenge<M> {
     pub check: fn(&M) -> bool,
     /// Events that lead from the default state to the goal.
     pub solution: fn() -> Vec<Event>,
+}
+
+/// A challenge with whether it is solved now.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChallengeStatus {
+    /// Permanent name.
+    pub id: &'static str,
+    /// The goal as a request to the reader.
+    pub goal: &'static str,
+    /// A nudge for a reader who is stuck.
+    pub hint: &'static str,
+    /// Why that reaches it, in one sentence.
+    pub why: &'static str,
+    /// Whether the present state reaches the goal.
+    pub solved: bool,
 }

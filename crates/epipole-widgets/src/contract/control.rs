@@ -2,7 +2,6 @@
 
 use super::decimal::parse_decimal;
 use super::readout::{format_number, with_unit};
-use super::settings::Knob;
 use serde::Serialize;
 
 /// Placement of a control on the page.
@@ -167,11 +166,6 @@ pub enum ControlKind {
 }
 
 impl Slider {
-    /// As an entry of a model's list of settings.
-    pub(crate) const fn knob(&'static self) -> Knob {
-        Knob::Slider(self)
-    }
-
     /// From 0 to 1 in hundredths, at 0, until the methods below say otherwise.
     pub const fn new(id: &'static str, label: &'static str) -> Self {
         Self {
@@ -266,11 +260,6 @@ impl Slider {
 }
 
 impl Toggle {
-    /// As an entry of a model's list of settings.
-    pub(crate) const fn knob(&'static self) -> Knob {
-        Knob::Toggle(self)
-    }
-
     /// Off at the start.
     pub const fn new(id: &'static str, label: &'static str) -> Self {
         Self {
@@ -311,11 +300,6 @@ impl Toggle {
 }
 
 impl Choice {
-    /// As an entry of a model's list of settings.
-    pub(crate) const fn knob(&'static self) -> Knob {
-        Knob::Choice(self)
-    }
-
     /// The first option at the start.
     pub const fn new(
         id: &'static str,

@@ -1,7 +1,7 @@
 //! Events: the only way that a figure's state changes.
 
 use super::decimal::parse_decimal;
-use super::settings::Knob;
+use super::knob::Knob;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

@@ -2,54 +2,8 @@
 
 use super::control::{Choice, Control, Slider, Toggle};
 use super::event::{Event, Value};
+use super::knob::Knob;
 use super::problem::Problem;
-
-/// One entry of a model's list of settings.
-#[derive(Debug, Clone, Copy)]
-pub enum Knob {
-    /// A number.
-    Slider(&'static Slider),
-    /// On or off.
-    Toggle(&'static Toggle),
-    /// One of several.
-    Choice(&'static Choice),
-}
-
-/// A model's list of settings, in order, by the names of its sliders, toggles and choices.
-macro_rules! knobs {
-    ($($knob:expr),+ $(,)?) => {
-        &[$($knob.knob()),+]
-    };
-}
-pub(crate) use knobs;
-
-impl From<&'static Slider> for Knob {
-    fn from(slider: &'static Slider) -> Self {
-        Self::Slider(slider)
-    }
-}
-
-impl From<&'static Toggle> for Knob {
-    fn from(toggle: &'static Toggle) -> Self {
-        Self::Toggle(toggle)
-    }
-}
-
-impl From<&'static Choice> for Knob {
-    fn from(choice: &'static Choice) -> Self {
-        Self::Choice(choice)
-    }
-}
-
-impl Knob {
-    pub(super) fn id(self) -> &'static str {
-        match self {
-            Self::Slider(slider) => slider.id,
-            Self::Toggle(toggle) => toggle.id,
-            Self::Choice(choice) => choice.id,
-        }
-    }
-}
 
 /// The values of a list of knobs, read by the knob itself, so that a misspelt name cannot compile.
 #[derive(Debug, Clone)]

@@ -7,36 +7,23 @@ mod answers;
 mod checks;
 mod drawing;
 mod permalink;
+mod untouched;
 
 use crate::canvas::Picture;
 use crate::contract::{
-    Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem, Readout, Space, Symbol,
+    ChallengeStatus, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem,
+    Readout, Space, Symbol,
 };
 use crate::gallery::{self, Entry};
 use crate::stage::Stage;
 pub use answers::Answers;
 use image::RgbImage;
-use permalink::Untouched;
 use std::cell::RefCell;
 use std::ops::ControlFlow;
+use untouched::Untouched;
 
 /// Width of a poster and of a page's figure column, CSS pixels.
 pub const POSTER_WIDTH: f64 = 760.0;
-
-/// A challenge with its status.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct ChallengeStatus {
-    /// Permanent name.
-    pub id: &'static str,
-    /// The goal as a request to the reader.
-    pub goal: &'static str,
-    /// A nudge for a reader who is stuck.
-    pub hint: &'static str,
-    /// One sentence on why the solution works.
-    pub why: &'static str,
-    /// Whether the current state reaches the goal.
-    pub solved: bool,
-}
 
 /// A figure of the gallery in some state.
 pub struct Figure {

@@ -1,17 +1,11 @@
 //! Conversion between state and parameters, for permalinks, attributes and chapters.
 
 use super::Figure;
+use super::untouched::Untouched;
 use crate::contract::{ControlKind, Event, Handle, Place, Problem, Value, parse_decimal};
 
 /// Parameter value of a handle that the reader has removed.
 const REMOVED: &str = "removed";
-
-/// The handles of a figure before the reader moves any, by the controls.
-pub(super) struct Untouched {
-    /// The visible controls that differ from the default state.
-    controls: Vec<(String, String)>,
-    handles: Vec<Handle>,
-}
 
 impl Figure {
     /// Returns the parameters that differ from the default state.

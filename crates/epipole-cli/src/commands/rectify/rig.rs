@@ -1,40 +1,30 @@
-//! `epipole rectify` where the rig is calibrated: nothing is looked for in the photographs.
+//! Photographs of a calibrated stereo rig, for `epipole rectify`.
 
-use super::{Arguments, Found};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::tell_of_unseen;
 use crate::lens;
 use crate::photo::{Photo, SizeArguments, check_same_size};
-use epipole::camera::Camera;
-use epipole::stereo::rectify_calibrated;
+use epipole::camera::{Camera, RigidTransform};
 use std::path::Path;
 
-/// The two photographs and how they are rectified.
+/// The two photographs, their cameras, and the pose of the right camera.
 ///
 /// # Errors
-/// A sentence for files that cannot be read or are not of this rig; as the core's rectification.
-pub(super) fn rectify(
-    arguments: &Arguments,
-    context: &Context,
+/// A sentence for files that cannot be read or are not of this rig.
+pub(super) fn read(
     file: &Path,
-) -> Result<([Photo; 2], Found), Failure> {
+    paths: [&Path; 2],
+    context: &Context,
+) -> Result<([Photo; 2], [Camera; 2], RigidTransform), Failure> {
     let (cameras, right_from_left) = lens::read_rig(file)?;
     let [left, right] = &cameras;
     let photos = [
-        photograph(&arguments.first, left, "left", context)?,
-        photograph(&arguments.second, right, "right", context)?,
+        photograph(paths[0], left, "left", context)?,
+        photograph(paths[1], right, "right", context)?,
     ];
     check_same_size(&photos)?;
-    let options = arguments.shape();
-    let rectification = rectify_calibrated(&cameras, &right_from_left, &options)?;
-    let found = Found {
-        homographies: rectification.homographies,
-        maps: [rectification.map(0)?, rectification.map(1)?],
-        q: Some(rectification.q),
-        num_inliers: None,
-    };
-    Ok((photos, found))
+    Ok((photos, cameras, right_from_left))
 }
 
 /// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a camera that stands otherwise.

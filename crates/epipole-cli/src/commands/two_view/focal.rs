@@ -1,6 +1,6 @@
 //! Intrinsics of two photographs of which nobody said the focal length.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::camera::centered;
 use crate::context::Context;
 use crate::failure::Failure;

@@ -1,8 +1,8 @@
 //! The searches of `epipole two-view`, and what they found.
 
+use super::arguments::{Arguments, Model};
 use super::errors::{self, Pixels, SeenPixels};
 use super::focal::intrinsics;
-use super::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::{known_cameras, warn_of_unseen};

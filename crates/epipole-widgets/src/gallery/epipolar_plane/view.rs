@@ -2,8 +2,10 @@
 //! the formula of the highlighted element.
 
 mod space;
+mod style;
 
 use self::space::{cloud, draw_space};
+use self::style::{LIT, stroke};
 use super::model::{EpipolarPlane, Lit, SPACE_ASPECT};
 use super::scenery::Scenery;
 use super::words::{NO_BASELINE, ON_BASELINE};
@@ -17,7 +19,6 @@ use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, in_picture};
 use crate::theme::{Rgb, Role};
 use nalgebra::{Point2, Point3};
 
-const LIT: Role = Role::Series(3);
 /// Rows of photograph 1 whose lines are drawn to show that all pass through the epipole.
 const PENCIL_ROWS: [f64; 7] = [0.0, 80.0, 160.0, 240.0, 320.0, 400.0, 479.0];
 const FORMULA: f64 = 26.0;
@@ -109,15 +110,6 @@ impl View for EpipolarPlaneView {
             return true;
         }
         self.photos.refine(&scenery.cameras)
-    }
-}
-
-/// Returns the stroke of a line, highlighted or not.
-fn stroke(is_lit: bool) -> Stroke {
-    if is_lit {
-        Stroke::solid(LIT, 3.0)
-    } else {
-        Stroke::solid(Role::Ink, 1.5)
     }
 }
 

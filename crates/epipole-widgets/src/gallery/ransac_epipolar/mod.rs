@@ -1,5 +1,6 @@
 //! `ransac-epipolar`: the core's RANSAC on the matches of two photographs, sample by sample.
 
+mod matches;
 mod model;
 mod question;
 mod view;

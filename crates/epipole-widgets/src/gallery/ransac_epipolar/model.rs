@@ -3,7 +3,8 @@
 //! The photographs, their matches and all votes come from a worker. The number of samples is one of
 //! the settings; the loop is deterministic, so a permalink replays it.
 
-use super::question::{Answer, Match, Matched, Question, STILL_LIFE_SIZE};
+use super::matches::Match;
+use super::question::{Answer, Matched, Question, STILL_LIFE_SIZE};
 use super::votes::{Best, LeftOpen, Moment, Voters, Votes};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,

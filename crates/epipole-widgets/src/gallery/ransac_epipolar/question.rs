@@ -1,5 +1,6 @@
 //! The matches of two photographs, and their votes for F.
 
+use super::matches::Match;
 use super::votes::{Voters, Votes};
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{self, Pair};
@@ -8,7 +9,6 @@ use crate::kit::question;
 use epipole::Error;
 use epipole::feature::{Features, MatchOptions, match_descriptors};
 use epipole::progress::Status;
-use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
@@ -26,17 +26,6 @@ pub(super) enum Question {
     Votes(Voters),
 }
 
-/// A match: mutual nearest neighbors of two photographs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Match {
-    /// Column and row in photograph 1, then in photograph 2.
-    pub(super) places: [[f64; 2]; 2],
-    /// Ratio of the distances to the nearest and the second nearest descriptor (Lowe).
-    pub(super) ratio: f32,
-    /// Whether the match is correct, where the truth is known.
-    pub(super) is_right: Option<bool>,
-}
-
 /// Result of the computation.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) enum Answer {
@@ -49,16 +38,6 @@ pub(super) enum Answer {
 pub(super) struct Matched {
     pub(super) photographs: [Picture; 2],
     pub(super) matches: Vec<Match>,
-}
-
-impl Match {
-    pub(super) fn pixel1(&self) -> Point2<f64> {
-        self.places[0].into()
-    }
-
-    pub(super) fn pixel2(&self) -> Point2<f64> {
-        self.places[1].into()
-    }
 }
 
 impl question::Question for Question {

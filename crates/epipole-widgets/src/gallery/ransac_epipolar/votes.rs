@@ -1,6 +1,6 @@
 //! The votes of matches for a fundamental matrix, sample by sample.
 
-use super::question::Match;
+use super::matches::Match;
 use crate::contract::Progress;
 use crate::kit::question::tell;
 use crate::kit::samples::{Drawn, Rules, Samples};

@@ -1,7 +1,9 @@
 //! The block from above with the three paths around it, and beside it the scale of each frame.
 
 mod map;
+mod style;
 
+use self::style::{AFTER, BEFORE, TRUTH};
 use super::model::ScaleDrift;
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View};
@@ -23,9 +25,6 @@ const LEGEND_GAP: f64 = 4.0;
 #[derive(Default)]
 pub(crate) struct ScaleDriftView;
 
-const TRUTH: Stroke = Stroke::solid(Role::Truth, 1.75).dotted();
-const BEFORE: Stroke = Stroke::solid(Role::Series(1), 1.75).dashed();
-const AFTER: Stroke = Stroke::solid(Role::Best, 2.25);
 const LEGEND: [Entry; 3] = [
     (Swatch::Line(TRUTH), "truth"),
     (Swatch::Line(BEFORE), "odometry"),

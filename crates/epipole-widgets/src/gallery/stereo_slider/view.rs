@@ -3,8 +3,10 @@
 
 mod from_above;
 mod magnifier;
+mod style;
 
 use self::magnifier::Magnifier;
+use self::style::UNCERTAIN;
 use super::model::{DEPTH_RANGE_M, StereoSlider};
 use super::rig::{ERROR_PX, Measured, Rig, Sight};
 use super::words::NO_BASELINE;
@@ -20,8 +22,6 @@ use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
-/// Color of the uncertainty of a pixel.
-pub(super) const UNCERTAIN: Role = Role::Series(3);
 /// Height of the view from above on a phone, CSS pixels.
 const LOW: f64 = 186.0;
 /// Disparities and depths that the curve is drawn for.

@@ -1,16 +1,16 @@
 //! One point from two noisy pixels by every method of the core, with repetitions.
 
-use super::uncertainty::Curves;
+use super::uncertainty::{Curves, axes_of};
 use epipole::Error;
 use epipole::camera::{PosedCamera, relative_motion};
 use epipole::epipolar::{epipolar_line1, epipolar_line2, fundamental_from_cameras};
+use epipole::math::Line2;
 use epipole::math::random::Random;
-use epipole::math::{Line2, Svd3, svd3};
 use epipole::triangulation::{
-    point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
-    triangulate_optimal, triangulation_angle_rad,
+    triangulate_angular, triangulate_dlt, triangulate_midpoint, triangulate_optimal,
+    triangulation_angle_rad,
 };
-use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
+use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 /// Number of repetitions with new noise.
 const NUM_REPEATS: usize = 200;
@@ -119,18 +119,4 @@ fn lines(cameras: &[PosedCamera; 2], pixels: &[Point2<f64>; 2]) -> Option<[Line2
     let fundamental = fundamental_from_cameras(&cameras[0], &cameras[1]).ok()?;
     let in_first = epipolar_line1(&fundamental, &pixels[1]).ok()?;
     Some([in_first, epipolar_line2(&fundamental, &pixels[0]).ok()?])
-}
-
-/// Returns the half axes of the one-sigma ellipsoid about a point, longest first, in the world.
-pub(super) fn axes_of(
-    cameras: &[PosedCamera; 2],
-    truth: &Point3<f64>,
-    sigma_px: f64,
-) -> Option<[Vector3<f64>; 3]> {
-    let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
-    // The singular vectors of a symmetric positive semidefinite matrix are its axes.
-    let Svd3 {
-        u, singular_values, ..
-    } = svd3(&covariance);
-    Some([0, 1, 2].map(|n| u.column(n) * singular_values[n].sqrt()))
 }

@@ -1,8 +1,9 @@
-//! Uncertainty of the point along its rays, over the angle and over the distance.
+//! Uncertainty of a point: its region, and its growth along the rays over the angle and over the distance.
 
-use super::estimates::axes_of;
 use epipole::camera::{PosedCamera, look_at};
-use nalgebra::{Point3, Rotation3, Vector3};
+use epipole::math::{Svd3, svd3};
+use epipole::triangulation::point_covariance;
+use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 /// Range of the angle, degrees.
 pub(super) const ANGLES_DEG: [f64; 2] = [0.0, 90.0];
@@ -70,6 +71,20 @@ impl Curves {
         }
         curves
     }
+}
+
+/// Half axes of the region of one standard deviation about a point, longest first, in the world.
+pub(super) fn axes_of(
+    cameras: &[PosedCamera; 2],
+    truth: &Point3<f64>,
+    sigma_px: f64,
+) -> Option<[Vector3<f64>; 3]> {
+    let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
+    // Of a symmetric matrix without negative eigenvalues these are its axes.
+    let Svd3 {
+        u, singular_values, ..
+    } = svd3(&covariance);
+    Some([0, 1, 2].map(|n| u.column(n) * singular_values[n].sqrt()))
 }
 
 #[cfg(test)]

@@ -3,7 +3,9 @@
 
 mod beside;
 mod region;
+mod style;
 
+use self::style::{METHOD_ROLE, SHAPES};
 use super::estimates::METHODS;
 use super::model::{ASIDE_M, FOCAL_PX, SIZE, Triangulate};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -19,10 +21,6 @@ use nalgebra::Point2;
 
 /// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.35;
-const REGION: Role = Role::Series(3);
-const SHAPES: [Shape; 4] = [Shape::Cross, Shape::Plus, Shape::Triangle, Shape::Diamond];
-/// All estimates are of one kind; their shapes tell them apart.
-const METHOD_ROLE: Role = Role::Ink;
 
 /// Draws [`Triangulate`].
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use super::super::drive::centers;
 use super::super::model::ScaleDrift;
 use super::super::question::Judged;
-use super::{AFTER, BEFORE, TRUTH};
+use super::style::{AFTER, BEFORE, TRUTH};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
 use crate::contract::{Panel, Rect, format_number};
 use crate::kit::grid::{SMALL, TEXT};

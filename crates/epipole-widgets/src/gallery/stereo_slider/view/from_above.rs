@@ -4,7 +4,7 @@
 use super::super::model::DEPTH_RANGE_M;
 use super::super::rig::{Measured, Rig};
 use super::super::words::reach;
-use super::UNCERTAIN;
+use super::style::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Panel, Rect, format_number};
 use crate::kit::grid::{self, TEXT};

@@ -1,6 +1,6 @@
 //! The match magnified in a corner of the right photograph, so that single pixels can be seen.
 
-use super::UNCERTAIN;
+use super::style::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Panel, Rect};
 use crate::gallery::stereo_slider::rig::ERROR_PX;

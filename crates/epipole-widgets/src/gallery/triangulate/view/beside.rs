@@ -1,6 +1,6 @@
 //! Beside the region: where the estimates appear in the photographs, or how the uncertainty grows.
 
-use super::{METHOD_ROLE, REGION, SHAPES};
+use super::style::{METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Layout, Panel, Rect, format_number};
 use crate::gallery::triangulate::estimates::{Estimates, METHODS};

@@ -1,6 +1,6 @@
 //! The surroundings of the point, enlarged: both rays, all estimates, and the repeated estimates.
 
-use super::{METHOD_ROLE, REGION, SHAPES};
+use super::style::{METHOD_ROLE, REGION, SHAPES};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::Panel;
 use crate::gallery::triangulate::estimates::Estimates;
