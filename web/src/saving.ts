@@ -2,7 +2,7 @@
 
 import type { FileOffer } from "./contract.js";
 import { make } from "./dom.js";
-import type { Session } from "./session.js";
+import type { Renderer } from "./renderer.js";
 
 /** How long the browser may take to begin with a file, milliseconds. */
 const KEPT_MS = 10_000;
@@ -10,21 +10,21 @@ const KEPT_MS = 10_000;
 const SCALE = 2;
 
 /** The picture as it is once nothing is left to refine, a PNG. */
-export async function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
-  await session.sharpen();
-  const canvas = session.portrait(scale);
+export async function pictureOf(renderer: Renderer, scale = SCALE): Promise<Blob | null> {
+  await renderer.sharpen();
+  const canvas = renderer.portrait(scale);
   return new Promise((resolve) => (canvas ? canvas.toBlob(resolve) : resolve(null)));
 }
 
 /** Saves the picture as it is now. */
-export async function savePicture(session: Session, name: string): Promise<void> {
-  const blob = await pictureOf(session);
+export async function savePicture(renderer: Renderer, name: string): Promise<void> {
+  const blob = await pictureOf(renderer);
   if (blob) download(blob, `${name}.png`);
 }
 
 /** Saves what the figure offers besides its picture, if that is ready. */
-export function saveFile(session: Session, offer: FileOffer | null | undefined, name: string): void {
-  const bytes = session.ask((engine) => engine.file());
+export function saveFile(renderer: Renderer, offer: FileOffer | null | undefined, name: string): void {
+  const bytes = renderer.ask((engine) => engine.file());
   if (offer?.is_ready && bytes) download(new Blob([bytes]), `${name}.${offer.extension}`);
 }
 

@@ -1,7 +1,7 @@
 /** What is told of a figure: events for the page, sentences for those who hear it. */
 
 import type { Challenge, Parameters, Snapshot } from "./contract.js";
-import type { Owner } from "./life.js";
+import type { FigureHost } from "./controller.js";
 import type { Shell } from "./shell.js";
 
 /** A figure before and after something has changed. */
@@ -16,12 +16,12 @@ export interface Change {
   touched: boolean;
 }
 
-export class Teller {
-  readonly #owner: Owner;
+export class Announcer {
+  readonly #host: FigureHost;
   #state: Parameters = [];
 
-  constructor(owner: Owner) {
-    this.#owner = owner;
+  constructor(host: FigureHost) {
+    this.#host = host;
   }
 
   /** What differs from the figure's defaults, as it was told last. */
@@ -40,8 +40,8 @@ export class Teller {
   }
 
   ready(): void {
-    const { state, readouts } = this.#owner;
-    this.emit("epipole-ready", { name: this.#owner.getAttribute("name"), state, readouts });
+    const { state, readouts } = this.#host;
+    this.emit("epipole-ready", { name: this.#host.getAttribute("name"), state, readouts });
   }
 
   changed({ speaker }: Shell, { before, now, solved, state, touched }: Change): void {
@@ -49,10 +49,10 @@ export class Teller {
     if (touched && before?.description !== now.description) speaker.describe(now.description);
     if (JSON.stringify(state) !== JSON.stringify(this.#state)) {
       this.#state = state;
-      this.emit("epipole-change", this.#owner.state);
+      this.emit("epipole-change", this.#host.state);
     }
     const text = (snapshot?: Snapshot) => snapshot?.readouts.map((readout) => readout.text).join("|");
-    if (text(before) !== text(now)) this.emit("epipole-readout", this.#owner.readouts);
+    if (text(before) !== text(now)) this.emit("epipole-readout", this.#host.readouts);
     for (const { id, goal } of solved) {
       speaker.say(`Solved: ${goal}`);
       this.emit("epipole-challenge", { id, goal });
@@ -60,6 +60,6 @@ export class Teller {
   }
 
   emit(type: string, detail: unknown): void {
-    this.#owner.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+    this.#host.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
   }
 }

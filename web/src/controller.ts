@@ -3,33 +3,33 @@
  * the other. `element.ts` is what a page sees of it.
  *
  * Longer than most files: opening, drawing, renaming and leaving change the same few facts, and nobody else does. How
- * large the picture is made is found in `extent.ts`, and who hears of what in `telling.ts`.
+ * large the picture is made is found in `size_observer.ts`, and who hears of what in `announcer.ts`.
  */
 
 import { actsOn } from "./acts.js";
+import { Announcer } from "./announcer.js";
 import { changedParameters } from "./attributes.js";
 import { choiceOf } from "./choice.js";
 import { whyMissing } from "./compile.js";
 import type { Parameters, Refused, Snapshot } from "./contract.js";
 import { capitalize, setAttribute } from "./dom.js";
-import { Extent } from "./extent.js";
 import { Engine, hurryModule, loadModule, panicMessage } from "./module.js";
 import { Motion } from "./motion.js";
 import { openState } from "./opening.js";
 import { parametersIn } from "./permalink.js";
+import { Placeholder } from "./placeholder.js";
 import type { Host } from "./properties.js";
+import { Renderer } from "./renderer.js";
 import { layoutWidth } from "./room.js";
 import { saveFile, savePicture } from "./saving.js";
-import { Session } from "./session.js";
 import { sheet } from "./sheet.js";
 import { Shell } from "./shell.js";
-import { StandIn } from "./stand_in.js";
-import { Teller } from "./telling.js";
+import { SizeObserver } from "./size_observer.js";
 import { askTheme, watchDensity, watchTheme, type Theme } from "./theme.js";
 import { bringIntoView, myTurn, pageIsCalm, watchVisibility } from "./visibility.js";
 
-/** The element, as far as its life needs it. */
-export interface Owner extends Host {
+/** The element, as far as its controller needs it. */
+export interface FigureHost extends Host {
   readonly compact: boolean;
   readonly state: Record<string, string>;
   readonly readouts: Record<string, number | string>;
@@ -37,25 +37,25 @@ export interface Owner extends Host {
   reset: () => void;
 }
 
-export class Life {
-  readonly #owner: Owner;
+export class FigureController {
+  readonly #host: FigureHost;
   readonly #shadow: ShadowRoot;
   #shell: Shell;
   /** What the page has brought along, until the figure is ready. */
-  #standIn: StandIn | undefined;
+  #placeholder: Placeholder | undefined;
   readonly #motion = new Motion({
-    look: () => this.#session?.ask((engine) => engine.snapshot(this.#width || layoutWidth(1))),
-    move: (work) => void this.#session?.move(work),
+    look: () => this.#renderer?.ask((engine) => engine.snapshot(this.#width || layoutWidth(1))),
+    move: (work) => void this.#renderer?.move(work),
     apply: (parameters) => this.put(parameters),
     busy: () => this.#snapshot?.waiting != null && this.#shell.jobs.busy,
-    freeze: (frozen) => this.#session?.freeze(frozen),
+    freeze: (frozen) => this.#renderer?.freeze(frozen),
     mark: (before, now) => {
-      this.#session?.show();
+      this.#renderer?.show();
       this.#shell.markChanges(before, now);
     },
     point: (id) => this.#shell.markControl(id),
   });
-  #session: Session | undefined;
+  #renderer: Renderer | undefined;
   #snapshot: Snapshot | undefined;
   #theme: Theme = "light";
   #ready = false;
@@ -71,23 +71,23 @@ export class Life {
   #opening = 0;
   /** The goal whose solution is being played. */
   #playing: string | undefined;
-  readonly #extent: Extent;
-  readonly #teller: Teller;
+  readonly #size: SizeObserver;
+  readonly #announcer: Announcer;
   #stop: (() => void)[] = [];
 
-  constructor(owner: Owner) {
-    this.#owner = owner;
-    this.#shadow = owner.shadowRoot ?? owner.attachShadow({ mode: "open" });
+  constructor(host: FigureHost) {
+    this.#host = host;
+    this.#shadow = host.shadowRoot ?? host.attachShadow({ mode: "open" });
     this.#shadow.adoptedStyleSheets = [sheet()];
     this.#shell = this.#makeShell();
-    this.#teller = new Teller(owner);
-    this.#extent = new Extent(owner, () => ({
+    this.#announcer = new Announcer(host);
+    this.#size = new SizeObserver(host, () => ({
       shell: this.#shell,
-      session: this.#session,
-      standing: this.#standIn?.picture ?? undefined,
+      renderer: this.#renderer,
+      standing: this.#placeholder?.picture ?? undefined,
     }));
-    this.#standIn = StandIn.in(this.#shadow);
-    if (this.#standIn) this.#standIn.lend(this.#shell);
+    this.#placeholder = Placeholder.in(this.#shadow);
+    if (this.#placeholder) this.#placeholder.lend(this.#shell);
     else this.#shadow.append(this.#shell.root);
     // Whoever takes hold of the figure ends what it does by itself.
     const takeOver = (event: Event) => {
@@ -104,7 +104,7 @@ export class Life {
       this.#showLive();
     };
     for (const type of ["pointerenter", "touchstart", "focusin"]) {
-      owner.addEventListener(type, interest, { passive: true, capture: true });
+      host.addEventListener(type, interest, { passive: true, capture: true });
     }
   }
 
@@ -113,8 +113,8 @@ export class Life {
   }
 
   /** The running figure, once there is one. */
-  get session(): Session | undefined {
-    return this.#session;
+  get renderer(): Renderer | undefined {
+    return this.#renderer;
   }
 
   /** What was drawn last. */
@@ -124,7 +124,7 @@ export class Life {
 
   /** What differs from the figure's defaults. */
   get state(): Parameters {
-    return this.#teller.state;
+    return this.#announcer.state;
   }
 
   /** Resolves once the figure can be operated and asked. */
@@ -134,30 +134,30 @@ export class Life {
 
   /** The element has come into a page. */
   connect(): void {
-    const owner = this.#owner;
+    const host = this.#host;
     this.#shell.role = this.#role;
-    this.#extent.start();
+    this.#size.start();
     const attributes = new MutationObserver((records) => this.#onAttributes(records));
-    attributes.observe(owner, { attributes: true });
+    attributes.observe(host, { attributes: true });
     const recolor = () => this.recolor();
-    const [before, after] = [() => this.#session?.prepareForPrint(), recolor];
+    const [before, after] = [() => this.#renderer?.prepareForPrint(), recolor];
     addEventListener("beforeprint", before);
     addEventListener("afterprint", after);
     this.#stop = [
-      () => this.#extent.stop(),
+      () => this.#size.stop(),
       () => attributes.disconnect(),
       () => removeEventListener("beforeprint", before),
       () => removeEventListener("afterprint", after),
       watchDensity(recolor),
       watchTheme(recolor),
-      watchVisibility(owner, {
+      watchVisibility(host, {
         near: (near) => {
           this.#near = near;
           if (near) void pageIsCalm().then(() => this.#begin());
         },
         seen: (inSight) => {
           this.#inSight = inSight;
-          this.#session?.setInSight(inSight);
+          this.#renderer?.setInSight(inSight);
         },
       }),
     ];
@@ -172,56 +172,56 @@ export class Life {
     this.#stop = [];
     this.stopMotion();
     this.#shell.speaker.silence();
-    this.#session?.setInSight(false);
+    this.#renderer?.setInSight(false);
     this.#shell.jobs.end();
   }
 
   /** Another figure: everything that belongs to the old one goes. */
   rename(): void {
-    const wanted = this.#session !== undefined || this.#near || this.#opening > 0;
+    const wanted = this.#renderer !== undefined || this.#near || this.#opening > 0;
     this.#opening += 1;
     this.stopMotion();
     this.#shell.end();
-    this.#session?.end();
-    this.#session = undefined;
+    this.#renderer?.end();
+    this.#renderer = undefined;
     this.#snapshot = undefined;
-    this.#teller.forget();
+    this.#announcer.forget();
     if (this.#ready) this.#awaited = gate();
     this.#ready = false;
-    setAttribute(this.#owner, "data-ready", false);
-    this.#standIn = undefined;
+    setAttribute(this.#host, "data-ready", false);
+    this.#placeholder = undefined;
     this.#shell = this.#makeShell();
     this.#shell.role = this.#role;
     this.#shell.theme = this.#theme;
     this.#shadow.replaceChildren(this.#shell.root);
-    this.#extent.forget();
-    if (wanted && this.#owner.isConnected) void this.open(false);
+    this.#size.forget();
+    if (wanted && this.#host.isConnected) void this.open(false);
   }
 
   /** Other controls, readouts and goals are to be shown. */
   choose(): void {
-    this.#shell.choose(choiceOf((name) => this.#owner.getAttribute(name)));
-    if (!this.#session || !this.#snapshot) return;
+    this.#shell.choose(choiceOf((name) => this.#host.getAttribute(name)));
+    if (!this.#renderer || !this.#snapshot) return;
     this.#shell.update(this.#snapshot, this.#touched);
-    this.#extent.fit();
+    this.#size.fit();
     this.#shell.speaker.warn([]);
     this.#shell.speaker.complain(this.#shell.misnamed(this.#snapshot));
   }
 
   /** Compact, or no longer. */
   squeeze(): void {
-    this.#shell.compact = this.#owner.compact;
-    this.#extent.observe();
-    this.#extent.fit();
+    this.#shell.compact = this.#host.compact;
+    this.#size.observe();
+    this.#size.fit();
   }
 
   /** Finds out what colors the figure takes, and takes them. */
   recolor(): void {
-    askTheme(this.#owner, (theme) => {
+    askTheme(this.#host, (theme) => {
       this.#theme = theme;
       this.#shell.theme = theme;
-      if (this.#standIn) this.#standIn.theme = theme;
-      this.#session?.recolor(theme);
+      if (this.#placeholder) this.#placeholder.theme = theme;
+      this.#renderer?.recolor(theme);
     });
   }
 
@@ -233,7 +233,7 @@ export class Life {
   /** Puts parameters on top of the state; those that could not be used come back. */
   put(parameters: Parameters): Refused[] {
     let problems: Refused[] = [];
-    this.#session?.act((engine) => {
+    this.#renderer?.act((engine) => {
       problems = engine.apply(parameters);
       return undefined;
     });
@@ -263,8 +263,8 @@ export class Life {
   /** Opens the figure; `withAddress` lets the page's address speak. */
   async open(withAddress: boolean): Promise<void> {
     const attempt = ++this.#opening;
-    setAttribute(this.#owner, "data-failed", false);
-    const name = this.#owner.getAttribute("name") ?? "";
+    setAttribute(this.#host, "data-failed", false);
+    const name = this.#host.getAttribute("name") ?? "";
     let memory: WebAssembly.Memory;
     try {
       ({ memory } = await loadModule(() => {
@@ -278,8 +278,8 @@ export class Life {
     // Figures that have waited for the module would all open in one long task.
     if (!this.#interested) await myTurn();
     if (attempt !== this.#opening) return;
-    this.#session?.end();
-    this.#session = undefined;
+    this.#renderer?.end();
+    this.#renderer = undefined;
     this.#shell.jobs.end();
     let engine: Engine;
     try {
@@ -300,88 +300,88 @@ export class Life {
 
   /** A picture that waits for a computation is not the one that anybody wants to keep. */
   async answered(): Promise<void> {
-    while (this.#snapshot?.waiting && this.#session && this.#shell.jobs.busy) {
+    while (this.#snapshot?.waiting && this.#renderer && this.#shell.jobs.busy) {
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
   }
 
   get #width(): number {
-    return this.#session?.width ?? 0;
+    return this.#renderer?.width ?? 0;
   }
 
   get #role(): "figure" | "group" {
-    return this.#owner.closest("figure") ? "group" : "figure";
+    return this.#host.closest("figure") ? "group" : "figure";
   }
 
   /** A new tree. What the tree of another figure still does or finds out is nobody's business. */
   #makeShell(): Shell {
-    const owner = this.#owner;
-    const mine = () => (this.#shell === shell ? this.#session : undefined);
-    const name = () => owner.getAttribute("name") ?? "";
+    const host = this.#host;
+    const mine = () => (this.#shell === shell ? this.#renderer : undefined);
+    const name = () => host.getAttribute("name") ?? "";
     const shell: Shell = new Shell(
       {
-        ...actsOn({ session: mine, name }),
+        ...actsOn({ renderer: mine, name }),
         deeds: {
-          reset: () => owner.reset(),
-          link: () => owner.permalink,
+          reset: () => host.reset(),
+          link: () => host.permalink,
           save: () => void this.#save(),
           saveFile: () => {
-            const session = mine();
-            if (session) saveFile(session, this.#snapshot?.file, name());
+            const renderer = mine();
+            if (renderer) saveFile(renderer, this.#snapshot?.file, name());
           },
           fullscreen: document.fullscreenEnabled ? () => void this.#toggleFullscreen() : undefined,
         },
         showHow: (challenge) => void this.#showHow(challenge),
       },
-      choiceOf((key) => owner.getAttribute(key)),
+      choiceOf((key) => host.getAttribute(key)),
     );
-    shell.compact = owner.compact;
+    shell.compact = host.compact;
     return shell;
   }
 
   #onAttributes(records: MutationRecord[]): void {
-    const parameters = changedParameters(this.#owner, records, this.#snapshot);
-    if (!this.#session || Object.keys(parameters).length === 0) return;
+    const parameters = changedParameters(this.#host, records, this.#snapshot);
+    if (!this.#renderer || Object.keys(parameters).length === 0) return;
     this.#shell.speaker.warn([]);
-    this.#owner.apply(parameters);
+    this.#host.apply(parameters);
   }
 
   /** Whether the page's address speaks of this figure. */
   #isLinked(): boolean {
-    return parametersIn(location.search, this.#owner).own.length > 0;
+    return parametersIn(location.search, this.#host).own.length > 0;
   }
 
   /** Opens the figure unless that has been done. */
   #begin(): void {
-    if (this.#near && !this.#session && this.#opening === 0) void this.open(true);
+    if (this.#near && !this.#renderer && this.#opening === 0) void this.open(true);
   }
 
   /** Lets a new figure run. */
   #start(engine: Engine, withAddress: boolean): void {
-    const owner = this.#owner;
+    const host = this.#host;
     this.#ready = false;
-    const { first, problems, linked } = openState(engine, owner, layoutWidth(this.#extent.room), withAddress);
+    const { first, problems, linked } = openState(engine, host, layoutWidth(this.#size.room), withAddress);
     this.#shell.introduce(engine.title, engine.help);
-    if (first.waiting !== null && !this.#touched) this.#standIn?.lendNumbers(this.#shell);
-    this.#session = new Session(engine, this.#shell.picture.canvas, {
+    if (first.waiting !== null && !this.#touched) this.#placeholder?.lendNumbers(this.#shell);
+    this.#renderer = new Renderer(engine, this.#shell.picture.canvas, {
       drawn: (snapshot, painted) => this.#drawn(snapshot, painted, linked),
       refused: (sentence) => this.#shell.speaker.warn([`${capitalize(sentence)}.`], true),
       broke: (message) => this.#break(message),
     });
     // The poster is this very picture; photographs are rendered once somebody takes an interest.
-    const isShown = withAddress && !linked && problems.length === 0 && owner.querySelector("img");
-    if (isShown) this.#session.hold();
-    if (this.#interested && first.waiting === null) this.#session.release();
-    this.#session.recolor(this.#theme);
+    const isShown = withAddress && !linked && problems.length === 0 && host.querySelector("img");
+    if (isShown) this.#renderer.hold();
+    if (this.#interested && first.waiting === null) this.#renderer.release();
+    this.#renderer.recolor(this.#theme);
     this.#shell.speaker.warn([]);
     this.#shell.speaker.complain([...problems.map(({ message }) => message), ...this.#shell.misnamed(first)]);
     this.#judged = first.waiting === null;
-    if (owner.compact) {
+    if (host.compact) {
       // How much room the bar takes shows once its buttons and numbers are there.
       this.#shell.update(first, this.#touched);
-      this.#extent.fit();
-    } else this.#extent.resize();
-    this.#session.setInSight(this.#inSight);
+      this.#size.fit();
+    } else this.#size.resize();
+    this.#renderer.setInSight(this.#inSight);
   }
 
   #drawn(snapshot: Snapshot | undefined, painted: boolean, linked: boolean): void {
@@ -396,7 +396,7 @@ export class Life {
       }
       if (this.#ready) {
         const state = this.#askState();
-        this.#teller.changed(this.#shell, { before, now: snapshot, solved, state, touched: this.#touched });
+        this.#announcer.changed(this.#shell, { before, now: snapshot, solved, state, touched: this.#touched });
       }
       if (this.#interested) this.#showLive();
     }
@@ -405,36 +405,36 @@ export class Life {
 
   /** Draws in place of the poster; not while the figure waits for what the poster shows already. */
   #showLive(): void {
-    if (this.#snapshot?.waiting === null) this.#session?.release();
+    if (this.#snapshot?.waiting === null) this.#renderer?.release();
   }
 
   #becomeReady(linked: boolean): void {
-    const owner = this.#owner;
+    const host = this.#host;
     this.#ready = true;
     this.#shell.reveal();
-    if (this.#standIn) {
-      this.#standIn.yield(this.#shell);
-      this.#standIn = undefined;
-      this.#extent.observe();
+    if (this.#placeholder) {
+      this.#placeholder.yield(this.#shell);
+      this.#placeholder = undefined;
+      this.#size.observe();
     }
-    this.#teller.begin(this.#askState());
-    setAttribute(owner, "data-ready", true);
+    this.#announcer.begin(this.#askState());
+    setAttribute(host, "data-ready", true);
     // In a frame the address is the figure's alone, and the page around it would be moved.
-    if (linked && !location.hash && parent === window) owner.scrollIntoView({ block: "start" });
+    if (linked && !location.hash && parent === window) host.scrollIntoView({ block: "start" });
     this.#awaited.pass();
-    this.#teller.ready();
+    this.#announcer.ready();
   }
 
   #askState(): Parameters {
-    return this.#session?.ask((engine) => engine.state()) ?? [];
+    return this.#renderer?.ask((engine) => engine.state()) ?? [];
   }
 
   /** Waits for the figure to be there, whether anybody sees it or not; not for one that never comes. */
   async #wake(): Promise<void> {
-    while (!this.#session && !this.#owner.hasAttribute("data-failed")) {
+    while (!this.#renderer && !this.#host.hasAttribute("data-failed")) {
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    this.#session?.show();
+    this.#renderer?.show();
     await this.#comeIntoView();
   }
 
@@ -446,10 +446,10 @@ export class Life {
   async #showHow(challenge: string): Promise<void> {
     const again = this.#playing !== challenge;
     this.stopMotion();
-    const events = this.#session?.ask((engine) => engine.solution(challenge));
+    const events = this.#renderer?.ask((engine) => engine.solution(challenge));
     if (!again || !events || events.length === 0) return;
     this.#playing = this.#shell.playing = challenge;
-    this.#session?.act((engine) => engine.update({ type: "reset" }));
+    this.#renderer?.act((engine) => engine.update({ type: "reset" }));
     this.#shell.jobs.goOn();
     await this.#motion.play(events);
     if (this.#playing === challenge) this.#endPlay();
@@ -464,26 +464,26 @@ export class Life {
   /** A sentence where the figure should be; the poster stays, and Reset tries again. */
   #fail(sentence: string, again: boolean): void {
     this.#opening = 0;
-    setAttribute(this.#owner, "data-failed", true);
-    this.#shell.speaker.offer(sentence, again ? () => this.#owner.reset() : undefined);
+    setAttribute(this.#host, "data-failed", true);
+    this.#shell.speaker.offer(sentence, again ? () => this.#host.reset() : undefined);
   }
 
   /** The module has panicked. */
   #break(message: string): void {
-    this.#session = undefined;
+    this.#renderer = undefined;
     this.#shell.jobs.end();
     this.#fail("This figure has stopped: a mistake of ours. Reset starts it again.", !this.#ready);
-    this.#teller.emit("epipole-error", { message });
+    this.#announcer.emit("epipole-error", { message });
   }
 
   async #save(): Promise<void> {
     await this.answered();
-    if (this.#session) await savePicture(this.#session, this.#owner.getAttribute("name") ?? "");
+    if (this.#renderer) await savePicture(this.#renderer, this.#host.getAttribute("name") ?? "");
   }
 
   async #toggleFullscreen(): Promise<void> {
     if (document.fullscreenElement) await document.exitFullscreen();
-    else await this.#owner.requestFullscreen().catch(() => this.#shell.speaker.say("Full screen is not allowed here."));
+    else await this.#host.requestFullscreen().catch(() => this.#shell.speaker.say("Full screen is not allowed here."));
   }
 }
 

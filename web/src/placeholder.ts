@@ -7,13 +7,13 @@ import { setAttribute } from "./dom.js";
 import type { Shell } from "./shell.js";
 import type { Theme } from "./theme.js";
 
-export class StandIn {
+export class Placeholder {
   readonly #root: HTMLElement;
 
   /** Takes over what a shadow root holds, if it holds that. */
-  static in(shadow: ShadowRoot): StandIn | undefined {
+  static in(shadow: ShadowRoot): Placeholder | undefined {
     const root = [...shadow.children].find((child) => child.matches(".root"));
-    return root instanceof HTMLElement ? new StandIn(root) : undefined;
+    return root instanceof HTMLElement ? new Placeholder(root) : undefined;
   }
 
   constructor(root: HTMLElement) {

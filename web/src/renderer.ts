@@ -25,7 +25,7 @@ const STILL_MS = 600;
 /** The longest time that one tick passes on, seconds. */
 const TICK_S = 0.1;
 
-export interface Hooks {
+export interface RendererCallbacks {
   /**
    * A frame was drawn, or would have been were the picture not held back; the snapshot is new if the
    * state or the layout changed.
@@ -33,14 +33,14 @@ export interface Hooks {
   drawn: (snapshot: Snapshot | undefined, painted: boolean) => void;
   /** The figure refused something, with a sentence. */
   refused: (sentence: string) => void;
-  /** The module panicked; this session does nothing any more. */
+  /** The module panicked; this renderer does nothing any more. */
   broke: (message: string) => void;
 }
 
-export class Session {
+export class Renderer {
   readonly engine: Engine;
   readonly #canvas: HTMLCanvasElement;
-  readonly #hooks: Hooks;
+  readonly #hooks: RendererCallbacks;
   #width = 0;
   /** How wide the picture is shown, CSS pixels. */
   #shown = 0;
@@ -69,7 +69,7 @@ export class Session {
   #lastTick: number | undefined;
   #lastDraw = 0;
 
-  constructor(engine: Engine, canvas: HTMLCanvasElement, hooks: Hooks) {
+  constructor(engine: Engine, canvas: HTMLCanvasElement, hooks: RendererCallbacks) {
     this.engine = engine;
     this.#canvas = canvas;
     this.#hooks = hooks;

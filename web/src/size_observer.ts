@@ -1,19 +1,19 @@
 /** How much room a figure has, and how large its picture is made for it. */
 
 import { WIDTHS } from "./room.js";
-import type { Session } from "./session.js";
+import type { Renderer } from "./renderer.js";
 import type { Shell } from "./shell.js";
 
 /** What is measured and who is told. */
 export interface Measured {
   shell: Shell;
-  session: Session | undefined;
+  renderer: Renderer | undefined;
   /** The poster, while it stands for the picture. */
   standing: Element | undefined;
 }
 
-export class Extent {
-  readonly #owner: HTMLElement & { readonly compact: boolean };
+export class SizeObserver {
+  readonly #host: HTMLElement & { readonly compact: boolean };
   readonly #now: () => Measured;
   #observer: ResizeObserver | undefined;
   /** Room for the picture, and how much of it the picture takes, CSS pixels. */
@@ -23,8 +23,8 @@ export class Extent {
   #fitted: number | undefined;
 
   /** Of an element, whose parts are asked for when they are needed: they change. */
-  constructor(owner: HTMLElement & { readonly compact: boolean }, now: () => Measured) {
-    this.#owner = owner;
+  constructor(host: HTMLElement & { readonly compact: boolean }, now: () => Measured) {
+    this.#host = host;
     this.#now = now;
   }
 
@@ -46,9 +46,9 @@ export class Extent {
 
   /** Looks at the parts that there are now. */
   observe(): void {
-    const [owner, { shell, standing }] = [this.#owner, this.#now()];
+    const [host, { shell, standing }] = [this.#host, this.#now()];
     this.#observer?.disconnect();
-    if (owner.compact) this.#observer?.observe(owner);
+    if (host.compact) this.#observer?.observe(host);
     if (standing) this.#observer?.observe(standing);
     else {
       this.#observer?.observe(shell.picture.element);
@@ -70,22 +70,22 @@ export class Extent {
 
   /** Finds the width to lay out a compact figure for, and has the picture made for it. */
   fit(): void {
-    const [owner, { shell, session }] = [this.#owner, this.#now()];
-    const look = (width: number) => session?.ask((engine) => engine.snapshot(width).layout);
-    const sizes = owner.compact ? WIDTHS.map(look).filter((size) => size !== undefined) : [];
-    this.#fitted = sizes.length > 0 && owner.clientHeight > 0 ? shell.arrange(sizes) : undefined;
+    const [host, { shell, renderer }] = [this.#host, this.#now()];
+    const look = (width: number) => renderer?.ask((engine) => engine.snapshot(width).layout);
+    const sizes = host.compact ? WIDTHS.map(look).filter((size) => size !== undefined) : [];
+    this.#fitted = sizes.length > 0 && host.clientHeight > 0 ? shell.arrange(sizes) : undefined;
     this.resize();
   }
 
   /** Has the picture made for the room that there is. */
   resize(): void {
-    this.#now().session?.resize(this.#room, this.#shown, this.#fitted);
+    this.#now().renderer?.resize(this.#room, this.#shown, this.#fitted);
   }
 
   #onResize(entries: ResizeObserverEntry[]): void {
-    const [owner, { shell }] = [this.#owner, this.#now()];
+    const [host, { shell }] = [this.#host, this.#now()];
     for (const { target, contentRect } of entries) {
-      if (target === owner) this.fit();
+      if (target === host) this.fit();
       else if (target === shell.picture.sheet) this.#shown = contentRect.width;
       else this.#room = contentRect.width;
     }
