@@ -1,7 +1,7 @@
-/** What is told of a figure: events for the page, sentences for those who hear it. */
+/** Announcements of a figure: events for the page, sentences for screen readers. */
 
 import type { Challenge, Parameters, Snapshot } from "./contract.js";
-import type { FigureHost } from "./controller.js";
+import type { FigureHost } from "./host.js";
 import type { Shell } from "./shell.js";
 
 /** A figure before and after something has changed. */
@@ -18,30 +18,35 @@ export interface Change {
 
 export class Announcer {
   readonly #host: FigureHost;
+  /** Parameters that differ from the figure's defaults, as last announced. */
   #state: Parameters = [];
+  #pass = () => {};
+  #passed = this.#gate();
 
   constructor(host: FigureHost) {
     this.#host = host;
   }
 
-  /** What differs from the figure's defaults, as it was told last. */
   get state(): Parameters {
     return this.#state;
   }
 
-  /** Another figure: nothing has been told of it. */
-  forget(): void {
+  /** Resolves when the figure is ready. */
+  get whenReady(): Promise<void> {
+    return this.#passed;
+  }
+
+  /** Starts over for another figure; whoever waits for one that never was ready goes on waiting. */
+  forget(wasReady: boolean): void {
     this.#state = [];
+    if (wasReady) this.#passed = this.#gate();
   }
 
-  /** The figure is about to be ready, with this state. */
-  begin(state: Parameters): void {
+  ready(state: Parameters): void {
     this.#state = state;
-  }
-
-  ready(): void {
-    const { state, readouts } = this.#host;
-    this.emit("epipole-ready", { name: this.#host.getAttribute("name"), state, readouts });
+    this.#pass();
+    const { readouts } = this.#host;
+    this.emit("epipole-ready", { name: this.#host.getAttribute("name"), state: this.#host.state, readouts });
   }
 
   changed({ speaker }: Shell, { before, now, solved, state, touched }: Change): void {
@@ -61,5 +66,9 @@ export class Announcer {
 
   emit(type: string, detail: unknown): void {
     this.#host.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+  }
+
+  #gate(): Promise<void> {
+    return new Promise((resolve) => (this.#pass = resolve));
   }
 }

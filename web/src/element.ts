@@ -1,5 +1,5 @@
 /**
- * `<epipole-figure name="…">`: a figure on a page. Here is what a page can set, call and hear; `controller.ts` does it.
+ * `<epipole-figure name="…">`: a figure on a page. Properties, methods and events; `controller.ts` implements them.
  *
  * One class, long because it is the whole public surface.
  */
@@ -50,7 +50,7 @@ export class EpipoleFigure extends Base {
     if (name === "theme") this.#controller.recolor();
     else if (name === "compact") this.#controller.squeeze();
     else if (name !== "name") this.#controller.choose();
-    else if (before !== null && before !== now) this.#controller.rename();
+    else if (before !== null && before !== now) this.#controller.dispatch({ type: "renamed", connected: this.isConnected });
   }
 
   /** Parameters that differ from the figure's defaults, by name. Setting puts them on top. */
@@ -139,9 +139,9 @@ export class EpipoleFigure extends Base {
 
   /** Takes parameters, as attributes do. */
   apply(parameters: Record<string, string | number | boolean>): void {
-    this.#controller.touch();
+    this.#controller.dispatch({ type: "touch" });
     this.#controller.stopMotion();
-    this.#controller.warn(this.#controller.put(textOf(parameters)));
+    this.#controller.warn(this.#controller.renderer?.apply(textOf(parameters)) ?? []);
   }
 
   /**
@@ -154,7 +154,7 @@ export class EpipoleFigure extends Base {
     parameters: Record<string, string | number | boolean>,
     { duration = GLIDE_MS }: { duration?: number } = {},
   ): Promise<void> {
-    this.#controller.touch();
+    this.#controller.dispatch({ type: "touch" });
     this.#controller.warn(await this.#controller.glide(textOf(parameters), duration));
   }
 
@@ -165,13 +165,13 @@ export class EpipoleFigure extends Base {
   light(symbol: string | undefined): boolean {
     const found = this.#controller.shell.picture.light(symbol);
     // A poster cannot be lit up: the same picture is drawn in its place.
-    if (found && this.#controller.snapshot?.waiting === null) this.#controller.renderer?.release();
+    if (found) this.#controller.dispatch({ type: "reveal" });
     return found;
   }
 
   /** Presses a button of the figure. */
   press(id: string): void {
-    this.#controller.touch();
+    this.#controller.dispatch({ type: "touch" });
     this.#controller.stopMotion();
     this.#controller.renderer?.act((engine) => engine.update({ type: "press", id }));
   }
@@ -183,7 +183,7 @@ export class EpipoleFigure extends Base {
     controller.stopMotion();
     shell.speaker.warn([]);
     if (!renderer) {
-      void controller.open(false);
+      controller.dispatch({ type: "open" });
       return;
     }
     let problems: Refused[] = [];
@@ -210,14 +210,14 @@ export class EpipoleFigure extends Base {
   ): Promise<void> {
     const controller = this.#controller;
     controller.stopMotion();
-    if (!controller.renderer) void controller.open(false);
+    if (!controller.renderer) controller.dispatch({ type: "open" });
     await controller.whenReady;
     controller.stopMotion();
     const { shell, renderer } = controller;
     shell.speaker.warn([]);
     renderer?.act((engine) => engine.update({ type: "reset" }));
     shell.jobs.goOn();
-    controller.warn(controller.put(textOf(state)));
+    controller.warn(renderer?.apply(textOf(state)) ?? []);
     shell.recall(solved);
   }
 

@@ -22,6 +22,12 @@ export interface Stage {
   /** Whether the clock of the figure stands still. */
   freeze: (frozen: boolean) => void;
   mark: (before: Snapshot, now: Snapshot) => void;
+  /** Returns the events that reach a goal from the default state. */
+  solution: (challenge: string) => SolutionEvent[] | undefined;
+  /** Brings the figure to its default state. */
+  reset: () => void;
+  /** Shows which goal's solution is playing. */
+  playing: (challenge: string | undefined) => void;
   /** Points to a control that is about to be pressed. */
   point: (id: string) => void;
 }
@@ -40,6 +46,8 @@ export class Motion {
   #turn = 0;
   /** Where a glide is going. */
   #target = new Map<string, string>();
+  /** Goal whose solution is playing. */
+  #playing: string | undefined;
 
   constructor(stage: Stage) {
     this.#stage = stage;
@@ -50,6 +58,7 @@ export class Motion {
     this.#turn += 1;
     this.#target.clear();
     this.#stage.freeze(false);
+    if (this.#playing !== undefined) this.#setPlaying(undefined);
   }
 
   /**
@@ -57,6 +66,7 @@ export class Motion {
    * Resolves when the figure is there, or when something else has taken over.
    */
   async glide(parameters: Parameters, duration: number, ready: Promise<unknown>): Promise<Refused[]> {
+    if (this.#playing !== undefined) this.stop();
     const turn = ++this.#turn;
     for (const [key, value] of parameters) this.#target.set(key, value);
     await ready;
@@ -85,32 +95,45 @@ export class Motion {
     return refused;
   }
 
-  /** Plays events one after the other; false if something has taken over. */
-  async play(events: SolutionEvent[]): Promise<boolean> {
+  /** Plays the solution of a goal from the default state, or stops it. */
+  async toggleSolution(challenge: string): Promise<void> {
+    const again = this.#playing === challenge;
     this.stop();
+    const events = again ? undefined : this.#stage.solution(challenge);
+    if (!events || events.length === 0) return;
     const turn = this.#turn;
+    this.#setPlaying(challenge);
+    this.#stage.reset();
+    await this.#play(events, turn);
+    if (turn === this.#turn) this.stop();
+  }
+
+  #setPlaying(challenge: string | undefined): void {
+    this.#playing = challenge;
+    this.#stage.playing(challenge);
+  }
+
+  /** Plays events one after the other, until something else takes over. */
+  async #play(events: SolutionEvent[], turn: number): Promise<void> {
     const ticks = events.filter(({ type }) => type === "tick").length;
     this.#stage.freeze(ticks > 0);
     for (const event of events) {
       await this.#settle(turn);
-      if (turn !== this.#turn) return false;
+      if (turn !== this.#turn) return;
       const before = this.#stage.look();
-      if (!before) return false;
+      if (!before) return;
       const step = this.#eventStep(before, event);
       if (step) await this.#run(turn, EVENT_MS, step);
       else if (event.type === "press") {
         this.#stage.point(event.id);
         await this.#pause(turn, PAUSE_MS);
       }
-      if (turn !== this.#turn) return false;
+      if (turn !== this.#turn) return;
       this.#stage.move((engine) => engine.update(event));
       const rest = event.type === "tick" ? Math.min(TICKS_MS / ticks, 1000 * event.dt_s) : PAUSE_MS;
       await this.#pause(turn, rest);
     }
     await this.#settle(turn);
-    if (turn !== this.#turn) return false;
-    this.#stage.freeze(false);
-    return true;
   }
 
   #parameterStep(snapshot: Snapshot, key: string, value: string): Step | undefined {

@@ -1,145 +1,120 @@
-/**
- * One running figure: when it changes, ticks, draws and refines.
- *
- * A frame is drawn only when something has changed, at most once per frame of the display. While the
- * reader moves something, views draw drafts; when the reader rests, `refine` sharpens them in slices.
- */
+/** One running figure on a canvas: executes the effects of `drawing.ts`, with at most one drawing per frame. */
 
-import type { Snapshot } from "./contract.js";
+import type { Parameters, Refused, Snapshot } from "./contract.js";
+import { isCovered, type DrawEffect, type DrawEvent } from "./drawing.js";
+import type { State } from "./lifecycle.js";
 import { panicMessage, type Engine } from "./module.js";
 import { drawScale, layoutWidth } from "./room.js";
 import { wantsStillness, type Theme } from "./theme.js";
 
-/** How long the reader must rest before the picture is refined, milliseconds. */
-const REST_MS = 120;
-/** How long refining may take of one frame of the display, milliseconds. */
+/** Time for refinement per frame of the display, milliseconds. */
 const SLICE_MS = 8;
-/** How long the first picture may be prepared for a waiting reader before the page is heard again, milliseconds. */
+/** Time per frame for preparing the first picture while a reader waits for it, milliseconds. */
 const HURRY_MS = 12;
-/** How often an idle moment is looked for, where a browser does not say when it has one, milliseconds. */
+/** Interval of idle work in browsers without idle callbacks, milliseconds. */
 const IDLE_MS = 50;
-/** How often a picture that is being refined is shown, milliseconds. */
-const SHOW_MS = 150;
-/** How often a running figure changes for a reader who wants things to stand still, milliseconds. */
+/** Interval of ticks for readers who prefer reduced motion, milliseconds. */
 const STILL_MS = 600;
-/** The longest time that one tick passes on, seconds. */
+/** Maximum duration of one tick, seconds. */
 const TICK_S = 0.1;
 
 export interface RendererCallbacks {
-  /**
-   * A frame was drawn, or would have been were the picture not held back; the snapshot is new if the
-   * state or the layout changed.
-   */
-  drawn: (snapshot: Snapshot | undefined, painted: boolean) => void;
-  /** The figure refused something, with a sentence. */
+  state: () => State;
+  dispatch: (event: DrawEvent) => void;
+  /** Presents the canvas, if it was `painted`, and the snapshot, if it is new. */
+  present: (snapshot: Snapshot | undefined, painted: boolean) => void;
+  /** Tells why the figure refused something. */
   refused: (sentence: string) => void;
-  /** The module panicked; this renderer does nothing any more. */
-  broke: (message: string) => void;
+  /** Called once; a renderer whose module has panicked does nothing more. */
+  panicked: (message: string) => void;
 }
 
 export class Renderer {
-  readonly engine: Engine;
   readonly #canvas: HTMLCanvasElement;
-  readonly #hooks: RendererCallbacks;
-  #width = 0;
-  /** How wide the picture is shown, CSS pixels. */
-  #shown = 0;
-  /** Device pixels to a CSS pixel, when the picture was drawn. */
-  #density = 0;
-  /** Time is made by whoever plays something, not by the clock. */
-  #frozen = false;
+  readonly #callbacks: RendererCallbacks;
+  /** Undefined after the end. */
+  #engine: Engine | undefined;
   #theme: Theme = "light";
-  #inSight = false;
-  #ended = false;
-  /** The poster already shows this state, so nothing is drawn yet. */
-  #held = false;
-  /** There is a poster, which stands for the picture until that is drawn. */
-  #hasPoster = false;
-  /** What the first picture needs is there. */
-  #prepared = false;
-  /** The state or the layout is newer than the snapshot. */
-  #changed = true;
-  /** The picture is older than it should be. */
-  #stale = true;
-  /** The view may have more to refine. */
-  #rough = true;
+  #width = 0;
+  /** Width of the picture on the page, CSS pixels. */
+  #shown = 0;
+  /** Device pixels per CSS pixel at the last drawing. */
+  #density = 0;
+  /** State or layout are newer than the last snapshot. */
+  #outdated = true;
+  /** An animation controls the time of the figure. */
+  #frozen = false;
+  #lastTick: number | undefined;
   #frame = 0;
   #rest: ReturnType<typeof setTimeout> | undefined;
-  #lastInput = 0;
-  #lastTick: number | undefined;
-  #lastDraw = 0;
+  #cancelIdle: (() => void) | undefined;
 
-  constructor(engine: Engine, canvas: HTMLCanvasElement, hooks: RendererCallbacks) {
-    this.engine = engine;
+  constructor(engine: Engine, canvas: HTMLCanvasElement, callbacks: RendererCallbacks) {
+    this.#engine = engine;
     this.#canvas = canvas;
-    this.#hooks = hooks;
+    this.#callbacks = callbacks;
   }
 
-  /** The width that the picture is laid out for, CSS pixels; 0 while there is no room. */
+  /** Layout width of the picture, CSS pixels; 0 without room. */
   get width(): number {
     return this.#width;
   }
 
-  /** Draws nothing before `release` or the first change: the poster shows the same picture. */
-  hold(): void {
-    this.#held = this.#hasPoster = true;
-  }
-
-  /** Draws from now on. */
-  release(): void {
-    if (!this.#held) return;
-    this.#held = false;
-    this.#stale = true;
-    this.#want();
-  }
-
-  /** Does something to the figure and draws what comes of it; tells a sentence if it is refused. */
+  /** Changes the figure and tells why it refuses. */
   act(work: (engine: Engine) => string | undefined): void {
     const refused = this.move(work);
-    if (refused !== undefined && !this.#ended) this.#hooks.refused(refused);
+    if (refused !== undefined) this.#callbacks.refused(refused);
   }
 
-  /** As `act`, and whoever calls says what is refused. */
+  /** Puts parameters on top of the state; returns those that could not be used. */
+  apply(parameters: Parameters): Refused[] {
+    let problems: Refused[] = [];
+    this.move((engine) => void (problems = engine.apply(parameters)));
+    return problems;
+  }
+
+  /** Changes the figure; returns why it refuses. */
   move(work: (engine: Engine) => string | undefined): string | undefined {
-    const refused = this.#guard(() => work(this.engine));
-    if (this.#ended) return undefined;
-    this.#held = false;
-    this.#changed = this.#stale = this.#rough = true;
-    this.#lastInput = performance.now();
-    this.#want();
+    const refused = this.ask(work);
+    this.#outdated = true;
+    this.#dispatch({ type: "input", now: performance.now() });
     return refused;
   }
 
-  /** Tells the figure what it was waiting for; where the poster shows it already, that stays. */
+  /** Hands a result to the figure; a poster that shows it already stays. */
   learn(work: (engine: Engine) => void): void {
-    this.#guard(() => work(this.engine));
-    if (this.#ended) return;
-    this.#changed = this.#stale = this.#rough = true;
-    this.#want();
+    this.ask(work);
+    this.#outdated = true;
+    this.#dispatch({ type: "learned" });
   }
 
-  /** Asks the figure something. */
+  /** Queries the figure; undefined after the end. A panic ends the renderer. */
   ask<T>(work: (engine: Engine) => T): T | undefined {
-    return this.#guard(() => work(this.engine));
+    if (!this.#engine) return undefined;
+    try {
+      return work(this.#engine);
+    } catch (error) {
+      this.end();
+      const message = panicMessage() ?? String(error);
+      console.error(`epipole-figure: ${message}`);
+      this.#callbacks.panicked(message);
+      return undefined;
+    }
   }
 
-  /**
-   * Takes the room that there is, and the width that the picture has in it, CSS pixels; and the width to lay it
-   * out for, where that is not for the room alone to say.
-   */
+  /** Sets the room of the picture, its width on the page and, unless the room decides, its layout width; CSS pixels. */
   resize(room: number, shown: number, fitted?: number): void {
     const width = room < 1 ? 0 : (fitted ?? layoutWidth(room));
     const size = Math.min(shown || room, room);
-    const same = width === this.#width && Math.abs(size - this.#shown) < 0.5;
-    if (same && this.#density === devicePixelRatio) return;
-    if (width !== this.#width) this.#changed = this.#rough = true;
+    const relayout = width !== this.#width;
+    if (!relayout && Math.abs(size - this.#shown) < 0.5 && this.#density === devicePixelRatio) return;
+    if (relayout) this.#outdated = true;
     this.#width = width;
     this.#shown = size;
-    this.#stale = true;
-    this.#want();
+    this.#dispatch({ type: "resized", room: width > 0, relayout });
   }
 
-  /** Lets the clock stand still, or run. */
+  /** Stops or resumes the clock of the figure. */
   freeze(frozen: boolean): void {
     this.#frozen = frozen;
     this.#lastTick = undefined;
@@ -148,237 +123,177 @@ export class Renderer {
   /** Takes new colors or a new density of pixels. */
   recolor(theme: Theme): void {
     this.#theme = theme;
-    this.#stale = true;
-    this.#want();
-  }
-
-  /** Animation and refinement stop where nobody sees them. */
-  setInSight(inSight: boolean): void {
-    if (inSight === this.#inSight) return;
-    this.#inSight = inSight;
-    this.#lastTick = undefined;
-    if (!inSight) return this.#cool();
-    this.#want();
-    if (this.#held) this.#warm();
+    this.#dispatch({ type: "recolored" });
   }
 
   /** Draws now, without waiting for the display. */
   flush(): void {
-    if (this.#ended || this.#width === 0) return;
-    this.release();
-    if (this.#stale) this.#draw();
+    this.#dispatch({ type: "flush" });
   }
 
-  /** Tells now what is new, and draws it unless the picture has still to be prepared. */
+  /** Presents changes now, and draws them unless the first picture has still to be prepared. */
   show(): void {
-    // In a hidden page no frame of the display would come.
-    if (document.hidden || this.#prepared) return this.flush();
-    this.release();
-    if (this.#hasPoster && this.#changed && this.#width > 0 && !this.#ended) this.#tell(false);
+    // No frames come in a hidden page.
+    this.#dispatch({ type: "show", hidden: document.hidden });
   }
 
-  /** Refines all that is left, in slices between which the page goes on. */
+  /** Refines all that is left, in slices. */
   async sharpen(): Promise<void> {
-    for (let more = true; more && !this.#ended; ) {
-      const start = performance.now();
-      while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
-      await new Promise((resolve) => setTimeout(resolve));
-    }
+    while (this.#refine(performance.now() + SLICE_MS).more) await new Promise((resolve) => setTimeout(resolve));
   }
 
   /** The picture at full quality on a canvas of its own: at once after `sharpen`. */
   portrait(scale: number, theme: Theme = this.#theme): HTMLCanvasElement | undefined {
     if (this.#width === 0) return undefined;
     const canvas = document.createElement("canvas");
-    const refused = this.#guard(() => this.engine.draw(canvas, this.#width, scale, theme, true));
-    if (this.#ended) return undefined;
-    if (refused !== undefined) this.#hooks.refused(refused);
-    return refused === undefined ? canvas : undefined;
+    const refused = this.ask((engine) => engine.draw(canvas, this.#width, scale, theme, true));
+    if (refused !== undefined) this.#callbacks.refused(refused);
+    return this.#engine && refused === undefined ? canvas : undefined;
   }
 
-  /** Shows the figure as it is to be printed: sharp, dark on light. */
+  /** Draws the figure for print: sharp, dark on light. */
   prepareForPrint(): void {
     if (this.#width === 0) return;
-    // Nobody waits for a long computation now.
+    // Long computations are not waited for.
     const settled = this.ask((engine) => engine.job()) === undefined;
-    this.#guard(() => this.engine.draw(this.#canvas, this.#width, 2, "light", settled));
-    this.#stale = true;
+    this.ask((engine) => engine.draw(this.#canvas, this.#width, 2, "light", settled));
+    this.#dispatch({ type: "printed" });
   }
 
   /** Stops for good. */
   end(): void {
-    if (this.#ended) return;
-    this.#ended = true;
     cancelAnimationFrame(this.#frame);
     clearTimeout(this.#rest);
-    this.#cool();
-    this.engine.free();
+    this.#pause();
+    this.#engine?.free();
+    this.#engine = undefined;
   }
 
-  #want(): void {
-    if (this.#frame || this.#ended || this.#width === 0) return;
-    this.#frame = requestAnimationFrame((now) => {
-      this.#frame = 0;
-      // The room may have gone since the frame was asked for.
-      if (this.#width > 0) this.#onFrame(now);
-    });
+  run(effect: DrawEffect): void {
+    switch (effect.type) {
+      case "requestFrame":
+        return this.#requestFrame();
+      case "yield":
+        // The first drawing takes longest; between frames, it delays none.
+        setTimeout(() => (effect.now ? this.#onFrame(performance.now()) : this.#requestFrame()));
+        return;
+      case "draw":
+        return this.#draw();
+      case "present":
+        return this.#present(effect.painted);
+      case "rest":
+        clearTimeout(this.#rest);
+        this.#rest = setTimeout(() => this.#requestFrame(), effect.delay);
+        return;
+      case "refine":
+        return this.#dispatch({ type: "refined", ...this.#refine(performance.now() + SLICE_MS), now: performance.now() });
+      case "warm":
+        return this.#warm();
+      case "pause":
+        return this.#pause();
+    }
+  }
+
+  #dispatch(event: DrawEvent): void {
+    if (this.#engine) this.#callbacks.dispatch(event);
+  }
+
+  #requestFrame(): void {
+    if (this.#frame || !this.#engine || this.#width === 0) return;
+    this.#frame = requestAnimationFrame((now) => this.#onFrame(now));
   }
 
   #onFrame(now: number): void {
-    const start = performance.now();
-    if (this.#stale && !this.#held && (!this.#prepare(HURRY_MS) || performance.now() - start > SLICE_MS)) {
-      // All at once would block the page: meanwhile the poster stands there, and all else is live.
-      if (this.#hasPoster && this.#changed) this.#tell(false);
-      // The first drawing takes longest, and is no part of the frame that shows it.
-      setTimeout(() => (this.#prepared ? this.#drawBetweenFrames() : this.#want()));
-      return;
-    }
-    const running = this.#inSight && !this.#frozen && this.ask((engine) => engine.running) === true;
-    if (running) this.#pass(now);
-    else this.#lastTick = undefined;
-    if (this.#ended) return;
-    const drawn = this.#stale;
-    if (drawn) this.#draw();
-    if (running) this.#want();
-    else if (this.#rough && this.#inSight && !this.#held) {
-      // A frame that has drawn has done enough.
-      if (drawn) this.#want();
-      else this.#refineAfterRest(now);
-    }
-  }
-
-  #drawBetweenFrames(): void {
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    if (!this.#ended && this.#width > 0) this.#onFrame(performance.now());
-  }
-
-  /** Prepares the first picture for so long, milliseconds; whether all that it needs is there. */
-  #prepare(duration: number): boolean {
-    const start = performance.now();
-    while (!this.#prepared && performance.now() - start < duration) {
-      this.#prepared = this.ask((engine) => engine.prepare()) !== true;
-    }
-    return this.#prepared;
-  }
-
-  /**
-   * Prepares in idle moments what the first picture needs, while the poster is in its place: so whoever takes hold of
-   * the figure need not wait for it.
-   */
-  #warm(): void {
-    if (this.#warming || !this.#rough) return;
-    this.#warming = true;
-    const slice = (deadline?: IdleDeadline) => {
-      this.#warming = false;
-      this.#idle = 0;
-      if (!this.#held || !this.#inSight || this.#ended) return;
+    // The room may have gone since the frame was requested.
+    if (this.#width === 0) return;
+    if (this.#callbacks.state().phase === "preparing") {
       const start = performance.now();
-      let more = true;
-      if (this.#prepare(SLICE_MS)) {
-        while (more && performance.now() - start < SLICE_MS) more = this.ask((engine) => engine.refine()) === true;
-      }
-      if (!more || this.#ended) return;
-      // An idle moment has room for several slices; between them the page is heard.
-      this.#warming = (deadline?.timeRemaining() ?? 0) > SLICE_MS;
-      if (this.#warming) setTimeout(() => slice(deadline));
-      else this.#warm();
-    };
-    // Safari has no idle callbacks.
-    if (typeof requestIdleCallback === "function") this.#idle = requestIdleCallback(slice);
-    else setTimeout(() => slice(), IDLE_MS);
-  }
-
-  /** Waits for no idle moment any more: it may be long in coming, and would hold a figure that is gone until then. */
-  #cool(): void {
-    if (this.#idle === 0) return;
-    cancelIdleCallback(this.#idle);
-    this.#idle = 0;
-    this.#warming = false;
-  }
-
-  /** Lets time pass in a running figure. */
-  #pass(now: number): void {
-    this.#lastTick ??= now;
-    let seconds = (now - this.#lastTick) / 1000;
-    if (wantsStillness() && seconds * 1000 < STILL_MS) return;
-    this.#lastTick = now;
-    seconds = Math.min(seconds, (2 * STILL_MS) / 1000);
-    while (seconds > 0) {
-      const part = Math.min(seconds, TICK_S);
-      seconds -= part;
-      const refused = this.#guard(() => this.engine.tick(part));
-      if (refused !== undefined) this.#hooks.refused(refused);
+      const prepared = this.#prepare(start + HURRY_MS);
+      if (!prepared || performance.now() - start > SLICE_MS) return this.#dispatch({ type: "slice", prepared });
     }
-    this.#changed = this.#stale = this.#rough = true;
+    const { visible } = this.#callbacks.state();
+    const running = visible && !this.#frozen && this.ask((engine) => engine.running) === true;
+    if (!running) this.#lastTick = undefined;
+    this.#dispatch({ type: "frame", now, running, ticked: running && this.#tick(now) });
+  }
+
+  /** Lets time pass in an animated figure; returns whether it did. */
+  #tick(now: number): boolean {
+    this.#lastTick ??= now;
+    const passed = now - this.#lastTick;
+    if (wantsStillness() && passed < STILL_MS) return false;
+    this.#lastTick = now;
+    for (let left = Math.min(passed, 2 * STILL_MS) / 1000; left > 0; left -= TICK_S) {
+      const refused = this.ask((engine) => engine.tick(Math.min(left, TICK_S)));
+      if (refused !== undefined) this.#callbacks.refused(refused);
+    }
+    this.#outdated = true;
+    return true;
   }
 
   #draw(): void {
-    const width = this.#width;
-    if (this.#held) {
-      this.#stale = false;
-      this.#tell(false);
-      return;
-    }
     this.#density = devicePixelRatio;
-    const scale = drawScale(this.#shown, width, this.#density || 1);
-    const refused = this.#guard(() => this.engine.draw(this.#canvas, width, scale, this.#theme));
-    if (this.#ended) return;
-    this.#stale = false;
-    this.#lastDraw = performance.now();
-    if (refused !== undefined) {
-      this.#hooks.refused(refused);
-      return;
-    }
-    this.#tell(true);
+    const scale = drawScale(this.#shown, this.#width, this.#density || 1);
+    const refused = this.ask((engine) => engine.draw(this.#canvas, this.#width, scale, this.#theme));
+    if (refused !== undefined) this.#callbacks.refused(refused);
+    else this.#dispatch({ type: "drawn", now: performance.now() });
   }
 
-  #tell(painted: boolean): void {
-    const width = this.#width;
-    const snapshot = this.#changed ? this.ask((engine) => engine.snapshot(width)) : undefined;
-    this.#changed = false;
-    if (!this.#ended) this.#hooks.drawn(snapshot, painted);
+  #present(painted: boolean): void {
+    if (!painted && !this.#outdated) return;
+    const snapshot = this.#outdated ? this.ask((engine) => engine.snapshot(this.#width)) : undefined;
+    this.#outdated = false;
+    if (this.#engine) this.#callbacks.present(snapshot, painted);
   }
 
-  #refineAfterRest(now: number): void {
-    clearTimeout(this.#rest);
-    const wait = this.#lastInput + REST_MS - now;
-    if (wait > 0) {
-      this.#rest = setTimeout(() => this.#want(), wait);
-      return;
-    }
-    const start = performance.now();
+  /** Prepares the first picture until some time; returns whether it is prepared. */
+  #prepare(end: number): boolean {
     let more = true;
-    let refined = false;
-    while (more && performance.now() - start < SLICE_MS) {
-      more = this.ask((engine) => engine.refine()) === true;
-      refined ||= more;
-    }
-    this.#rough = more;
-    this.#unshown ||= refined;
-    if (this.#unshown && (!more || performance.now() - this.#lastDraw > SHOW_MS)) {
-      this.#unshown = false;
-      this.#stale = true;
-    }
-    if (more || this.#stale) this.#want();
+    while (more && performance.now() < end) more = this.ask((engine) => engine.prepare()) === true;
+    return !more;
   }
 
-  /** The view is better than the picture. */
-  #unshown = false;
-  /** An idle moment is waited for. */
-  #warming = false;
-  #idle = 0;
-
-  #guard<T>(work: () => T): T | undefined {
-    if (this.#ended) return undefined;
-    try {
-      return work();
-    } catch (error) {
-      this.end();
-      const message = panicMessage() ?? String(error);
-      console.error(`epipole-figure: ${message}`);
-      this.#hooks.broke(message);
-      return undefined;
+  /** Refines the view until some time. */
+  #refine(end: number): { better: boolean; more: boolean } {
+    let [better, more] = [false, true];
+    while (more && performance.now() < end) {
+      more = this.ask((engine) => engine.refine()) === true;
+      better ||= more;
     }
+    return { better, more };
+  }
+
+  /** Prepares and refines the first picture in idle time, so that nobody has to wait for it. */
+  #warm(): void {
+    if (this.#cancelIdle) return;
+    const slice = (deadline?: IdleDeadline) => {
+      this.#cancelIdle = undefined;
+      const state = this.#callbacks.state();
+      if (!isCovered(state) || !state.visible) return;
+      const end = performance.now() + SLICE_MS;
+      const prepared = state.phase === "warm" || this.#prepare(end);
+      if (prepared) this.#dispatch({ type: "prepared" });
+      if ((prepared && !this.#refine(end).more) || !this.#engine) return;
+      // Idle time may last for several slices; between them, the page handles its events.
+      if ((deadline?.timeRemaining() ?? 0) > SLICE_MS) later(() => slice(deadline), 0);
+      else this.#warm();
+    };
+    const later = (work: () => void, delay: number) => {
+      const timer = setTimeout(work, delay);
+      this.#cancelIdle = () => clearTimeout(timer);
+    };
+    // Safari has no idle callbacks.
+    if (typeof requestIdleCallback !== "function") return later(slice, IDLE_MS);
+    const request = requestIdleCallback(slice);
+    this.#cancelIdle = () => cancelIdleCallback(request);
+  }
+
+  /** Stops the animation clock, and idle work: pending callbacks would keep a removed figure in memory. */
+  #pause(): void {
+    this.#lastTick = undefined;
+    this.#cancelIdle?.();
+    this.#cancelIdle = undefined;
   }
 }
