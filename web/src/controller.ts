@@ -104,7 +104,8 @@ export class FigureController {
     });
     this.recolor();
     if (this.#snapshot) this.shell.jobs.follow(this.#snapshot.waiting);
-    this.dispatch({ type: "connected", linked: parametersIn(location.search, this.#host).own.length > 0 });
+    const linked = parametersIn(location.search, this.#host).own.length > 0;
+    if (linked) this.dispatch({ type: "open", withAddress: true });
   }
 
   /** Stops what the page does not see; the element may come back. */
@@ -113,7 +114,7 @@ export class FigureController {
     this.#stopObserving();
     this.stopMotion();
     this.shell.speaker.silence();
-    this.dispatch({ type: "disconnected" });
+    this.dispatch({ type: "visible", visible: false });
     this.shell.jobs.end();
   }
 
@@ -205,7 +206,7 @@ export class FigureController {
       else engine?.free();
     } catch (problem) {
       if (!(problem instanceof Failure)) throw problem;
-      if (isCurrent()) this.dispatch({ type: "failed", sentence: problem.sentence, retry: problem.retry });
+      if (isCurrent()) this.dispatch({ type: "failed", ...problem });
     }
   }
 
@@ -285,8 +286,7 @@ export class FigureController {
   }
 
   #onPanic(message: string): void {
-    const sentence = "This figure has stopped: a mistake of ours. Reset starts it again.";
-    this.dispatch({ type: "panicked", sentence });
+    this.dispatch({ type: "failed", sentence: "This figure has stopped: a mistake of ours. Reset starts it again." });
     this.#announcer.emit("epipole-error", { message });
   }
 

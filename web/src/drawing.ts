@@ -10,8 +10,6 @@ export type DrawEvent =
   | { type: "learned" }
   | { type: "resized"; room: boolean; relayout: boolean }
   | { type: "recolored" }
-  /** The canvas was drawn for print. */
-  | { type: "printed" }
   /** Draw now, whatever it takes. */
   | { type: "flush" }
   /** Show now what costs little. */
@@ -64,8 +62,6 @@ export function draw(state: State, event: DrawEvent): Next {
     }
     case "recolored":
       return [{ ...state, picture: "stale" }, [FRAME]];
-    case "printed":
-      return [{ ...state, picture: "stale" }, []];
     case "flush":
       return flush(state);
     case "show": {

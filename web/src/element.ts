@@ -14,7 +14,7 @@ import { linkTo } from "./permalink.js";
 import { toSaved, type Saved } from "./saved.js";
 import { pictureOf } from "./saving.js";
 
-/** How long a glide takes, milliseconds. */
+/** Default duration of a glide, milliseconds. */
 const GLIDE_MS = 600;
 
 /** A server that renders pages may import this file; it has no elements, and makes no figure. */
@@ -183,7 +183,7 @@ export class EpipoleFigure extends Base {
     controller.stopMotion();
     shell.speaker.warn([]);
     if (!renderer) {
-      controller.dispatch({ type: "open" });
+      controller.dispatch({ type: "open", withAddress: false });
       return;
     }
     let problems: Refused[] = [];
@@ -210,7 +210,7 @@ export class EpipoleFigure extends Base {
   ): Promise<void> {
     const controller = this.#controller;
     controller.stopMotion();
-    if (!controller.renderer) controller.dispatch({ type: "open" });
+    if (!controller.renderer) controller.dispatch({ type: "open", withAddress: false });
     await controller.whenReady;
     controller.stopMotion();
     const { shell, renderer } = controller;

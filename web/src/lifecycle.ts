@@ -68,9 +68,6 @@ export interface State {
 
 export type LifecycleEvent =
   | DrawEvent
-  /** The element came into a document; `linked` if the address has parameters for it. */
-  | { type: "connected"; linked: boolean }
-  | { type: "disconnected" }
   | { type: "renamed"; connected: boolean }
   | { type: "near"; near: boolean }
   | { type: "visible"; visible: boolean }
@@ -82,12 +79,12 @@ export type LifecycleEvent =
   | { type: "touch" }
   /** The canvas has to show what the poster cannot. */
   | { type: "reveal" }
-  /** Reset, or a state to restore, without a running figure. */
-  | { type: "open" }
+  /** The page or its address ask for the figure, near or not. */
+  | { type: "open"; withAddress: boolean }
   /** A figure runs; `covered` if the poster shows its state, `linked` if the address has set it. */
   | { type: "started"; covered: boolean; waiting: boolean; linked: boolean }
-  | { type: "failed"; sentence: string; retry: boolean }
-  | { type: "panicked"; sentence: string }
+  /** The figure has not opened, or its module has panicked. */
+  | { type: "failed"; sentence: string; retry?: boolean }
   | { type: "snapshot"; waiting: boolean }
   | { type: "presented" };
 
@@ -102,10 +99,20 @@ export type Effect =
 
 type Next = [State, Effect[]];
 
+/** State of a figure that has just been started, so far as its element does not matter. */
+const STARTED = {
+  ready: false,
+  waiting: true,
+  room: false,
+  picture: "stale",
+  lastInput: 0,
+  lastDraw: 0,
+} as const;
+
 export const INITIAL: State = {
+  ...STARTED,
   phase: "poster",
   attempt: 0,
-  ready: false,
   near: false,
   visible: false,
   interested: false,
@@ -113,32 +120,21 @@ export const INITIAL: State = {
   renamed: false,
   linked: false,
   poster: false,
-  waiting: true,
   checked: false,
-  room: false,
-  picture: "stale",
-  lastInput: 0,
-  lastDraw: 0,
 };
 
 export function reduce(state: State, event: LifecycleEvent): Next {
   switch (event.type) {
-    case "connected":
-      return event.linked ? load(state, true) : [state, []];
-    case "disconnected":
-      return [{ ...state, visible: false }, [{ type: "pause" }]];
     case "renamed": {
       const wanted = event.connected && (state.near || !isClosed(state));
-      const next: State = { ...state, phase: "poster", attempt: state.attempt + 1, ready: false, renamed: true };
-      const dispose: Effect = { type: "dispose", wasReady: state.ready };
-      if (!wanted) return [next, [dispose]];
-      const [loading, effects] = load(next, false);
-      return [loading, [dispose, ...effects]];
+      const closed: State = { ...state, phase: "poster", attempt: state.attempt + 1, ready: false, renamed: true };
+      const [next, effects] = wanted ? load(closed, false) : stay(closed);
+      return [next, [{ type: "dispose", wasReady: state.ready }, ...effects]];
     }
     case "near":
-      return [{ ...state, near: event.near }, []];
+      return stay({ ...state, near: event.near });
     case "visible":
-      return setVisible(state, event.visible);
+      return see({ ...state, visible: event.visible });
     case "idle":
       return begin(state);
     case "interest": {
@@ -148,67 +144,60 @@ export function reduce(state: State, event: LifecycleEvent): Next {
     case "glide":
       return begin({ ...state, near: true, interested: true });
     case "touch":
-      return [{ ...state, touched: true }, []];
+      return stay({ ...state, touched: true });
     case "reveal":
       return showLive(state);
     case "open":
-      return load(state, false);
+      return load(state, event.withAddress);
     case "started":
       return start(state, event);
-    case "failed":
-      return fail(state, event.sentence, event.retry);
-    case "panicked":
+    case "failed": {
       // A figure that was ready has a Reset of its own.
-      return fail(state, event.sentence, !state.ready || !isRunning(state));
+      const { sentence, retry = !state.ready || !isRunning(state) } = event;
+      return [{ ...state, phase: "failed", attempt: state.attempt + 1 }, [{ type: "fail", sentence, retry }]];
+    }
     case "snapshot": {
       const check = !state.checked && !event.waiting;
       const next = { ...state, waiting: event.waiting, checked: state.checked || check };
-      const [shown, effects] = next.interested ? showLive(next) : ([next, []] as Next);
+      const [shown, effects] = next.interested ? showLive(next) : stay(next);
       return [shown, check ? [{ type: "checkNames" }, ...effects] : effects];
     }
     case "presented": {
       // A listener to what was announced may have renamed the figure.
-      if (state.ready || !isRunning(state)) return [state, []];
+      if (state.ready || !isRunning(state)) return stay(state);
       return [{ ...state, ready: true }, [{ type: "becomeReady", linked: state.linked }]];
     }
     default:
-      return isRunning(state) ? draw(state, event) : [state, []];
+      return isRunning(state) ? draw(state, event) : stay(state);
   }
 }
 
 /** Releases a figure, unless it waits for the very result that the poster shows. */
 function showLive(state: State): Next {
-  return isCovered(state) && !state.waiting ? [release(state), [FRAME]] : [state, []];
+  return isCovered(state) && !state.waiting ? [release(state), [FRAME]] : stay(state);
 }
 
 function start(state: State, { covered, waiting, linked }: { covered: boolean; waiting: boolean; linked: boolean }): Next {
   const next: State = {
     ...state,
+    ...STARTED,
     phase: covered ? "covered" : "preparing",
-    ready: false,
     linked,
     poster: covered,
-    waiting: true,
     checked: !waiting,
-    room: false,
-    picture: "stale",
-    lastInput: 0,
-    lastDraw: 0,
   };
   const shown = state.interested && !waiting ? release(next) : next;
   return [shown, isCovered(shown) && state.visible ? [{ type: "warm" }] : []];
 }
 
-function setVisible(state: State, visible: boolean): Next {
-  if (visible === state.visible) return [state, []];
-  const next = { ...state, visible };
-  if (!visible) return [next, [{ type: "pause" }]];
-  return [next, isCovered(next) ? [FRAME, { type: "warm" }] : [FRAME]];
+function see(state: State): Next {
+  if (!state.visible) return [state, [{ type: "pause" }]];
+  return [state, isCovered(state) ? [FRAME, { type: "warm" }] : [FRAME]];
 }
 
 /** Opens a figure near the viewport unless it is open. */
 function begin(state: State): Next {
-  return state.near && isClosed(state) ? load(state, !state.renamed) : [state, []];
+  return state.near && isClosed(state) ? load(state, !state.renamed) : stay(state);
 }
 
 function load(state: State, withAddress: boolean): Next {
@@ -216,8 +205,8 @@ function load(state: State, withAddress: boolean): Next {
   return [{ ...state, phase: "loading", attempt }, [{ type: "load", attempt, withAddress }]];
 }
 
-function fail(state: State, sentence: string, retry: boolean): Next {
-  return [{ ...state, phase: "failed", attempt: state.attempt + 1 }, [{ type: "fail", sentence, retry }]];
+function stay(state: State): Next {
+  return [state, []];
 }
 
 function isClosed({ phase }: State): boolean {

@@ -151,13 +151,12 @@ export class Renderer {
     return this.#engine && refused === undefined ? canvas : undefined;
   }
 
-  /** Draws the figure for print: sharp, dark on light. */
+  /** Draws the figure for print: sharp, dark on light, until it is recolored. */
   prepareForPrint(): void {
     if (this.#width === 0) return;
     // Long computations are not waited for.
     const settled = this.ask((engine) => engine.job()) === undefined;
     this.ask((engine) => engine.draw(this.#canvas, this.#width, 2, "light", settled));
-    this.#dispatch({ type: "printed" });
   }
 
   /** Stops for good. */

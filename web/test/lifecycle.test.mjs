@@ -16,6 +16,8 @@ function run(events, from = INITIAL) {
   return { state, effects, types: effects.map(({ type }) => type) };
 }
 
+const open = { type: "open", withAddress: false };
+const hidden = { type: "visible", visible: false };
 const near = { type: "near", near: true };
 const visible = { type: "visible", visible: true };
 const started = { type: "started", covered: false, waiting: false, linked: false };
@@ -39,9 +41,8 @@ test("a figure opens once it is near the viewport and the page is idle", () => {
   assert.deepEqual(effects, [{ type: "load", attempt: 1, withAddress: true }]);
 });
 
-test("parameters in the address open it at once; glides open it from afar", () => {
-  assert.equal(run([{ type: "connected", linked: true }]).state.phase, "loading");
-  assert.equal(run([{ type: "connected", linked: false }]).state.phase, "poster");
+test("the page, its address and glides open it from afar", () => {
+  assert.equal(run([open]).state.phase, "loading");
   assert.equal(run(["glide"]).state.phase, "loading");
 });
 
@@ -65,8 +66,7 @@ test("a poster that shows the awaited result stays despite interest, but not des
 
 test("idle work starts where the poster is seen, and stops where it is not", () => {
   assert.deepEqual(run([near, "idle", covered, visible]).types, ["load", "requestFrame", "warm"]);
-  assert.deepEqual(run([{ type: "visible", visible: false }], opened).types, ["pause"]);
-  assert.deepEqual(run(["disconnected"], opened).types, ["pause"]);
+  assert.deepEqual(run([hidden], opened).types, ["pause"]);
   assert.ok(!run([visible, near, "idle", started]).types.includes("warm"));
 });
 
@@ -133,7 +133,7 @@ test("animation asks for frames, and nothing is refined meanwhile", () => {
 });
 
 test("a figure that nobody sees is not refined", () => {
-  assert.deepEqual(run([{ type: "visible", visible: false }, frame(500)], live).types, ["pause"]);
+  assert.deepEqual(run([hidden, frame(500)], live).types, ["pause"]);
 });
 
 test("a failed load can be tried again; results of older attempts are outdated", () => {
@@ -141,12 +141,12 @@ test("a failed load can be tried again; results of older attempts are outdated",
   assert.equal(state.phase, "failed");
   assert.ok(state.attempt > 1);
   assert.deepEqual(types, ["load", "fail"]);
-  assert.equal(run(["open"], state).state.phase, "loading");
+  assert.equal(run([open], state).state.phase, "loading");
   assert.equal(run(["interest"], state).state.phase, "loading");
 });
 
 test("a panic offers another try unless the figure has a Reset of its own", () => {
-  const panicked = { type: "panicked", sentence: "Stopped." };
+  const panicked = { type: "failed", sentence: "Stopped." };
   assert.equal(run([panicked], live).effects[0].retry, false);
   assert.equal(run([panicked], opened).effects[0].retry, true);
   assert.deepEqual(run([panicked, input(1), frame(2), "presented"], live).types, ["fail"]);
@@ -164,7 +164,7 @@ test("a renamed figure opens again if it was open or is near, without address an
 });
 
 test("a figure that was renamed outside of any document opens when it comes back", () => {
-  const away = run(["disconnected", { type: "renamed", connected: false }], live);
+  const away = run([hidden, { type: "renamed", connected: false }], live);
   assert.equal(away.state.phase, "poster");
   assert.equal(run([near, "idle"], away.state).state.phase, "loading");
 });
