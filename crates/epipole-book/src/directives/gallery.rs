@@ -248,7 +248,7 @@ fn buttons(snapshot: &Value) -> String {
     table("What can be pressed", &["Name", "Label"], &rows)
 }
 
-/// What the keys do on what this figure has, as `web/src/picture.ts` takes them.
+/// What the keys do on what this figure has, as `web/src/handles.ts` takes them.
 fn keys(snapshot: &Value) -> String {
     let has = |list: &str, what: &dyn Fn(&Value) -> bool| entries(snapshot, list).any(what);
     let points = has("handles", &|_| true);
