@@ -8,11 +8,11 @@ import type { Shell } from "./shell.js";
 export interface Change {
   before: Snapshot | undefined;
   now: Snapshot;
-  /** Goals that it has reached. */
+  /** Goals reached by the change. */
   solved: Challenge[];
-  /** What differs from its defaults. */
+  /** Parameters that differ from the defaults. */
   state: Parameters;
-  /** Somebody has done it: what comes by itself while the page loads is not announced. */
+  /** Reader or page made the change; what happens while the page loads is not announced. */
   touched: boolean;
 }
 

@@ -45,15 +45,15 @@ export async function openEngine(name: string, { isCurrent, isUrgent, slow }: At
 export interface Opened {
   title: string;
   help: string;
-  /** The figure as it would be laid out in `width`. */
+  /** The figure, laid out in `width`. */
   first: Snapshot;
-  /** What could not be used. */
+  /** Parameters that could not be used. */
   problems: Refused[];
-  /** The page's address speaks of this figure. */
+  /** The address of the page has parameters for this figure. */
   linked: boolean;
 }
 
-/** Brings a new engine into that state; the address counts if `withAddress` says so. */
+/** Brings a new engine into its first state, the address included if `withAddress`. */
 export function openState(engine: Engine, host: Host, width: number, withAddress: boolean): Opened {
   const problems = engine.apply(parametersOf(host));
   const { own, loose } = parametersIn(withAddress ? location.search : "", host);

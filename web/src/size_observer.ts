@@ -1,14 +1,14 @@
-/** How much room a figure has, and how large its picture is made for it. */
+/** Size of the picture: observes the room for it, and has it drawn for that. */
 
 import { WIDTHS } from "./room.js";
 import type { Renderer } from "./renderer.js";
 import type { Shell } from "./shell.js";
 
-/** What is measured and who is told. */
+/** The parts to observe and to resize. */
 export interface Measured {
   shell: Shell;
   renderer: Renderer | undefined;
-  /** The poster, while it stands for the picture. */
+  /** The poster, in place of the picture. */
   standing: Element | undefined;
 }
 
@@ -16,13 +16,13 @@ export class SizeObserver {
   readonly #host: HTMLElement & { readonly compact: boolean };
   readonly #now: () => Measured;
   #observer: ResizeObserver | undefined;
-  /** Room for the picture, and how much of it the picture takes, CSS pixels. */
+  /** Widths of the room for the picture and of the picture, CSS pixels. */
   #room = 0;
   #shown = 0;
-  /** The width that the picture of a compact figure is laid out for. */
+  /** Layout width in a compact figure. */
   #fitted: number | undefined;
 
-  /** Of an element, whose parts are asked for when they are needed: they change. */
+  /** `now` returns the present parts of the element. */
   constructor(host: HTMLElement & { readonly compact: boolean }, now: () => Measured) {
     this.#host = host;
     this.#now = now;
@@ -33,9 +33,9 @@ export class SizeObserver {
     return this.#room;
   }
 
-  /** Measures from now on. */
+  /** Starts observing. */
   start(): void {
-    // What observers tell is remembered: to ask would make the browser lay the page out at once.
+    // Sizes are remembered from the observer, because reading them forces a layout.
     this.#observer = new ResizeObserver((entries) => this.#onResize(entries));
     this.observe();
   }
@@ -44,7 +44,7 @@ export class SizeObserver {
     this.#observer?.disconnect();
   }
 
-  /** Looks at the parts that there are now. */
+  /** Observes the present parts. */
   observe(): void {
     const [host, { shell, standing }] = [this.#host, this.#now()];
     this.#observer?.disconnect();
@@ -54,7 +54,7 @@ export class SizeObserver {
       this.#observer?.observe(shell.picture.element);
       const { sheet } = shell.picture;
       try {
-        // Tells of another density as well.
+        // Fires when the density of pixels changes, too.
         this.#observer?.observe(sheet, { box: "device-pixel-content-box" });
       } catch {
         this.#observer?.observe(sheet);
@@ -62,13 +62,13 @@ export class SizeObserver {
     }
   }
 
-  /** Another figure: nothing has been found out about its size. */
+  /** Starts over for another figure. */
   forget(): void {
     this.#fitted = undefined;
     this.observe();
   }
 
-  /** Finds the width to lay out a compact figure for, and has the picture made for it. */
+  /** Finds the layout width of a compact figure, and resizes the picture. */
   fit(): void {
     const [host, { shell, renderer }] = [this.#host, this.#now()];
     const look = (width: number) => renderer?.ask((engine) => engine.snapshot(width).layout);
@@ -77,7 +77,7 @@ export class SizeObserver {
     this.resize();
   }
 
-  /** Has the picture made for the room that there is. */
+  /** Resizes the picture to the room. */
   resize(): void {
     this.#now().renderer?.resize(this.#room, this.#shown, this.#fitted);
   }
