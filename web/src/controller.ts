@@ -104,8 +104,7 @@ export class FigureController {
     });
     this.recolor();
     if (this.#snapshot) this.shell.jobs.follow(this.#snapshot.waiting);
-    const linked = parametersIn(location.search, this.#host).own.length > 0;
-    if (linked) this.dispatch({ type: "open", withAddress: true });
+    if (parametersIn(location.search, this.#host).own.length > 0) this.dispatch({ type: "open", withAddress: true });
   }
 
   /** Stops what the page does not see; the element may come back. */

@@ -177,7 +177,7 @@ function showLive(state: State): Next {
   return isCovered(state) && !state.waiting ? [release(state), [FRAME]] : stay(state);
 }
 
-function start(state: State, { covered, waiting, linked }: { covered: boolean; waiting: boolean; linked: boolean }): Next {
+function start(state: State, { covered, waiting, linked }: Extract<LifecycleEvent, { type: "started" }>): Next {
   const next: State = {
     ...state,
     ...STARTED,

@@ -184,8 +184,10 @@ export class Renderer {
         clearTimeout(this.#rest);
         this.#rest = setTimeout(() => this.#requestFrame(), effect.delay);
         return;
-      case "refine":
-        return this.#dispatch({ type: "refined", ...this.#refine(performance.now() + SLICE_MS), now: performance.now() });
+      case "refine": {
+        const refined = this.#refine(performance.now() + SLICE_MS);
+        return this.#dispatch({ type: "refined", now: performance.now(), ...refined });
+      }
       case "warm":
         return this.#warm();
       case "pause":
