@@ -12,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -28,7 +28,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
+test: setup check test-rust test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -40,6 +40,9 @@ check: setup-build ## format, lints, types, lock files and licenses, without run
 test-rust: setup-build ## unit tests, documentation tests, Rust listings, figures, layers
 	cargo test --locked --workspace --tests
 	cargo test --locked --workspace --doc
+
+test-web: setup-build ## unit tests of the elements, without a browser
+	cd web && npm test --silent
 
 test-listings: setup-test ## the Python listings and the notebooks of the chapters
 	$(PYTHON) tests/listings/run.py

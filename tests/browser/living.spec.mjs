@@ -383,6 +383,18 @@ test.describe("the life of an element", () => {
     await expect.poll(async () => (await heard(figure)).length).toBeGreaterThan(2);
   });
 
+  test("renamed out of the page, it opens when it is back", async ({ page, open }) => {
+    const figure = await open(page, ["ransac-race"]);
+    await figure.evaluate((element) => {
+      const place = element.parentElement;
+      element.remove();
+      element.setAttribute("name", "ransac-budget");
+      place.append(element);
+    });
+    await ready(figure);
+    await expect(figure.locator(".title")).toHaveText(figures.find(({ name }) => name === "ransac-budget").title);
+  });
+
   test("in 200 px, and in a row that gives it none, it has room and overflows nothing", async ({ page, open }) => {
     const figure = await open(page, ["eight-point"]);
     await page.evaluate(() => (document.querySelector("figure").style.width = "200px"));

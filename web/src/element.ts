@@ -1,5 +1,5 @@
 /**
- * `<epipole-figure name="…">`: a figure on a page. Here is what a page can set, call and hear; `life.ts` does it.
+ * `<epipole-figure name="…">`: a figure on a page. Properties, methods and events; `controller.ts` implements them.
  *
  * One class, long because it is the whole public surface.
  */
@@ -9,12 +9,12 @@ import type { Goal } from "./challenges.js";
 import { CHOOSING } from "./choice.js";
 import type { Refused } from "./contract.js";
 import { setAttribute } from "./dom.js";
-import { Life } from "./life.js";
+import { FigureController } from "./controller.js";
 import { linkTo } from "./permalink.js";
 import { toSaved, type Saved } from "./saved.js";
 import { pictureOf } from "./saving.js";
 
-/** How long a glide takes, milliseconds. */
+/** Default duration of a glide, milliseconds. */
 const GLIDE_MS = 600;
 
 /** A server that renders pages may import this file; it has no elements, and makes no figure. */
@@ -23,11 +23,11 @@ const Base: typeof HTMLElement = globalThis.HTMLElement ?? class {};
 export class EpipoleFigure extends Base {
   static readonly observedAttributes = ["name", "theme", "compact", ...CHOOSING];
 
-  readonly #life: Life;
+  readonly #controller: FigureController;
 
   constructor() {
     super();
-    this.#life = new Life(this);
+    this.#controller = new FigureController(this);
   }
 
   connectedCallback(): void {
@@ -39,23 +39,23 @@ export class EpipoleFigure extends Base {
       Reflect.deleteProperty(this, "compact");
       this.compact = compact;
     }
-    this.#life.connect();
+    this.#controller.connect();
   }
 
   disconnectedCallback(): void {
-    this.#life.disconnect();
+    this.#controller.disconnect();
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
-    if (name === "theme") this.#life.recolor();
-    else if (name === "compact") this.#life.squeeze();
-    else if (name !== "name") this.#life.choose();
-    else if (before !== null && before !== now) this.#life.rename();
+    if (name === "theme") this.#controller.recolor();
+    else if (name === "compact") this.#controller.squeeze();
+    else if (name !== "name") this.#controller.choose();
+    else if (before !== null && before !== now) this.#controller.dispatch({ type: "renamed", connected: this.isConnected });
   }
 
   /** Parameters that differ from the figure's defaults, by name. Setting puts them on top. */
   get state(): Record<string, string> {
-    return Object.fromEntries(this.#life.state);
+    return Object.fromEntries(this.#controller.state);
   }
 
   set state(parameters: Record<string, string | number | boolean>) {
@@ -76,12 +76,12 @@ export class EpipoleFigure extends Base {
 
   /** The readouts by name. */
   get readouts(): Record<string, number | string> {
-    return Object.fromEntries(this.#life.snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
+    return Object.fromEntries(this.#controller.snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
   }
 
   /** The goals, and which of them the reader has reached. */
   get goals(): Goal[] {
-    return this.#life.shell.goals;
+    return this.#controller.shell.goals;
   }
 
   /** The names of the goals that the reader has reached. */
@@ -99,49 +99,49 @@ export class EpipoleFigure extends Base {
    * still computes what its page has brought along.
    */
   readoutText(id: string): string | undefined {
-    if (!this.#life.shell.settled) return undefined;
-    return this.#life.snapshot?.readouts.find((readout) => readout.id === id)?.text;
+    if (!this.#controller.shell.settled) return undefined;
+    return this.#controller.snapshot?.readouts.find((readout) => readout.id === id)?.text;
   }
 
   /** Photographs of the reader's own that it shows, as they were given. Told by the event `epipole-photographs`. */
   get photographs(): readonly File[] {
-    return this.#life.shell.photos.files;
+    return this.#controller.shell.photos.files;
   }
 
   /** What the figure shows now, in words. */
   get description(): string {
-    return this.#life.snapshot?.description ?? "";
+    return this.#controller.snapshot?.description ?? "";
   }
 
   /** A link to this page with the figure in its present state. */
   get permalink(): string {
-    const known = new Set(this.#life.snapshot?.controls.map(({ id }) => id));
-    for (const { id } of this.#life.snapshot?.handles ?? []) known.add(id);
-    const state = this.#life.session?.ask((engine) => engine.state()) ?? this.#life.state;
-    return linkTo(this, wholeState(this, state, this.#life.snapshot), (key) => known.has(key));
+    const known = new Set(this.#controller.snapshot?.controls.map(({ id }) => id));
+    for (const { id } of this.#controller.snapshot?.handles ?? []) known.add(id);
+    const state = this.#controller.renderer?.ask((engine) => engine.state()) ?? this.#controller.state;
+    return linkTo(this, wholeState(this, state, this.#controller.snapshot), (key) => known.has(key));
   }
 
   /** The present value of a control. */
   controlValue(id: string): number | boolean | string | undefined {
-    const control = this.#life.snapshot?.controls.find((known) => known.id === id);
+    const control = this.#controller.snapshot?.controls.find((known) => known.id === id);
     return control && "value" in control ? control.value : undefined;
   }
 
   /** A control's value as the figure shows it, with its unit. */
   controlText(id: string): string | undefined {
-    return this.#life.snapshot?.controls.find((control) => control.id === id)?.value_text;
+    return this.#controller.snapshot?.controls.find((control) => control.id === id)?.value_text;
   }
 
   /** Resolves once the figure can be operated and asked. */
   whenReady(): Promise<void> {
-    return this.#life.whenReady;
+    return this.#controller.whenReady;
   }
 
   /** Takes parameters, as attributes do. */
   apply(parameters: Record<string, string | number | boolean>): void {
-    this.#life.touch();
-    this.#life.stopMotion();
-    this.#life.warn(this.#life.put(textOf(parameters)));
+    this.#controller.dispatch({ type: "touch" });
+    this.#controller.stopMotion();
+    this.#controller.warn(this.#controller.renderer?.apply(textOf(parameters)) ?? []);
   }
 
   /**
@@ -154,8 +154,8 @@ export class EpipoleFigure extends Base {
     parameters: Record<string, string | number | boolean>,
     { duration = GLIDE_MS }: { duration?: number } = {},
   ): Promise<void> {
-    this.#life.touch();
-    this.#life.warn(await this.#life.glide(textOf(parameters), duration));
+    this.#controller.dispatch({ type: "touch" });
+    this.#controller.warn(await this.#controller.glide(textOf(parameters), duration));
   }
 
   /**
@@ -163,38 +163,38 @@ export class EpipoleFigure extends Base {
    * lit. Says whether the figure shows it.
    */
   light(symbol: string | undefined): boolean {
-    const found = this.#life.shell.picture.light(symbol);
+    const found = this.#controller.shell.picture.light(symbol);
     // A poster cannot be lit up: the same picture is drawn in its place.
-    if (found && this.#life.snapshot?.waiting === null) this.#life.session?.release();
+    if (found) this.#controller.dispatch({ type: "reveal" });
     return found;
   }
 
   /** Presses a button of the figure. */
   press(id: string): void {
-    this.#life.touch();
-    this.#life.stopMotion();
-    this.#life.session?.act((engine) => engine.update({ type: "press", id }));
+    this.#controller.dispatch({ type: "touch" });
+    this.#controller.stopMotion();
+    this.#controller.renderer?.act((engine) => engine.update({ type: "press", id }));
   }
 
   /** Back to the state that the page's author has set. */
   reset(): void {
-    const life = this.#life;
-    const { shell, session } = life;
-    life.stopMotion();
+    const controller = this.#controller;
+    const { shell, renderer } = controller;
+    controller.stopMotion();
     shell.speaker.warn([]);
-    if (!session) {
-      void life.open(false);
+    if (!renderer) {
+      controller.dispatch({ type: "open", withAddress: false });
       return;
     }
     let problems: Refused[] = [];
-    session.act((engine) => {
+    renderer.act((engine) => {
       const refused = engine.update({ type: "reset" });
       problems = engine.apply(parametersOf(this));
       return refused;
     });
     shell.photos.forget();
     shell.jobs.goOn();
-    life.warn(problems);
+    controller.warn(problems);
     shell.speaker.say("Reset.");
     this.dispatchEvent(new CustomEvent("epipole-reset", { detail: {}, bubbles: true, composed: true }));
   }
@@ -208,22 +208,22 @@ export class EpipoleFigure extends Base {
     state: Record<string, string | number | boolean>,
     { solved = [] }: { solved?: string[] } = {},
   ): Promise<void> {
-    const life = this.#life;
-    life.stopMotion();
-    if (!life.session) void life.open(false);
-    await life.whenReady;
-    life.stopMotion();
-    const { shell, session } = life;
+    const controller = this.#controller;
+    controller.stopMotion();
+    if (!controller.renderer) controller.dispatch({ type: "open", withAddress: false });
+    await controller.whenReady;
+    controller.stopMotion();
+    const { shell, renderer } = controller;
     shell.speaker.warn([]);
-    session?.act((engine) => engine.update({ type: "reset" }));
+    renderer?.act((engine) => engine.update({ type: "reset" }));
     shell.jobs.goOn();
-    life.warn(life.put(textOf(state)));
+    controller.warn(renderer?.apply(textOf(state)) ?? []);
     shell.recall(solved);
   }
 
   /** Takes these goals for reached: the reader has reached them another time. Wants a figure that is ready. */
   recall(solved: string[]): void {
-    this.#life.shell.recall(solved);
+    this.#controller.shell.recall(solved);
   }
 
   /**
@@ -231,18 +231,18 @@ export class EpipoleFigure extends Base {
    * Null while there is no picture.
    */
   async toPng({ scale = 2 }: { scale?: number } = {}): Promise<Blob | null> {
-    await this.#life.answered();
-    const { session } = this.#life;
-    return session ? pictureOf(session, scale) : null;
+    await this.#controller.answered();
+    const { renderer } = this.#controller;
+    return renderer ? pictureOf(renderer, scale) : null;
   }
 
   /** Shows a sentence in the figure, and on the console. */
   warn(sentence: string): void {
-    this.#life.shell.speaker.complain([sentence]);
+    this.#controller.shell.speaker.complain([sentence]);
   }
 
   /** Shows the present state at once, without waiting for the display. */
   flush(): void {
-    this.#life.session?.flush();
+    this.#controller.renderer?.flush();
   }
 }

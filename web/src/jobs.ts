@@ -1,55 +1,55 @@
-/** The long computations of one figure: in a worker, one after the other, only the newest wanted. */
+/** Long computations of a figure, in a worker: one at a time, the newest wins. */
 
 import { movedTo } from "./assets.js";
 import { make, setText } from "./dom.js";
 
-/** What a worker is asked. */
+/** Message to a worker. */
 export interface Request {
   name: string;
   key: string;
   request: Uint8Array;
-  /** Where the module is, if not beside the worker. */
+  /** Address of the module, if not beside the worker. */
   module: string | undefined;
-  /** It did not come before: what a cache has of it is of no use. */
+  /** Bypass the cache, because an earlier attempt failed. */
   anew: boolean;
 }
 
-/** What it answers: how far it is, and in the end a result or a sentence. */
+/** Message from a worker: progress, and in the end a result or a problem. */
 export type Answer = { key: string } & (
   | { share: number }
   | { result: Uint8Array }
   | { problem: string; missing?: boolean }
 );
 
-/** A computation that a figure waits for; its bytes are many, so they are made when they are needed. */
+/** Computation that a figure waits for; `request` makes its many bytes on demand. */
 export interface Wanted {
   name: string;
   key: string;
   request: () => Uint8Array;
 }
 
-/** What is missing where neither worker nor module came, and what helps. */
+/** Words for a worker or module that could not be loaded. */
 export const CODE = "the code for this computation";
 export const TRY_AGAIN = "Reset tries again";
 
 export interface JobHooks {
-  /** The computation that the figure waits for, as it stands. */
+  /** Returns the computation that the figure waits for now. */
   next: () => Wanted | undefined;
   done: (key: string, result: Uint8Array) => void;
   failed: (key: string, sentence: string) => void;
-  /** The reader has stopped it, or lets it go on. */
+  /** The reader has stopped or resumed it. */
   turned?: () => void;
 }
 
-/** A computation that nobody wants any more may go on for so long; then its worker is ended. */
+/** Time after which an outdated computation is terminated, milliseconds. */
 const PATIENCE_MS = 400;
-/** Nobody has answered for so long: what computes has not even arrived. */
+/** Time without an answer after which the code counts as slow to come, milliseconds. */
 const SILENCE_MS = 15_000;
-/** Quick computations come and go without a word. */
+/** Delay before progress is shown, milliseconds. */
 const QUIET_MS = 200;
 
 export class Jobs {
-  /** What is being computed, how far it is, and a button to stop it. */
+  /** Name, progress and a button to stop the computation. */
   readonly element = make("div", { class: "job", hidden: true });
   readonly #label = make("span");
   readonly #bar = make("progress", { max: 1, "aria-label": "Progress" });
@@ -58,9 +58,9 @@ export class Jobs {
   #worker: Worker | undefined;
   #running: { key: string; since: number } | undefined;
   #stopped: string | undefined;
-  /** Whatever computes is slow to come. */
+  /** The code is slow to come. */
   #late = false;
-  /** How often in a row it has not come. */
+  /** Number of consecutive failures to load it. */
   #misses = 0;
   #words = "";
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -75,7 +75,7 @@ export class Jobs {
     });
   }
 
-  /** Looks what the figure waits for; `words` say it, and are absent if it waits for nothing. */
+  /** Starts what the figure waits for, with its name; null if it waits for nothing. */
   follow(words: string | null): void {
     if (words === null) {
       if (this.#running) this.#overtaken();
@@ -107,7 +107,7 @@ export class Jobs {
     this.#show(false);
   }
 
-  /** Computes again what the reader has stopped, or what never came. */
+  /** Restarts a computation that was stopped, or whose code never came. */
   goOn(): void {
     if (this.#stopped === undefined && !this.#late) return;
     if (this.#late) this.#misses += 1;
@@ -128,7 +128,7 @@ export class Jobs {
     clearTimeout(this.#silence);
   }
 
-  /** The running computation is not the one that is wanted: it may end by itself, if it hurries. */
+  /** Terminates an outdated computation, unless it is so new that it may end by itself. */
   #overtaken(): void {
     if (this.#running && performance.now() - this.#running.since > PATIENCE_MS) this.#dismiss();
   }
@@ -151,7 +151,7 @@ export class Jobs {
     this.#worker.postMessage({ name, key, request: wanted.request(), module, anew } satisfies Request);
   }
 
-  /** Says so if nobody answers. */
+  /** Shows after a while that no answer comes. */
   #listen(): void {
     clearTimeout(this.#silence);
     this.#silence = setTimeout(() => {
@@ -243,14 +243,14 @@ export class Jobs {
   }
 }
 
-/** An address that has failed before gets another look: browsers keep answers, and requests that never end. */
+/** Address of the worker; another one after a failure, because browsers keep failed and endless requests. */
 function workerUrl(misses: number): URL {
   const url = movedTo("worker") ?? new URL(EPIPOLE_WORKER, import.meta.url);
   if (misses > 0 && url.protocol.startsWith("http")) url.searchParams.set("again", String(misses));
   return url;
 }
 
-/** A worker may only be started from the page's own origin; from elsewhere it takes one hop. */
+/** Starts a worker; from another origin, by a script that imports it. */
 function hire(misses: number): Worker {
   const url = workerUrl(misses);
   // A sandboxed frame has an address, and yet no origin of its own.

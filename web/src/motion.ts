@@ -1,62 +1,71 @@
 /**
- * Figures that move by themselves: a glide to a state that the page asks for, and the way to a goal.
- *
- * What moves is what a reader could move, so that it can be watched and done again by hand. It ends
- * at once when the reader takes over.
+ * Animations of a figure: glides to parameters, and solutions of goals. They move what a reader can move, and end when
+ * the reader takes over.
  */
 
 import type { Parameters, Refused, Snapshot, SolutionEvent } from "./contract.js";
 import type { Engine } from "./module.js";
 import { wantsStillness } from "./theme.js";
 
-/** What motion needs of a figure. */
+/** The figure, as animations need it. */
 export interface Stage {
-  /** The present state. */
+  /** Returns the present state. */
   look: () => Snapshot | undefined;
-  /** Changes the figure; what it refuses on the way is not said. */
+  /** Changes the figure, without telling what it refuses. */
   move: (work: (engine: Engine) => string | undefined) => void;
-  /** Puts parameters, and says which could not be used. */
+  /** Puts parameters on top of the state; returns those that could not be used. */
   apply: (parameters: Parameters) => Refused[];
-  /** Whether a long computation is going on. */
+  /** Returns whether a long computation runs. */
   busy: () => boolean;
-  /** Whether the clock of the figure stands still. */
+  /** Stops or resumes the clock of the figure. */
   freeze: (frozen: boolean) => void;
+  /** Marks what has changed between two snapshots. */
   mark: (before: Snapshot, now: Snapshot) => void;
-  /** Points to a control that is about to be pressed. */
+  /** Returns the events that reach a goal from the default state. */
+  solution: (challenge: string) => SolutionEvent[] | undefined;
+  /** Brings the figure to its default state. */
+  reset: () => void;
+  /** Shows which goal's solution is playing. */
+  playing: (challenge: string | undefined) => void;
+  /** Marks a control that is about to be pressed. */
   point: (id: string) => void;
 }
 
-/** How long one event of a solution takes, and the pause around it, milliseconds. */
+/** Duration of one event of a solution, and of the pause after it, milliseconds. */
 const EVENT_MS = 600;
 const PAUSE_MS = 350;
-/** The longest time that all ticks of a solution together may take. */
+/** Maximum duration of all ticks of a solution, milliseconds. */
 const TICKS_MS = 3000;
 
-/** Draws the figure at a share of its way. */
+/** Moves the figure to a share of its way. */
 type Step = (share: number) => void;
 
 export class Motion {
   readonly #stage: Stage;
   #turn = 0;
-  /** Where a glide is going. */
+  /** Parameters at the end of the glide. */
   #target = new Map<string, string>();
+  /** Goal whose solution is playing. */
+  #playing: string | undefined;
 
   constructor(stage: Stage) {
     this.#stage = stage;
   }
 
-  /** Ends whatever moves, where it is. */
+  /** Ends glides and solutions where they are. */
   stop(): void {
     this.#turn += 1;
     this.#target.clear();
     this.#stage.freeze(false);
+    if (this.#playing !== undefined) this.#setPlaying(undefined);
   }
 
   /**
-   * Glides to parameters. A glide that is under way ends, and this one takes over its goal as well.
-   * Resolves when the figure is there, or when something else has taken over.
+   * Glides to parameters, and to those of a glide that this one interrupts. Resolves when the figure is there, or when
+   * something else has taken over.
    */
   async glide(parameters: Parameters, duration: number, ready: Promise<unknown>): Promise<Refused[]> {
+    if (this.#playing !== undefined) this.stop();
     const turn = ++this.#turn;
     for (const [key, value] of parameters) this.#target.set(key, value);
     await ready;
@@ -85,32 +94,45 @@ export class Motion {
     return refused;
   }
 
-  /** Plays events one after the other; false if something has taken over. */
-  async play(events: SolutionEvent[]): Promise<boolean> {
+  /** Plays the solution of a goal from the default state, or stops it. */
+  async toggleSolution(challenge: string): Promise<void> {
+    const again = this.#playing === challenge;
     this.stop();
+    const events = again ? undefined : this.#stage.solution(challenge);
+    if (!events || events.length === 0) return;
     const turn = this.#turn;
+    this.#setPlaying(challenge);
+    this.#stage.reset();
+    await this.#play(events, turn);
+    if (turn === this.#turn) this.stop();
+  }
+
+  #setPlaying(challenge: string | undefined): void {
+    this.#playing = challenge;
+    this.#stage.playing(challenge);
+  }
+
+  /** Plays events one after the other, until something else takes over. */
+  async #play(events: SolutionEvent[], turn: number): Promise<void> {
     const ticks = events.filter(({ type }) => type === "tick").length;
     this.#stage.freeze(ticks > 0);
     for (const event of events) {
       await this.#settle(turn);
-      if (turn !== this.#turn) return false;
+      if (turn !== this.#turn) return;
       const before = this.#stage.look();
-      if (!before) return false;
+      if (!before) return;
       const step = this.#eventStep(before, event);
       if (step) await this.#run(turn, EVENT_MS, step);
       else if (event.type === "press") {
         this.#stage.point(event.id);
         await this.#pause(turn, PAUSE_MS);
       }
-      if (turn !== this.#turn) return false;
+      if (turn !== this.#turn) return;
       this.#stage.move((engine) => engine.update(event));
       const rest = event.type === "tick" ? Math.min(TICKS_MS / ticks, 1000 * event.dt_s) : PAUSE_MS;
       await this.#pause(turn, rest);
     }
     await this.#settle(turn);
-    if (turn !== this.#turn) return false;
-    this.#stage.freeze(false);
-    return true;
   }
 
   #parameterStep(snapshot: Snapshot, key: string, value: string): Step | undefined {
@@ -120,7 +142,7 @@ export class Motion {
     return this.#eventStep(snapshot, { type: "handle-moved", id: key, x, y });
   }
 
-  /** How to do an event little by little, if it can be done so. */
+  /** Returns how to do an event gradually; undefined for events that are instantaneous. */
   #eventStep({ controls, handles }: Snapshot, event: SolutionEvent): Step | undefined {
     const between = (from: number, to: number, share: number) => from + share * (to - from);
     if (event.type === "set") {
@@ -148,7 +170,7 @@ export class Motion {
       );
   }
 
-  /** Takes a step with each frame until the whole way is gone; a reader may want no motion. */
+  /** Takes a step with each frame until the end; one step for readers who prefer reduced motion. */
   async #run(turn: number, duration: number, step: Step): Promise<void> {
     if (wantsStillness() || document.hidden || !(duration > 0)) {
       step(1);
@@ -168,9 +190,9 @@ export class Motion {
     await new Promise((resolve) => setTimeout(resolve, milliseconds));
   }
 
-  /** Waits for what the figure computes. */
+  /** Waits for long computations. */
   async #settle(turn: number): Promise<void> {
-    // What it waits for shows with the frame that is drawn next.
+    // Computations start with the next frame.
     await nextFrame();
     while (turn === this.#turn && this.#stage.busy()) {
       await new Promise((resolve) => setTimeout(resolve, 50));
@@ -178,7 +200,7 @@ export class Motion {
   }
 }
 
-/** The next frame of the display, or some time later where nothing is displayed. */
+/** Resolves with the next frame of the display, or after a quarter of a second where none comes. */
 function nextFrame(): Promise<void> {
   return new Promise((resolve) => {
     const frame = requestAnimationFrame(() => done());

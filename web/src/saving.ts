@@ -1,34 +1,34 @@
-/** Saves a figure's picture or computed data as a file. */
+/** What a reader keeps of a figure: its picture, or what it has computed, as a file. */
 
 import type { FileOffer } from "./contract.js";
 import { make } from "./dom.js";
-import type { Session } from "./session.js";
+import type { Renderer } from "./renderer.js";
 
-/** Time until the object URL of a download is revoked, milliseconds. */
+/** How long the browser may take to begin with a file, milliseconds. */
 const KEPT_MS = 10_000;
-/** Device pixels per layout pixel in saved pictures. */
+/** Device pixels to a pixel of the layout in a saved picture. */
 const SCALE = 2;
 
-/** The fully refined picture as a PNG. */
-export async function pictureOf(session: Session, scale = SCALE): Promise<Blob | null> {
-  await session.sharpen();
-  const canvas = session.portrait(scale);
+/** The picture as it is once nothing is left to refine, a PNG. */
+export async function pictureOf(renderer: Renderer, scale = SCALE): Promise<Blob | null> {
+  await renderer.sharpen();
+  const canvas = renderer.portrait(scale);
   return new Promise((resolve) => (canvas ? canvas.toBlob(resolve) : resolve(null)));
 }
 
-/** Saves the current picture. */
-export async function savePicture(session: Session, name: string): Promise<void> {
-  const blob = await pictureOf(session);
+/** Saves the picture as it is now. */
+export async function savePicture(renderer: Renderer, name: string): Promise<void> {
+  const blob = await pictureOf(renderer);
   if (blob) download(blob, `${name}.png`);
 }
 
-/** Saves the figure's data file, if it is ready. */
-export function saveFile(session: Session, offer: FileOffer | null | undefined, name: string): void {
-  const bytes = session.ask((engine) => engine.file());
+/** Saves what the figure offers besides its picture, if that is ready. */
+export function saveFile(renderer: Renderer, offer: FileOffer | null | undefined, name: string): void {
+  const bytes = renderer.ask((engine) => engine.file());
   if (offer?.is_ready && bytes) download(new Blob([bytes]), `${name}.${offer.extension}`);
 }
 
-/** Triggers a download. */
+/** Offers a file for saving, as if a link to it had been followed. */
 function download(blob: Blob, name: string): void {
   const link = make("a", { href: URL.createObjectURL(blob), download: name });
   link.click();

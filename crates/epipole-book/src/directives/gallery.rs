@@ -249,7 +249,7 @@ fn buttons(snapshot: &Value) -> String {
     table("What can be pressed", &["Name", "Label"], &rows)
 }
 
-/// Keyboard help for the items of this figure, matching `web/src/picture.ts`.
+/// Keyboard help for the items of this figure, matching `web/src/handles.ts`.
 fn keys(snapshot: &Value) -> String {
     let has = |list: &str, what: &dyn Fn(&Value) -> bool| entries(snapshot, list).any(what);
     let points = has("handles", &|_| true);
