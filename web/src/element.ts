@@ -33,7 +33,7 @@ export class EpipoleFigure extends Base {
   connectedCallback(): void {
     // JupyterLab hears keys before anybody else, and does nothing on them where it finds this.
     setAttribute(this, "data-lm-suppress-shortcuts", true);
-    // What was set before the script had come hides the property that sets the attribute.
+    // A property set before the script loads hides the accessor that sets the attribute.
     if (Object.hasOwn(this, "compact")) {
       const { compact } = this;
       Reflect.deleteProperty(this, "compact");
@@ -108,7 +108,7 @@ export class EpipoleFigure extends Base {
     return this.#controller.shell.photos.files;
   }
 
-  /** What the figure shows now, in words. */
+  /** Description of the current picture in words. */
   get description(): string {
     return this.#controller.snapshot?.description ?? "";
   }
@@ -227,7 +227,7 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * What the figure shows, as a PNG: once it has computed what it shows, `scale` pixels to a CSS pixel of its layout.
+   * Picture of the figure as a PNG, `scale` pixels per CSS pixel of its layout; resolves after pending computations.
    * Null while there is no picture.
    */
   async toPng({ scale = 2 }: { scale?: number } = {}): Promise<Blob | null> {

@@ -7,7 +7,7 @@ import { Lit } from "./lit.js";
 import { Pointers } from "./pointers.js";
 import { Zoom } from "./zoom.js";
 
-/** What a reader can do in the picture. Places are CSS pixels of the layout. */
+/** Actions of a reader in the picture. Places are CSS pixels of the layout. */
 export interface Hand {
   handleAt: (x: number, y: number) => string | undefined;
   drag: (id: string, x: number, y: number) => void;
@@ -25,7 +25,7 @@ export class Picture {
   readonly element = make("div", { class: "picture" });
   /** The picture itself, which is narrower where the room is low. */
   readonly sheet = make("div", { class: "sheet" });
-  /** What lies over its lower edge for a while. */
+  /** Temporary overlay at its lower edge. */
   readonly overlay = make("div", { class: "overlay" });
   readonly canvas = make("canvas", { role: "img", hidden: true });
   readonly #lit = new Lit();
@@ -59,7 +59,7 @@ export class Picture {
     return this.#lit.show(symbol, this.#snapshot);
   }
 
-  /** What stands for a handle on the page. */
+  /** DOM element of a handle. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#handles.elementOf(id);
   }

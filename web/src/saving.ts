@@ -1,10 +1,10 @@
-/** What a reader keeps of a figure: its picture, or what it has computed, as a file. */
+/** Downloads of a figure: its picture, or its results as a file. */
 
 import type { FileOffer } from "./contract.js";
 import { make } from "./dom.js";
 import type { Renderer } from "./renderer.js";
 
-/** How long the browser may take to begin with a file, milliseconds. */
+/** Time for the browser to start a download before its URL is revoked, milliseconds. */
 const KEPT_MS = 10_000;
 /** Device pixels to a pixel of the layout in a saved picture. */
 const SCALE = 2;
