@@ -1,14 +1,15 @@
-//! Names what draws the figures: a hash of the sources of the core, the canvas and the figures, of how posters are
-//! encoded, and of all versions. What something else has drawn is drawn again.
+//! Names what draws the figures: a hash of the sources of the core, the scenes, the canvas and the figures, of how
+//! posters are encoded, and of all versions. What something else has drawn is drawn again.
 
 use std::fs;
 use std::path::Path;
 
 /// Inputs of a poster besides its figure's settings.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     "../epipole/src",
     "../epipole-canvas/assets",
     "../epipole-canvas/src",
+    "../epipole-scenes/src",
     "../epipole-widgets/src",
     "src/resolve/figures.rs",
     "src/resolve/posters.rs",

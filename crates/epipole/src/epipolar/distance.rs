@@ -113,21 +113,11 @@ fn infinite_if_undefined(distance: f64) -> f64 {
 }
 
 /// The square of [`sampson_px`], px².
-///
-/// Source: as [`sampson_px`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::RigidTransform;
-/// use epipole::epipolar::{essential_from_motion, sampson_sq};
-/// use nalgebra::Point2;
-/// // A step to the right: rows must agree. They differ by 2, so each pixel moves by 1.
-/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
-/// assert!((sampson_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 2.0).abs() < 1e-12);
-/// # Ok(()) }
-/// ```
-#[doc(alias = "sampsonDistance")]
-pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
+pub(crate) fn sampson_sq(
+    fundamental: &Matrix3<f64>,
+    pixel1: &Point2<f64>,
+    pixel2: &Point2<f64>,
+) -> f64 {
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }
 
@@ -158,28 +148,6 @@ pub fn sampson_sq(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
 /// ```
 pub fn sampson_px(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Point2<f64>) -> f64 {
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).px()
-}
-
-/// The square of [`symmetric_epipolar_px`], px².
-///
-/// Source: as [`symmetric_epipolar_px`].
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::RigidTransform;
-/// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_sq};
-/// use nalgebra::Point2;
-/// // A step to the right: rows must agree. Each pixel is 2 away from the row of the other.
-/// let f = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
-/// assert!((symmetric_epipolar_sq(&f, &Point2::new(5.0, 3.0), &Point2::new(1.0, 5.0)) - 4.0).abs() < 1e-12);
-/// # Ok(()) }
-/// ```
-pub fn symmetric_epipolar_sq(
-    fundamental: &Matrix3<f64>,
-    pixel1: &Point2<f64>,
-    pixel2: &Point2<f64>,
-) -> f64 {
-    Distance::new(fundamental, pixel1, pixel2, Parts::symmetric_sq).sq()
 }
 
 /// The distances of both points from their epipolar lines, as a root mean square:
@@ -303,7 +271,6 @@ mod tests {
                 let f = right * scale;
                 // The square may be beyond the range, but is never not a number.
                 assert!(sampson_sq(&f, &x1, &x2) >= 0.0);
-                assert!(symmetric_epipolar_sq(&f, &x1, &x2) >= 0.0);
                 let sampson = sampson_px(&f, &x1, &x2) / (2.0_f64.sqrt() * size);
                 assert!((sampson - 1.0).abs() < 1e-9, "{size} {scale}: {sampson}");
                 let symmetric = symmetric_epipolar_px(&f, &x1, &x2) / (2.0 * size);

@@ -38,7 +38,8 @@ mod sight;
 mod six_point;
 mod three_point;
 
-pub use distance::{sampson_px, sampson_sq, symmetric_epipolar_px, symmetric_epipolar_sq};
+pub(crate) use distance::sampson_sq;
+pub use distance::{sampson_px, symmetric_epipolar_px};
 pub use eight_point::{
     EightPoint, enforce_rank2, fundamental_8point, fundamental_8point_explained,
     fundamental_8point_unnormalized,

@@ -99,18 +99,7 @@ pub fn transfer(homography: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Point
 }
 
 /// The square of [`transfer_error_px`], px².
-///
-/// Source: as [`transfer_error_px`].
-///
-/// ```
-/// use epipole::homography::transfer_error_sq;
-/// use nalgebra::{Matrix3, Point2};
-/// // Twice the size, then 10 to the right.
-/// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
-/// // H sends (3, 4) to (16, 8), which is (3, 4) away from its match: 3² + 4².
-/// assert_eq!(transfer_error_sq(&h, &Point2::new(3.0, 4.0), &Point2::new(19.0, 12.0)), 25.0);
-/// ```
-pub fn transfer_error_sq(
+pub(crate) fn transfer_error_sq(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,

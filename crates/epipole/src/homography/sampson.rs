@@ -13,15 +13,7 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// Infinite if H sends pixel 1 infinitely far away, or so far that the squares overflow.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
-///
-/// ```
-/// use epipole::homography::homography_sampson_sq;
-/// use nalgebra::{Matrix3, Point2, Vector3};
-/// // Nothing moves in H; pixel 2 is off by 2, of which each pixel makes up for 1: 1² + 1².
-/// let (x1, x2) = (Point2::new(10.0, 20.0), Point2::new(12.0, 20.0));
-/// assert_eq!(homography_sampson_sq(&Matrix3::identity(), &x1, &x2), 2.0);
-/// ```
-pub fn homography_sampson_sq(
+pub(crate) fn homography_sampson_sq(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,

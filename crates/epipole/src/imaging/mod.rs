@@ -53,7 +53,7 @@ pub use integral::{IntegralImage, box_filter};
 pub use pyramid::{
     from_laplacian_pyramid, gaussian_pyramid, laplacian_pyramid, pyramid_down, pyramid_up,
 };
-pub use reduce::{reduce_rgb, reduced_size};
+pub use reduce::reduce_rgb;
 pub use resize::resize;
 pub use sample::{sample_bicubic, sample_bilinear};
 pub use separable::separable_filter;

@@ -4,13 +4,7 @@ use image::RgbImage;
 use image::imageops::{FilterType, resize};
 
 /// Width and height of the same shape, at most so many pixels in all, and at least 1 × 1.
-///
-/// ```
-/// use epipole::imaging::reduced_size;
-/// assert_eq!(reduced_size((4000, 3000), 3_000_000), (2000, 1500));
-/// assert_eq!(reduced_size((640, 480), 3_000_000), (640, 480));
-/// ```
-pub fn reduced_size((width, height): (u32, u32), max_pixels: u64) -> (u32, u32) {
+fn reduced_size((width, height): (u32, u32), max_pixels: u64) -> (u32, u32) {
     let pixels = u64::from(width) * u64::from(height);
     if pixels <= max_pixels {
         return (width, height);
@@ -47,6 +41,8 @@ mod tests {
 
     #[test]
     fn sizes_that_are_not_usual() {
+        assert_eq!(reduced_size((4000, 3000), 3_000_000), (2000, 1500));
+        assert_eq!(reduced_size((640, 480), 3_000_000), (640, 480));
         assert_eq!(reduced_size((1_000_000, 1), 100), (10_000, 1));
         assert_eq!(reduced_size((0, 0), 100), (0, 0));
         assert_eq!(reduced_size((7, 5), 0), (1, 1));

@@ -9,14 +9,7 @@ use nalgebra::{DMatrix, DVector};
 ///   `|δ| r(parameters ⊞ δ)`
 /// * `num_parameters`: the length of δ
 /// * `step`: h; 1e-6 suits residuals and parameters around 1
-///
-/// ```
-/// use epipole::optim::numeric_jacobian;
-/// use nalgebra::DVector;
-/// let jacobian = numeric_jacobian(&|d: &DVector<f64>| DVector::from_vec(vec![(3.0 + d[0]) * (3.0 + d[0])]), 1, 1e-6);
-/// assert!((jacobian[(0, 0)] - 6.0).abs() < 1e-6);
-/// ```
-pub fn numeric_jacobian(
+fn numeric_jacobian(
     residuals: &dyn Fn(&DVector<f64>) -> DVector<f64>,
     num_parameters: usize,
     step: f64,
@@ -35,10 +28,22 @@ pub fn numeric_jacobian(
     jacobian
 }
 
-/// The largest difference between an analytic Jacobian and [`numeric_jacobian`], each entry
+/// The largest difference between an analytic Jacobian and one by central differences, each entry
 /// relative to the larger of 1 and its own size.
 ///
+/// * `residuals`: the residuals after a step δ; for parameters on a manifold,
+///   `|δ| r(parameters ⊞ δ)`
+/// * `step`: length of the differences; 1e-6 suits residuals and parameters around 1
+///
 /// Returns infinity if the shapes differ or an entry is not finite.
+///
+/// ```
+/// use epipole::optim::check_jacobian;
+/// use nalgebra::{DMatrix, DVector};
+/// // r(x) = x² at 3, with the derivative 6.
+/// let residuals = |d: &DVector<f64>| DVector::from_vec(vec![(3.0 + d[0]) * (3.0 + d[0])]);
+/// assert!(check_jacobian(&DMatrix::from_element(1, 1, 6.0), &residuals, 1e-6) < 1e-6);
+/// ```
 pub fn check_jacobian(
     analytic: &DMatrix<f64>,
     residuals: &dyn Fn(&DVector<f64>) -> DVector<f64>,

@@ -25,7 +25,7 @@ mod schur;
 pub(crate) mod sparse;
 mod subset;
 
-pub use check::{check_jacobian, numeric_jacobian};
+pub use check::check_jacobian;
 pub use dense::{DenseProblem, minimize_dense};
 pub(crate) use fixed::{FixedProblem, NormalEquations, is_positive_definite, minimize_fixed};
 pub use graph::EdgeTerms;

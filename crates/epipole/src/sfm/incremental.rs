@@ -2,11 +2,10 @@
 
 use super::builder::Builder;
 use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check};
-use super::reconstruction::{Reconstruction, SfmImage};
+use super::reconstruction::Reconstruction;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::Result;
-use crate::camera::Intrinsics;
 use crate::progress::{Monitor, Part, Stage, report};
 
 /// Share of the work of [`reconstruct`] after which all pairs are tested, judged by some dozens of photographs.
@@ -115,29 +114,6 @@ pub fn reconstruct(
     Ok(run.finish())
 }
 
-/// Cameras and points from pairs that [`verify_matches`](super::verify_matches) has tested already,
-/// in any order: the rest of [`reconstruct`].
-///
-/// * `images`, `intrinsics`: the photographs, and the intrinsics of each, or one for all
-///
-/// # Errors
-/// As [`reconstruct`].
-///
-/// Source: as [`reconstruct`].
-pub fn reconstruct_verified(
-    images: &[SfmImage],
-    intrinsics: &[Intrinsics],
-    verified: &[VerifiedPair],
-    options: &SfmOptions,
-    monitor: &mut dyn Monitor,
-) -> Result<SfmResult> {
-    let intrinsics = check(OF_PHOTOGRAPHS, images, intrinsics, options)?;
-    let builder = Builder::new(images, intrinsics, options);
-    let mut run = IncrementalReconstruction::grown_from(builder, verified.to_vec(), 0.0)?;
-    while run.step(monitor)?.is_some() {}
-    Ok(run.finish())
-}
-
 /// [`reconstruct`], step by step.
 ///
 /// ```
@@ -162,8 +138,6 @@ pub struct IncrementalReconstruction {
     phase: Phase,
     components: Vec<Reconstruction>,
     steps: Vec<SfmStep>,
-    /// Share of the work before the first step.
-    begin: f32,
     share: f32,
 }
 
@@ -197,13 +171,9 @@ impl IncrementalReconstruction {
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
         // Bad indices are found before the work begins.
         build_tracks(&counts, &input.pairs)?;
-        let builder = Builder::new(images, intrinsics, options);
+        let mut builder = Builder::new(images, intrinsics, options);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
         let verified = verify_pairs(&input.pairs, &builder.views, options, &mut part)?;
-        Self::grown_from(builder, verified, VERIFIED)
-    }
-
-    fn grown_from(mut builder: Builder, verified: Vec<VerifiedPair>, begin: f32) -> Result<Self> {
         let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
         builder.join_tracks(&surviving)?;
         Ok(Self {
@@ -212,8 +182,7 @@ impl IncrementalReconstruction {
             phase: Phase::Start,
             components: Vec::new(),
             steps: Vec::new(),
-            begin,
-            share: begin,
+            share: VERIFIED,
         })
     }
 
@@ -242,7 +211,7 @@ impl IncrementalReconstruction {
             let num_registered = self.builder.num_registered();
             let whole = self.builder.images.len().max(num_registered);
             let grown = num_registered as f32 / whole as f32;
-            self.share = (self.begin + (1.0 - self.begin) * grown).clamp(self.share, 1.0);
+            self.share = (VERIFIED + (1.0 - VERIFIED) * grown).clamp(self.share, 1.0);
             report(monitor, stage, self.share)?;
             return Ok(Some(step));
         }

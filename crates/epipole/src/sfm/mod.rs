@@ -50,9 +50,7 @@ pub use bundle::{
     Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
 };
 pub use export::ColmapModel;
-pub use incremental::{
-    IncrementalReconstruction, SfmResult, SfmStep, reconstruct, reconstruct_verified,
-};
+pub use incremental::{IncrementalReconstruction, SfmResult, SfmStep, reconstruct};
 pub use localize::{Localization, LocalizeOptions};
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,

@@ -4,7 +4,7 @@ use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::epipolar::{
     decompose_essential, essential_5point, essential_8point, essential_from_fundamental,
-    essential_from_motion, estimate_essential, sampson_sq, select_pose,
+    essential_from_motion, estimate_essential, sampson_px, select_pose,
 };
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
@@ -230,7 +230,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
             assert_eq!(report.num_inliers, num_matches);
             let f = k2.inverse_matrix().transpose() * report.model * k1.inverse_matrix();
             for (a, b) in p1.iter().zip(p2) {
-                assert!(sampson_sq(&f, a, b) < 1e-5, "{seed}");
+                assert!(sampson_px(&f, a, b).powi(2) < 1e-5, "{seed}");
             }
         }
         println!("{num_matches} matches: ‖E − E*‖ {worst:.1e} at most");
