@@ -36,8 +36,6 @@ const RESERVED: &[(&str, &[&str])] = &[
     ("ttf-parser", &["epipole-canvas"]),
     ("wasm-bindgen", &["epipole-web", "epipole-lab"]),
     ("wasm-bindgen-futures", &["epipole-lab"]),
-    ("web-sys", &["epipole-web"]),
-    ("js-sys", &["epipole-web"]),
     ("egui", &["epipole-lab"]),
     ("eframe", &["epipole-lab"]),
 ];

@@ -29,11 +29,23 @@ const OPENINGS: &[&str] = &[
 const WIDTHS: &[(&str, usize)] = &[("python", 100), ("tests", 100), ("web", 120)];
 
 /// Maximum length of documents, lines.
-const DOCUMENTS: &[(&str, usize)] = &[("README.md", 110), ("python/README.md", 110)];
+const DOCUMENTS: &[(&str, usize)] = &[
+    ("ARCHITECTURE.md", 130),
+    ("CHANGELOG.md", 60),
+    ("CONTRIBUTING.md", 120),
+    ("README.md", 110),
+    ("python/README.md", 110),
+    ("web/README.md", 110),
+];
+
+/// Documents with lines of at most 110 characters.
+const NARROW: &[&str] = &["ARCHITECTURE.md", "CHANGELOG.md", "docs/decisions"];
+const NARROW_WIDTH: usize = 110;
 
 #[test]
 fn comments_and_documents_are_plain() {
     let mut findings = long_documents();
+    findings.extend(wide_documents());
     for (folder, extensions) in SOURCES {
         let widest = WIDTHS.iter().find(|(name, _)| name == folder);
         for file in sources_below(&root().join(folder), extensions) {
@@ -76,6 +88,33 @@ fn long_documents() -> Vec<String> {
         (count > most).then(|| format!("{path}:{count}: {count} lines, at most {most}"))
     };
     DOCUMENTS.iter().filter_map(measure).collect()
+}
+
+fn wide_documents() -> Vec<String> {
+    let mut files = Vec::new();
+    for name in NARROW {
+        let path = root().join(name);
+        if path.is_dir() {
+            files.extend(sources_below(&path, &["md"]));
+        } else {
+            files.push(path);
+        }
+    }
+    let mut findings = Vec::new();
+    for file in files {
+        let path = file.strip_prefix(root()).unwrap().display().to_string();
+        let text = fs::read_to_string(&file).unwrap();
+        for (index, line) in text.lines().enumerate() {
+            let width = line.chars().count();
+            if width > NARROW_WIDTH {
+                let number = index + 1;
+                findings.push(format!(
+                    "{path}:{number}: {width} characters, at most {NARROW_WIDTH}"
+                ));
+            }
+        }
+    }
+    findings
 }
 
 /// Every source below `folder` with one of the extensions that no tool has made, sorted.
