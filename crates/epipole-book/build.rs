@@ -1,5 +1,6 @@
-//! Names what draws the figures: a hash of the sources of the core, the scenes, the canvas and the figures, of how
-//! posters are encoded, and of all versions. What something else has drawn is drawn again.
+//! Names what draws the figures: a hash of the sources of the core, the scenes, the canvas and the
+//! figures, of how posters are encoded, and of all versions. What something else has drawn is drawn
+//! again.
 
 use std::fs;
 use std::path::Path;

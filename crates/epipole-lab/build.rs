@@ -1,5 +1,6 @@
-//! Names what results are computed with: a hash of the sources of the core, of the scenes, of the tasks, and of all
-//! versions. Results that were computed with something else are not taken for those of this Lab.
+//! Names what results are computed with: a hash of the sources of the core, of the scenes, of the
+//! tasks, and of all versions. Results that were computed with something else are not taken for
+//! those of this Lab.
 
 use std::path::{Path, PathBuf};
 

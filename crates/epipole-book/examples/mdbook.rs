@@ -1,4 +1,5 @@
-//! Builds an mdBook by mdBook's own renderer, as `mdbook build` does: the recipe for mdBook is tested with it.
+//! Builds an mdBook by mdBook's own renderer, as `mdbook build` does: the recipe for mdBook is
+//! tested with it.
 //!
 //! `cargo run --example mdbook -- FOLDER`
 

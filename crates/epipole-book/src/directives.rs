@@ -1,4 +1,5 @@
-//! The authors' vocabulary: a directive a file, each with its three stages, and a line of [`VOCABULARY`].
+//! The authors' vocabulary: a directive a file, each with its three stages, and a line of
+//! [`VOCABULARY`].
 //!
 //! The README of this crate shows how each is written.
 

@@ -158,8 +158,8 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     Some(format!("no --k or --focal-px: taking {focal} px, {from}"))
 }
 
-/// The intrinsics of a photograph whose focal length was given, in pixels of its file: the principal point is that of
-/// its calibrated camera, or else the middle.
+/// The intrinsics of a photograph whose focal length was given, in pixels of its file: the
+/// principal point is that of its calibrated camera, or else the middle.
 ///
 /// # Errors
 /// As [`Intrinsics::centered`].

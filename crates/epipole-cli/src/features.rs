@@ -1,5 +1,5 @@
-//! Which features commands look for, and how they match them. What is not said on the command line is the
-//! core's default, the same for every command.
+//! Which features commands look for, and how they match them. What is not said on the command line
+//! is the core's default, the same for every command.
 
 mod kinds;
 mod numbers;
@@ -51,8 +51,8 @@ pub(crate) struct FeatureArguments {
     /// Keep the N strongest features per image (0: all).
     #[arg(long, default_value_t = FeatureOptions::default().max_features, value_name = "N")]
     pub(crate) max_features: usize,
-    /// Minimum response of a feature, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB, 0.01 of the
-    /// strongest for Harris].
+    /// Minimum response of a feature, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB,
+    /// 0.01 of the strongest for Harris].
     #[arg(long, value_name = "C", value_parser = above_0_up_to_1)]
     pub(crate) contrast_threshold: Option<f32>,
     /// Assume upright features (skip orientation).
@@ -94,8 +94,8 @@ pub(crate) struct MatchArguments {
     /// Require mutual nearest neighbors; --mutual=false to disable.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) mutual: bool,
-    /// No feature of the second photograph in two matches, the closest stays; --unique=false to do without. Mutual matches
-    /// are unique already.
+    /// No feature of the second photograph in two matches, the closest stays; --unique=false to do
+    /// without. Mutual matches are unique already.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) unique: bool,
     /// The largest distance of two descriptors [default: any].
@@ -113,7 +113,8 @@ impl MatchArguments {
             .with_unique(self.unique)
     }
 
-    /// Matches the features of two photographs, the least ambiguous first: some samplers make use of it.
+    /// Matches the features of two photographs, the least ambiguous first: some samplers make use
+    /// of it.
     ///
     /// # Errors
     /// As [`MatchArguments::run`].

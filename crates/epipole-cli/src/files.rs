@@ -15,8 +15,9 @@ pub(crate) fn print(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// Writes a file aside and then renames it, so that a reader never sees half of it. A link stays one: what it leads to
-/// is written. What is no file, such as a pipe or `/dev/null`, is written into.
+/// Writes a file aside and then renames it, so that a reader never sees half of it. A link stays
+/// one: what it leads to is written. What is no file, such as a pipe or `/dev/null`, is written
+/// into.
 ///
 /// # Errors
 /// A sentence naming the file.

@@ -10,7 +10,8 @@ use epipole::camera::Camera;
 use nalgebra::Point2;
 use std::path::{Path, PathBuf};
 
-/// A share of a photograph without rays that is more than the corners around the circle of a fisheye.
+/// A share of a photograph without rays that is more than the corners around the circle of a
+/// fisheye.
 const MUCH_UNSEEN: f64 = 0.3;
 /// So much that the file cannot be that of the camera.
 const MOST_UNSEEN: f64 = 0.75;
@@ -69,8 +70,8 @@ pub(crate) fn name(path: &Path) -> String {
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
-    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images stay distorted, and
-    /// results are of rays.
+    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images
+    /// stay distorted, and results are of rays.
     #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
     camera_file: Option<PathBuf>,
 }

@@ -62,7 +62,8 @@ pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     unseen as f64 / f64::from(SIDE * SIDE)
 }
 
-/// Reads a stereo rig, left camera, right camera and right_from_left, from a file that `epipole calibrate --right` wrote.
+/// Reads a stereo rig, left camera, right camera and right_from_left, from a file that
+/// `epipole calibrate --right` wrote.
 ///
 /// # Errors
 /// As [`read`].

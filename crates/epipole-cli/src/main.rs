@@ -79,8 +79,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// The whole command line. What follows an option that takes a value is that value, also where it is a number below 0:
-/// then the option says what is wrong with it.
+/// The whole command line. What follows an option that takes a value is that value, also where it
+/// is a number below 0: then the option says what is wrong with it.
 fn command() -> clap::Command {
     let with_negatives = |argument: clap::Arg| match argument.get_action().takes_values() {
         true if !argument.is_positional() => argument.allow_negative_numbers(true),

@@ -16,8 +16,8 @@ use std::path::Path;
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Photographs")]
 pub(crate) struct SizeArguments {
-    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k and --focal-px are
-    /// of the file.
+    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k
+    /// and --focal-px are of the file.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub(crate) max_megapixels: Option<f64>,
 }
@@ -98,7 +98,8 @@ impl Photo {
         Ok(Self::from(photo))
     }
 
-    /// The same reduced, its distortion kept: K and the lens are those of the camera, if it has its size.
+    /// The same reduced, its distortion kept: K and the lens are those of the camera, if it has its
+    /// size.
     ///
     /// # Errors
     /// As [`Photo::read`].
@@ -134,7 +135,8 @@ impl Photo {
         }
     }
 
-    /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows no other frame.
+    /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows
+    /// no other frame.
     ///
     /// # Errors
     /// As [`Photo::read`].

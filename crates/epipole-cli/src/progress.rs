@@ -32,7 +32,8 @@ impl Progress {
             .set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 
-    /// Shows how far a function of the core is, its stage in the place of the label, and lets Ctrl-C end it.
+    /// Shows how far a function of the core is, its stage in the place of the label, and lets
+    /// Ctrl-C end it.
     pub(crate) fn show(&self, status: Status) -> ControlFlow<()> {
         self.0.set_message(status.stage.words());
         self.set(f64::from(status.share));

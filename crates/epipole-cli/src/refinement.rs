@@ -23,7 +23,8 @@ pub(crate) struct RefinementArguments {
     /// Loss function.
     #[arg(long, value_enum, default_value = "none")]
     loss: Loss,
-    /// From which error on the loss is no longer a square: pixels, or standard deviations of a measurement.
+    /// From which error on the loss is no longer a square: pixels, or standard deviations of a
+    /// measurement.
     #[arg(long, default_value_t = 1.0, value_name = "W", value_parser = positive)]
     loss_width: f64,
     /// Done when no component of the gradient is larger.

@@ -103,7 +103,8 @@ fn confidence(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `epipole::two_view::PHOTO_MAX_ERROR_PX`, the threshold of commands on photographs, as clap wants it.
+/// `epipole::two_view::PHOTO_MAX_ERROR_PX`, the threshold of commands on photographs, as clap wants
+/// it.
 pub(crate) const PHOTO_MAX_ERROR: &str = "2";
 
 fn max_error(text: &str) -> Result<MaxError, String> {
@@ -163,7 +164,8 @@ impl RobustArguments {
             .with_inner_iterations(self.inner_iterations as usize)
     }
 
-    /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold is given.
+    /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold
+    /// is given.
     ///
     /// # Errors
     /// As [`ransac`].

@@ -9,7 +9,8 @@ use std::path::Path;
 /// * `columns`: so many numbers of a line are looked at, and needed
 ///
 /// # Errors
-/// A sentence that names the line that has fewer, or NaN. Infinities stay: robust searches leave them out and say so.
+/// A sentence that names the line that has fewer, or NaN. Infinities stay: robust searches leave
+/// them out and say so.
 pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f64>>, Failure> {
     let mut rows = Vec::new();
     for (index, line) in text.lines().enumerate() {

@@ -1,4 +1,5 @@
-//! Renders photographs to measure with: `photographs FOLDER [COUNT] [WIDTH]`, of the still life, on an arc around it.
+//! Renders photographs to measure with: `photographs FOLDER [COUNT] [WIDTH]`, of the still life, on
+//! an arc around it.
 
 use epipole::camera::{PosedCamera, look_at};
 use epipole_scenes::{Sampling, Scene, still_life_camera};

@@ -1,7 +1,7 @@
 //! The Lab: from one's own photographs to a measured reconstruction, in the browser or in a window.
 //!
-//! * [`project`]: the state as plain data. Events go in; what is to be computed comes out. No screen, no
-//!   clock.
+//! * [`project`]: the state as plain data. Events go in; what is to be computed comes out. No
+//!   screen, no clock.
 //! * [`tasks`]: what takes long, from bytes to bytes, for a thread or for a worker of the browser.
 //! * `export`: zip files with COLMAP's text model, PLY and JSON, and projects that open again.
 //! * `panels`: what is seen, in egui.

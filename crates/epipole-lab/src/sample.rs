@@ -1,6 +1,6 @@
-//! Computes what takes long of the sample that the Lab opens with: `epipole-lab-sample FILE` writes it, and the Lab of a
-//! page brings it, so that it opens solved. A program of its own rather than an example, which would compile what only
-//! tests need.
+//! Computes what takes long of the sample that the Lab opens with: `epipole-lab-sample FILE` writes
+//! it, and the Lab of a page brings it, so that it opens solved. A program of its own rather than
+//! an example, which would compile what only tests need.
 
 use epipole_lab::project::{Event, Project};
 use epipole_lab::tasks::{Sample, compute};

@@ -1,4 +1,5 @@
-//! "The same as this command", and as this program: both are run, and give the same bits as the Lab.
+//! "The same as this command", and as this program: both are run, and give the same bits as the
+//! Lab.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -180,8 +181,8 @@ fn photograph(degrees: f64, is_upright: bool, size: (u32, u32)) -> RgbImage {
     picture.unwrap().image
 }
 
-/// Files that are reduced, by a camera that was calibrated, one of them upright, one of another size, one with a focal
-/// length that somebody typed.
+/// Files that are reduced, by a camera that was calibrated, one of them upright, one of another
+/// size, one with a focal length that somebody typed.
 fn of_files() -> (Project, Vec<(String, Blob)>) {
     let lying = (640, 480);
     let files = vec![

@@ -1,9 +1,10 @@
 //! Plays scripts of calls on the native side of the bridge and prints what the figures answer.
 //!
 //! Standard input: JSON `[{"figure", "width", "scale", "theme", "calls": [[method, argument, …]]}]`
-//! with the methods of [`Figure`]; `["draw_settled"]` carries out what the figure waits for and draws
-//! it sharp, with the size and theme of the script. Standard output: JSON, for each script what [`answer`] says after each call. A browser plays the same
-//! scripts through WebAssembly and must answer the same.
+//! with the methods of [`Figure`]; `["draw_settled"]` carries out what the figure waits for and
+//! draws it sharp, with the size and theme of the script. Standard output: JSON, for each script
+//! what [`answer`] says after each call. A browser plays the same scripts through WebAssembly and
+//! must answer the same.
 //!
 //! With `--time` it plays them without asking for answers, and prints the milliseconds of each.
 

@@ -35,7 +35,8 @@ impl Refused {
 pub(crate) fn json<T: Serialize>(value: &T) -> String {
     let mut text = Vec::with_capacity(4096);
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, Plain);
-    // Only a map with keys that are no strings, or a failing `Serialize`, could fail; there is none.
+    // Only a map with keys that are no strings, or a failing `Serialize`, could fail; there is
+    // none.
     let written = value.serialize(&mut serializer);
     debug_assert!(written.is_ok());
     String::from_utf8(text).unwrap_or_default()

@@ -1,7 +1,8 @@
 //! A camera from photographs of a chessboard.
 //!
-//! `cargo run --release --example calibrate -- 9x6 0.025 left*.jpg`: inner corners along both sides, and the
-//! side of a square in meters. Without arguments the places of the corners are computed, not found.
+//! `cargo run --release --example calibrate -- 9x6 0.025 left*.jpg`: inner corners along both
+//! sides, and the side of a square in meters. Without arguments the places of the corners are
+//! computed, not found.
 
 mod common;
 

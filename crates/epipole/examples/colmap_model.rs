@@ -1,6 +1,7 @@
 //! Photographs to a model that COLMAP and its friends read.
 //!
-//! `cargo run --release --example colmap_model -- out/ 1200 photos/*.jpg`, with the focal length in pixels.
+//! `cargo run --release --example colmap_model -- out/ 1200 photos/*.jpg`, with the focal length in
+//! pixels.
 
 mod common;
 

@@ -1,10 +1,10 @@
 //! Times robust estimation, triangulation and the minimal solvers on given problems, for scripts
 //! that set them beside peers.
 //!
-//! Usage: `geometry_time FOLDER`, where the folder holds `general-0.f64`, `planar-0.f64` … : rows of
-//! seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, median and
-//! least milliseconds, numbers of the answer` a line, separated by tabs. With
-//! `RAYON_NUM_THREADS=1` the time is that for which the process had a processor.
+//! Usage: `geometry_time FOLDER`, where the folder holds `general-0.f64`, `planar-0.f64` … : rows
+//! of seven little-endian numbers `u1 v1 u2 v2 X Y Z`. Prints `name, problem, median and least
+//! milliseconds, numbers of the answer` a line, separated by tabs. With `RAYON_NUM_THREADS=1` the
+//! time is that for which the process had a processor.
 
 mod timing;
 

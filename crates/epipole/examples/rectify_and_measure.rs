@@ -1,4 +1,5 @@
-//! Two photographs by a rig whose cameras are known: rectified, matched densely, measured in meters.
+//! Two photographs by a rig whose cameras are known: rectified, matched densely, measured in
+//! meters.
 //!
 //! `cargo run --release --example rectify_and_measure`
 

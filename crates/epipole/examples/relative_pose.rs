@@ -1,7 +1,7 @@
 //! Two photographs and their focal length: how did the camera move between them?
 //!
-//! `cargo run --release --example relative_pose -- left.jpg right.jpg 1200`, or without arguments on two
-//! rendered photographs.
+//! `cargo run --release --example relative_pose -- left.jpg right.jpg 1200`, or without arguments
+//! on two rendered photographs.
 
 mod common;
 

@@ -63,9 +63,9 @@ pub struct Status {
 
 /// Observer of a long computation, which can cancel it.
 ///
-/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument. `&mut ()` runs
-/// to the end in silence; a closure sees each [`Status`] and can return [`ControlFlow::Break`], upon which the
-/// function returns [`Error::Canceled`].
+/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument.
+/// `&mut ()` runs to the end in silence; a closure sees each [`Status`] and can return
+/// [`ControlFlow::Break`], upon which the function returns [`Error::Canceled`].
 ///
 /// Reports come on the caller's thread. The share never falls.
 ///
@@ -121,7 +121,8 @@ pub fn report(monitor: &mut dyn Monitor, stage: Stage, share: f32) -> Result<()>
     }
 }
 
-/// Monitor of one part of a longer computation: maps the shares 0 to 1 of the part to `from` to `to` of the whole.
+/// Monitor of one part of a longer computation: maps the shares 0 to 1 of the part to `from` to
+/// `to` of the whole.
 ///
 /// See [`Monitor`] for an example.
 pub struct Part<'a> {

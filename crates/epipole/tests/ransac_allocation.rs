@@ -62,8 +62,8 @@ fn matches(num_on_plane: usize) -> TwoViewProblem {
     all
 }
 
-/// Every way to draw and to judge samples. A copy of an estimator would lack its buffers, so each run
-/// gets one that is `made` for it.
+/// Every way to draw and to judge samples. A copy of an estimator would lack its buffers, so each
+/// run gets one that is `made` for it.
 fn check<E: Estimator>(name: &str, made: impl Fn() -> E) {
     for sampler in [SamplerKind::Uniform, SamplerKind::Prosac] {
         for score in [ScoreKind::Msac, ScoreKind::InlierCount] {

@@ -1,7 +1,8 @@
-//! `{{#figure ransac-race outliers=0.5 id=fig-x | Caption}}`: a live figure with its poster, number and caption.
+//! `{{#figure ransac-race outliers=0.5 id=fig-x | Caption}}`: a live figure with its poster, number
+//! and caption.
 //!
-//! `controls="a b"`, `readouts="a b"` and `goals=none` (`one`, `all`) choose what it shows beside the picture,
-//! `play=button` what a reader can start, and `claim="readout > 3"` is checked.
+//! `controls="a b"`, `readouts="a b"` and `goals=none` (`one`, `all`) choose what it shows beside
+//! the picture, `play=button` what a reader can start, and `claim="readout > 3"` is checked.
 
 use crate::html::escape;
 use crate::parse::outline::Instance;

@@ -1,4 +1,5 @@
-//! `{{#include file}}`, `{{#include file:anchor}}`: files, put into the text before directives are looked for.
+//! `{{#include file}}`, `{{#include file:anchor}}`: files, put into the text before directives are
+//! looked for.
 
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};

@@ -1,4 +1,5 @@
-//! `{{#progress}}`: which questions the reader has solved and which goals reached, kept in their own browser.
+//! `{{#progress}}`: which questions the reader has solved and which goals reached, kept in their
+//! own browser.
 
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};

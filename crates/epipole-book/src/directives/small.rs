@@ -1,4 +1,5 @@
-//! `{{#small figure key=value … page=sfm.md | words}}`: a small picture of a figure in that state, with words below it.
+//! `{{#small figure key=value … page=sfm.md | words}}`: a small picture of a figure in that state,
+//! with words below it.
 //!
 //! With `moves="key=value …"` the picture comes to life in view: the figure moves there and back
 //! (`web/book/small.ts`). It links to the page as soon as there is one: chapters may name pages

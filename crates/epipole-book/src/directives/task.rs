@@ -1,5 +1,5 @@
-//! `{{#task name | Title}}` … `{{/task}}`: a programming task of the notebook, with the fences `python start`,
-//! `python check` and `python solution`.
+//! `{{#task name | Title}}` … `{{/task}}`: a programming task of the notebook, with the fences
+//! `python start`, `python check` and `python solution`.
 
 use crate::html::path_to_root;
 use crate::parse::text::Request;

@@ -1,4 +1,5 @@
-//! `{{#value ransac.trials s=2 w=0.5 p=0.99}}`: a number that the core computes, also inside formulas.
+//! `{{#value ransac.trials s=2 w=0.5 p=0.99}}`: a number that the core computes, also inside
+//! formulas.
 
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};

@@ -1,5 +1,5 @@
-//! Figures of a page and the words that set them, found before the directives are parsed: a sentence can name a
-//! figure below it.
+//! Figures of a page and the words that set them, found before the directives are parsed: a
+//! sentence can name a figure below it.
 
 use super::source::Source;
 use super::syntax::{Call, Piece, split};

@@ -7,7 +7,8 @@ use super::stand_ins;
 use super::syntax::{Call, Piece, split};
 use crate::problems::{Place, Problems, name_list};
 
-/// Markdown in which stand-ins take the place of directives. `D` is what a stage has of a directive.
+/// Markdown in which stand-ins take the place of directives. `D` is what a stage has of a
+/// directive.
 pub(crate) struct Text<D> {
     /// The Markdown with its stand-ins.
     pub(crate) source: Source,
@@ -72,7 +73,8 @@ pub(crate) struct Parser<'a, D> {
 }
 
 impl<D> Parser<'_, D> {
-    /// Parses a text and, by their own parsers, the texts inside its directives. Problems are reported.
+    /// Parses a text and, by their own parsers, the texts inside its directives. Problems are
+    /// reported.
     pub(crate) fn text(&self, source: &Source) -> Text<D> {
         let mut text = Text {
             source: Source::default(),

@@ -20,7 +20,8 @@ pub(crate) struct Heading {
     pub(crate) html: String,
 }
 
-/// Takes the name of a listing or a task for the page. False, with a problem, if it is none or was taken before.
+/// Takes the name of a listing or a task for the page. False, with a problem, if it is none or was
+/// taken before.
 pub(crate) fn take_name(page: &mut Writer, name: &str, place: &Place) -> bool {
     let is_name =
         |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';

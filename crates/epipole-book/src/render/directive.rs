@@ -89,8 +89,8 @@ impl Text {
         markdown::inline(&self.inserted(page), page)
     }
 
-    /// The text with its directives rendered, in their order. They come before the text that they stand in; their words
-    /// for the search belong into it.
+    /// The text with its directives rendered, in their order. They come before the text that they
+    /// stand in; their words for the search belong into it.
     fn inserted(self, page: &mut Writer) -> Markdown {
         let (mut inserts, mut found) = (Vec::new(), Vec::new());
         for directive in self.directives {

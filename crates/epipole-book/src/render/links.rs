@@ -1,4 +1,5 @@
-//! Links and pictures of a text: relative. Whether they lead anywhere is checked when all pages are known.
+//! Links and pictures of a text: relative. Whether they lead anywhere is checked when all pages are
+//! known.
 
 use super::page::{Link, WantedFile};
 use super::writer::Writer;
@@ -96,8 +97,9 @@ pub(crate) fn image(
     )
 }
 
-/// A link to the Lab, `lab/` with parameters or without: it is beside the book or, until it is built, a page that
-/// says so. Written out, so that no server needs to look for the page of a folder.
+/// A link to the Lab, `lab/` with parameters or without: it is beside the book or, until it is
+/// built, a page that says so. Written out, so that no server needs to look for the page of a
+/// folder.
 fn to_the_lab(own: &str, written: &str) -> Option<String> {
     let (path, parameters) = match written.find('?') {
         Some(at) => written.split_at(at),

@@ -204,7 +204,8 @@ impl Writer<'_> {
                     None => self.report(place(), format!("no footnote is called \"{label}\"")),
                 },
                 Event::SoftBreak | Event::HardBreak | Event::Rule | Event::End(_) => {
-                    // The end of a list's item, say. Within a word nothing ends but emphasis and links.
+                    // The end of a list's item, say. Within a word nothing ends but emphasis and
+                    // links.
                     if !matches!(
                         event,
                         Event::End(TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link)
@@ -222,7 +223,8 @@ impl Writer<'_> {
         html
     }
 
-    /// A block between two directives: the HTML, and the index after its end. It begins before `from`.
+    /// A block between two directives: the HTML, and the index after its end. It begins before
+    /// `from`.
     fn code_block(
         &mut self,
         opening: &dyn Block,
@@ -294,7 +296,8 @@ impl Writer<'_> {
 
     fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {
         let latex = substitute(latex, text.inserts, Insert::text);
-        // A formula that is readable as it is written can be searched for, and belongs into excerpts.
+        // A formula that is readable as it is written can be searched for, and belongs into
+        // excerpts.
         match latex.contains(['\\', '{', '^', '_', '&']) {
             true => self.page.words.push(' '),
             false => self.page.words.push_str(latex.trim()),

@@ -4,8 +4,8 @@ use super::writer::Writer;
 use crate::html::path_to_root;
 use crate::resolve::posters::{Encoded, Posters};
 
-/// Pages of this width have no more room than a phone, or than a column: `web/theme/tokens.css` keeps the
-/// figures of the others wider.
+/// Pages of this width have no more room than a phone, or than a column: `web/theme/tokens.css`
+/// keeps the figures of the others wider.
 const PHONE: &str = "(max-width: 551.98px)";
 const COLUMN: &str = "(max-width: 927.98px)";
 const DARK: &str = "(prefers-color-scheme: dark)";

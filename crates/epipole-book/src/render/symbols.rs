@@ -83,8 +83,8 @@ pub(crate) fn find(name: &str) -> Option<&'static Symbol> {
     SYMBOLS.iter().find(|symbol| symbol.name == name)
 }
 
-/// A formula in which the letters `names` carry their color and their name. A letter with an index, or
-/// with a prime that is not in the list, is another letter.
+/// A formula in which the letters `names` carry their color and their name. A letter with an index,
+/// or with a prime that is not in the list, is another letter.
 pub(crate) fn mark(html: &str, names: &[String]) -> String {
     const LEAF: &str = "<mi>";
     const PRIME: &str = "<mi>′</mi>";
@@ -107,7 +107,8 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
         };
         end += prime.map_or(0, str::len);
         let (before, after) = (&rest[..at], &rest[end..]);
-        // With an index, an accent, or with a prime that carries an exponent, it is a letter of another kind.
+        // With an index, an accent, or with a prime that carries an exponent, it is a letter of
+        // another kind.
         let is_other = ["<msub>", "<msubsup>", "<mover>", "<mover accent=\"true\">"]
             .iter()
             .any(|tag| before.ends_with(tag))

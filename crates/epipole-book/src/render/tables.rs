@@ -4,8 +4,8 @@ use crate::html::escape;
 use crate::parse::events::{Located, end_of};
 use pulldown_cmark::{Alignment, Event, Tag, TagEnd};
 
-/// A table. `cell` makes the HTML and the plain words of a cell. If the corner cell is empty, the first column names the
-/// rows.
+/// A table. `cell` makes the HTML and the plain words of a cell. If the corner cell is empty, the
+/// first column names the rows.
 pub(super) fn table(
     inner: &[Located],
     alignments: &[Alignment],

@@ -4,8 +4,8 @@ use super::insert::{Insert, substitute};
 use crate::parse::events::Located;
 use pulldown_cmark::{BlockQuoteKind, Event};
 
-/// The marks right before and behind a formula in a line: browsers may break the line on either side of it,
-/// which leaves a bracket or a comma alone.
+/// The marks right before and behind a formula in a line: browsers may break the line on either
+/// side of it, which leaves a bracket or a comma alone.
 pub(super) fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t str) {
     let before = match at.checked_sub(1).map(|before| &events[before].0) {
         Some(Event::Text(words)) => {

@@ -38,8 +38,8 @@ impl<'a> Writer<'a> {
         )
     }
 
-    /// Adds a file to the site under `assets/`, its name made unique by its content. Returns its path from the root of
-    /// the site.
+    /// Adds a file to the site under `assets/`, its name made unique by its content. Returns its
+    /// path from the root of the site.
     pub(crate) fn add_asset(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
         let path = format!("assets/{name}-{:016x}.{extension}", fnv(&bytes));
         self.page.files.insert(path.clone(), bytes);

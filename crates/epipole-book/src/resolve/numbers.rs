@@ -1,8 +1,9 @@
 //! Every number that a chapter prints and the core can compute.
 //!
 //! A chapter writes `{{#value ransac.trials s=2 w=0.5 p=0.99}}`; the name stands in the file of its
-//! chapter, with what it needs and the core's function. A new number is an entry there and a worked example in the tests. `digits=` sets the decimals. An unknown name or
-//! parameter fails the build, so prose cannot drift away from the code.
+//! chapter, with what it needs and the core's function. A new number is an entry there and a worked
+//! example in the tests. `digits=` sets the decimals. An unknown name or parameter fails the build,
+//! so prose cannot drift away from the code.
 
 mod corners;
 mod entry;

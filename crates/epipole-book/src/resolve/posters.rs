@@ -57,7 +57,8 @@ pub(super) fn draw(
     drawn.map(Posters)
 }
 
-/// A compressed poster and its size in device pixels: their ratio is exactly that of the living picture.
+/// A compressed poster and its size in device pixels: their ratio is exactly that of the living
+/// picture.
 #[derive(Debug)]
 pub(crate) struct Encoded {
     pub(crate) webp: Vec<u8>,

@@ -4,7 +4,8 @@ use crate::parse::content::Content;
 use crate::render::page::Page;
 use std::collections::BTreeMap;
 
-/// Files that were made for the pages, files of the content folder that they name, and the data of their notebooks.
+/// Files that were made for the pages, files of the content folder that they name, and the data of
+/// their notebooks.
 pub(crate) fn files(pages: &mut [Page], content: &Content) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     let mut copy = |from: &str, to: &str| {

@@ -17,7 +17,8 @@ const WIDTH: u32 = 400;
 /// Target size of a still, bytes: 31 of them and the modules are less than 1.2 MB.
 const BYTES: usize = 6_800;
 
-/// Colors, and how far a pixel may be from the color that its neighbor has, of 255: the first that is small enough.
+/// Colors, and how far a pixel may be from the color that its neighbor has, of 255: the first that
+/// is small enough.
 const LADDER: [(usize, i32); 9] = [
     (32, 0),
     (32, 6),
@@ -154,7 +155,8 @@ fn distance_sq(one: Color, other: Color) -> i32 {
     (2 * r * r + 4 * g * g + b * b) / 7
 }
 
-/// Median cut: halves the box of colors that spreads most until there are `limit`, and answers their means.
+/// Median cut: halves the box of colors that spreads most until there are `limit`, and answers
+/// their means.
 ///
 /// Source: Heckbert 1982, Color image quantization for frame buffer display.
 fn cut(colors: Vec<(Color, usize)>, limit: usize) -> Vec<Color> {

@@ -37,7 +37,8 @@ struct Data<'a> {
     page_class: &'a str,
     assets: &'a Assets,
     has_figures: bool,
-    /// Titles of works are in italics everywhere on their page, so nothing should move when those come.
+    /// Titles of works are in italics everywhere on their page, so nothing should move when those
+    /// come.
     has_references: bool,
     search: &'a str,
     live: bool,

@@ -63,7 +63,8 @@ pub(crate) struct Arguments {
     /// Intrinsics of the second camera; those of --k if not given.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k2: Option<Intrinsics>,
-    /// Down in the frame of the first camera (y down, z forward): with it three matches are a sample, not five.
+    /// Down in the frame of the first camera (y down, z forward): with it three matches are a
+    /// sample, not five.
     #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity2")]
     gravity: Option<Vector3<f64>>,
     /// Down in the frame of the second camera.

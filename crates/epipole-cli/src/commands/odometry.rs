@@ -54,8 +54,8 @@ pub(crate) struct Arguments {
     frames: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Camera file written by `epipole calibrate`, for frames of its size. Frames stay distorted. Not for rigs, whose
-    /// frames are rectified.
+    /// Camera file written by `epipole calibrate`, for frames of its size. Frames stay distorted.
+    /// Not for rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
     #[command(flatten)]
@@ -82,8 +82,8 @@ pub(crate) struct Arguments {
     /// Keyframes that are refined together; older ones stay.
     #[arg(long, default_value_t = OdometryOptions::default().window, value_name = "N", help_heading = "Reconstruction")]
     window: usize,
-    /// Refine everything once more at the end, with what of the lens is to be refined; --final-adjustment=false for the path
-    /// as it was followed.
+    /// Refine everything once more at the end, with what of the lens is to be refined;
+    /// --final-adjustment=false for the path as it was followed.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true", help_heading = "Reconstruction")]
     final_adjustment: bool,
 }

@@ -43,16 +43,19 @@ pub(crate) struct Arguments {
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
-    /// A stereo rig that `epipole calibrate --right` wrote, for photographs of its two cameras, left and right.
+    /// A stereo rig that `epipole calibrate --right` wrote, for photographs of its two cameras,
+    /// left and right.
     #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
     rig: Option<PathBuf>,
     /// Distance of the two cameras; the unit of Q. That of --rig is in meters.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
-    /// 0: zoom in until every pixel was photographed. 1: zoom out until all that was photographed is seen.
+    /// 0: zoom in until every pixel was photographed. 1: zoom out until all that was photographed
+    /// is seen.
     #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "SHARE", value_parser = share)]
     alpha: f64,
-    /// The size of the results; that of the photographs if not given. As --alpha it needs known intrinsics.
+    /// The size of the results; that of the photographs if not given. As --alpha it needs known
+    /// intrinsics.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
     /// Center each photograph on what it shows best, so that infinity has another disparity than 0.
@@ -135,7 +138,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("files", written))
 }
 
-/// The two photographs, how they are rectified by what matches in them, and how many matches there are.
+/// The two photographs, how they are rectified by what matches in them, and how many matches there
+/// are.
 fn by_matches(
     arguments: &Arguments,
     context: &Context,

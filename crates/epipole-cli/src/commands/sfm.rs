@@ -56,8 +56,8 @@ pub(crate) struct Arguments {
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Also write the images that cameras.txt describes (upright, downscaled, undistorted by --undistort) to OUT/images.
-    /// Changed images become JPEG files.
+    /// Also write the images that cameras.txt describes (upright, downscaled, undistorted by
+    /// --undistort) to OUT/images. Changed images become JPEG files.
     #[arg(long)]
     images: bool,
     #[command(flatten)]

@@ -9,8 +9,8 @@ use epipole::feature::FeatureOptions;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features of one kind")]
 pub(super) struct KindArguments {
-    /// SIFT: look for small features, in twice the size, in photographs of up to so many pixels, and in larger ones with
-    /// fewer features than --max-features; 0 for none.
+    /// SIFT: look for small features, in twice the size, in photographs of up to so many pixels,
+    /// and in larger ones with fewer features than --max-features; 0 for none.
     #[arg(long, default_value_t = FeatureOptions::default().max_upsampled_pixels, value_name = "N")]
     max_upsampled_pixels: u64,
     /// SIFT: the blur that a photograph is assumed to have, pixels, at most half of --sigma-px.

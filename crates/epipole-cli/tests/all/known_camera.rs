@@ -65,7 +65,8 @@ fn every_lens_gives_the_motion_between_its_photographs() {
         assert_eq!(found["model_of"], "rays");
         assert_eq!(found["model_kind"], "essential");
         let [turn, direction] = off_deg(&found["cam2_from_cam1"], &truth);
-        // PoseLib finds 1.04° and 2.72° from the rays of the narrowest, ours .87° and 2.70°: more is not in its matches.
+        // PoseLib finds 1.04° and 2.72° from the rays of the narrowest, ours .87° and 2.70°: more
+        // is not in its matches.
         let within = match kind {
             LensKind::Division => [1.0, 3.0],
             _ => [0.3, 0.5],

@@ -210,7 +210,8 @@ fn frames_through_any_lens_are_followed() {
         let truth: Vec<RigidTransform> = (poses.iter())
             .map(|pose| poses[0] * pose.inverse())
             .collect();
-        // More than that is not in the matches of the narrowest: PoseLib finds .87° there between two photographs.
+        // More than that is not in the matches of the narrowest: PoseLib finds .87° there between
+        // two photographs.
         let most_deg = if kind == LensKind::Division { 1.0 } else { 0.3 };
         for [place, turn] in off(&path_of(&result), &truth) {
             assert!(place < 0.05 && turn < most_deg, "{kind:?}: {place} {turn}");

@@ -186,7 +186,8 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     fails(&folder, &silent, 1, "no photograph says where it was taken");
 }
 
-/// Photographs of a garden in Sydney say where they were taken, some meters apart; the still life is its model.
+/// Photographs of a garden in Sydney say where they were taken, some meters apart; the still life
+/// is its model.
 #[test]
 fn photographs_say_where_they_were_taken() {
     let folder = Folder::new("positions-exif");

@@ -1,4 +1,5 @@
-//! A reconstruction in words and numbers: the command line's JSON, and the command that does the same.
+//! A reconstruction in words and numbers: the command line's JSON, and the command that does the
+//! same.
 
 use super::model::Order;
 use epipole::camera::RigidTransform;

@@ -1,5 +1,5 @@
-//! A window, and threads that compute. Files are given as arguments, chosen or dropped, and written to the
-//! folder where the program was started.
+//! A window, and threads that compute. Files are given as arguments, chosen or dropped, and written
+//! to the folder where the program was started.
 
 mod dialog;
 mod memory;

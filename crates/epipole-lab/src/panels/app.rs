@@ -126,7 +126,8 @@ impl<H: Host> App<H> {
         self.work.is_busy()
     }
 
-    /// Whether there is more to do between two frames than was done: [`App::go_on`] wants to be called soon.
+    /// Whether there is more to do between two frames than was done: [`App::go_on`] wants to be
+    /// called soon.
     pub fn is_waiting(&self) -> bool {
         self.work.is_waiting()
     }

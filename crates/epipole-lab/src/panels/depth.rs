@@ -70,7 +70,8 @@ fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
     image
 }
 
-/// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the background.
+/// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the
+/// background.
 fn heat(pair: &Dense, rows: Range<usize>, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
     let none = look::of(theme, Role::Surface);
     let size = [pair.width as usize, rows.len()];
@@ -156,8 +157,8 @@ pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
     }
 }
 
-/// Rooms of the two photographs, beside each other so that rows agree, and of the depth below them; all below
-/// each other where there is no room.
+/// Rooms of the two photographs, beside each other so that rows agree, and of the depth below them;
+/// all below each other where there is no room.
 fn rooms(whole: Rect) -> [Rect; 3] {
     let gap = 2.0;
     let (above, below) = whole.split_top_bottom_at_fraction(0.45);

@@ -1,4 +1,5 @@
-//! A project that the reader chose to keep in the browser: when it is put there, how it comes back, how it is forgotten.
+//! A project that the reader chose to keep in the browser: when it is put there, how it comes back,
+//! how it is forgotten.
 
 use super::host::{Host, Kept};
 use super::menu;

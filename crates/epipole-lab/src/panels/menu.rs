@@ -1,5 +1,6 @@
-//! Menus that close once something is chosen, however it was chosen: the toolkit by itself closes them for a mouse, but not
-//! for a key or for assistive technology, whose next press on the menu would then close it instead of opening it.
+//! Menus that close once something is chosen, however it was chosen: the toolkit by itself closes
+//! them for a mouse, but not for a key or for assistive technology, whose next press on the menu
+//! would then close it instead of opening it.
 
 use egui::{Button, Checkbox, InnerResponse, Ui, Widget};
 
@@ -18,8 +19,8 @@ pub(super) fn offer(ui: &mut Ui, content: impl FnOnce(&mut Ui)) -> bool {
     is_within && ui.will_parent_close()
 }
 
-/// Tells whether the menu is open. After a key has chosen, keys go on at the button of the menu, not at the begin of
-/// everything.
+/// Tells whether the menu is open. After a key has chosen, keys go on at the button of the menu,
+/// not at the begin of everything.
 pub(super) fn go_on(ui: &Ui, shown: &InnerResponse<Option<bool>>) {
     let is_open = shown.inner.is_some();
     let tell = |node: &mut egui::accesskit::Node| node.set_expanded(is_open);

@@ -253,7 +253,8 @@ pub(super) fn show(
     shown
 }
 
-/// Moves the crosshair by the arrow keys while the photograph has the focus. Returns its place when a key clicks it.
+/// Moves the crosshair by the arrow keys while the photograph has the focus. Returns its place when
+/// a key clicks it.
 fn crosshair(ui: &Ui, response: &Response, lens: &mut Lens, size: Vec2) -> Option<Vec2> {
     if !response.has_focus() {
         return None;

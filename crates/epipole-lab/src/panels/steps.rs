@@ -14,7 +14,8 @@ pub(super) fn column(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     });
 }
 
-/// One row, in which the step that is looked at is brought to the middle, and one that the keyboard reaches into sight.
+/// One row, in which the step that is looked at is brought to the middle, and one that the keyboard
+/// reaches into sight.
 ///
 /// * `shown`: the step that is in the middle already: a reader may have moved the row since
 pub(super) fn row(

@@ -46,7 +46,8 @@ impl Strips {
         (strip * most).min(self.height)..((strip + 1) * most).min(self.height)
     }
 
-    /// The rows that its texture has: one beyond each side, so that pixels are mixed as if there were no strips.
+    /// The rows that its texture has: one beyond each side, so that pixels are mixed as if there
+    /// were no strips.
     fn rows_of_texture(&self, strip: usize) -> Range<usize> {
         let Range { start, end } = self.rows(strip);
         start.saturating_sub(1)..(end + 1).min(self.height)

@@ -1,4 +1,5 @@
-//! Videos, one after the other, part by part: of each part the sharpest frame is kept, and nothing else.
+//! Videos, one after the other, part by part: of each part the sharpest frame is kept, and nothing
+//! else.
 
 use super::host::Host;
 use crate::tasks::Blob;

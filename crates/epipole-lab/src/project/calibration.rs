@@ -52,7 +52,8 @@ impl Project {
             .collect()
     }
 
-    /// Width and height that most photographs have in which the board was found; the first of those with as many.
+    /// Width and height that most photographs have in which the board was found; the first of those
+    /// with as many.
     pub fn size_of_boards(&self) -> Option<(u32, u32)> {
         let found =
             |photo: &&Given| Some(self.board(photo)?).filter(|found| !found.marks.is_empty());
@@ -65,8 +66,8 @@ impl Project {
         sizes.iter().rev().max_by_key(|size| count(size)).copied()
     }
 
-    /// The marks of each photograph that takes part, none where the board was not found or the size is another
-    /// one; `None` until all were looked through.
+    /// The marks of each photograph that takes part, none where the board was not found or the size
+    /// is another one; `None` until all were looked through.
     fn views(&self) -> Option<Vec<&[Option<[f64; 2]>]>> {
         let size = self.size_of_boards();
         let marks = |photo: &&Given| {
@@ -77,7 +78,8 @@ impl Project {
         self.boards_taking_part().iter().map(marks).collect()
     }
 
-    /// The name of the calibration; `None` until all photographs were looked through, and for less than two boards.
+    /// The name of the calibration; `None` until all photographs were looked through, and for less
+    /// than two boards.
     pub(super) fn calibration_key(&self) -> Option<Key> {
         let views = self.views()?;
         if views.iter().filter(|marks| !marks.is_empty()).count() < 2 {
@@ -170,7 +172,8 @@ impl Project {
         self.document.boards.push(given);
     }
 
-    /// Takes the camera that the boards give, if there is one. Focal lengths that were typed make room for it.
+    /// Takes the camera that the boards give, if there is one. Focal lengths that were typed make
+    /// room for it.
     pub(super) fn use_calibration(&mut self, is_used: bool) {
         if !is_used {
             self.document.camera = None;
@@ -188,7 +191,8 @@ impl Project {
         self.document.camera = Some(camera);
     }
 
-    /// The files among the photographs that have this size as the sensor gave them, as far as they were read.
+    /// The files among the photographs that have this size as the sensor gave them, as far as they
+    /// were read.
     pub fn of_size(&self, size: (u32, u32)) -> Vec<&Given> {
         let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
         let fits = |photo: &&Given| {

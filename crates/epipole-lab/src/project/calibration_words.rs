@@ -176,7 +176,8 @@ impl Project {
         is_file && width != height && pixels.sensor_size == (height, width)
     }
 
-    /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is none.
+    /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is
+    /// none.
     pub fn unused_camera_words(&self, photo: &Given) -> String {
         let (Some(camera), Some(pixels)) = (&self.document.camera, self.shown(photo)) else {
             return String::new();
@@ -196,7 +197,8 @@ impl Project {
         )
     }
 
-    /// The camera as `epipole calibrate -o` writes it, which `epipole undistort` reads; `None` without one.
+    /// The camera as `epipole calibrate -o` writes it, which `epipole undistort` reads; `None`
+    /// without one.
     pub fn camera_json(&self) -> Option<String> {
         let found = self.calibration()?;
         let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();

@@ -70,7 +70,8 @@ pub enum Event {
     OpenBoards,
     /// Removed all photographs of boards.
     ClearBoards,
-    /// Made the camera that was found from boards that of the photographs of its size; or gave it up.
+    /// Made the camera that was found from boards that of the photographs of its size; or gave it
+    /// up.
     UseCalibration(bool),
     /// Opened a sample in place of all photographs.
     OpenSample(Sample),

@@ -3,7 +3,8 @@
 use serde::Serialize;
 use std::hash::{DefaultHasher, Hasher};
 
-/// The name of a result. Equal inputs have equal names, on every machine and in each run of the same program.
+/// The name of a result. Equal inputs have equal names, on every machine and in each run of the
+/// same program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Key(pub u64);
 

@@ -4,14 +4,16 @@ use super::document::{RefineFocal, Settings};
 use super::{Event, Project, Step};
 use crate::tasks::{BoardPattern, DepthMethod, FeatureKind, LensModel, Sample, Source};
 
-/// A knob in an address: its name, how it is written, how it is set. False for a value that is none.
+/// A knob in an address: its name, how it is written, how it is set. False for a value that is
+/// none.
 struct Knob {
     name: &'static str,
     write: fn(&Settings) -> String,
     read: fn(&mut Settings, &str) -> bool,
 }
 
-/// A number is set as it is written; out of its range it comes to the nearest end, as a slider does.
+/// A number is set as it is written; out of its range it comes to the nearest end, as a slider
+/// does.
 macro_rules! number {
     ($name:literal, $($field:tt).+) => {
         Knob {
@@ -166,8 +168,8 @@ impl Step {
 }
 
 impl Project {
-    /// Opens what an address asks for: `step`, `sample`, and any knob. What is known is shown; of what is
-    /// not, a sentence each comes back.
+    /// Opens what an address asks for: `step`, `sample`, and any knob. What is known is shown; of
+    /// what is not, a sentence each comes back.
     pub fn open_link(&mut self, parameters: &[(String, String)]) -> Vec<String> {
         let mut problems = Vec::new();
         let mut settings = self.document.settings.clone();

@@ -106,8 +106,8 @@ impl Project {
     }
 }
 
-/// The standard deviation of a keypoint in each direction, from all reprojection errors: two numbers an
-/// observation, less three a point and six a camera.
+/// The standard deviation of a keypoint in each direction, from all reprojection errors: two
+/// numbers an observation, less three a point and six a camera.
 fn noise_px(component: &Component) -> f64 {
     let (mut sum_sq, mut count) = (0.0, 0.0);
     for point in &component.points {

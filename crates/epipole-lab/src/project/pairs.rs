@@ -1,4 +1,5 @@
-//! The depth of pairs: what it depends on, what there is of it, and which of it is part of the cloud.
+//! The depth of pairs: what it depends on, what there is of it, and which of it is part of the
+//! cloud.
 
 use super::Project;
 use super::document::Given;

@@ -93,7 +93,8 @@ impl Project {
             num_bytes -= size(key);
             let_go.push(*key);
         }
-        // Several in a row, before the last one is waited for: workers have to change their code for it.
+        // Several in a row, before the last one is waited for: workers have to change their code
+        // for it.
         let is_waiting = |key: &&Key| at_hand.contains(key) && !let_go.contains(key);
         let waiting: usize = awaited.iter().filter(is_waiting).map(size).sum();
         let mut reading = self.reading.clone();

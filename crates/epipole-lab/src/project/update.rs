@@ -248,8 +248,8 @@ impl Project {
     }
 }
 
-/// The name, without folders, and with a number if another photograph has it already. Endings do not
-/// count: an exported photograph may get another one.
+/// The name, without folders, and with a number if another photograph has it already. Endings do
+/// not count: an exported photograph may get another one.
 pub(super) fn unique_name(list: &[Given], name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let clean: String = (name.chars())

@@ -19,8 +19,8 @@ pub struct Photograph {
     pub small: Thumbnail,
     /// Focal length from the file, in pixels of this size.
     pub focal_px: Option<f64>,
-    /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as the calibrated
-    /// camera would show it without its distortion.
+    /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as
+    /// the calibrated camera would show it without its distortion.
     pub k: Option<[f64; 4]>,
     /// Width and height before it was reduced, upright.
     pub full_size: (u32, u32),

@@ -1,4 +1,5 @@
-//! The board in a photograph of full size: read and searched in one go, so that only a small picture travels.
+//! The board in a photograph of full size: read and searched in one go, so that only a small
+//! picture travels.
 
 use super::board_sample;
 use super::convert::{core_board, unreadable};
@@ -14,7 +15,8 @@ const SHOWN_PIXELS: u64 = 1_200_000;
 /// Looks for a board just as `epipole calibrate` does.
 ///
 /// # Errors
-/// A sentence: for a file that cannot be read, for a board that is none, and if `progress` wants no more.
+/// A sentence: for a file that cannot be read, for a board that is none, and if `progress` wants no
+/// more.
 pub(super) fn board(
     source: &Source,
     options: &BoardOptions,

@@ -85,8 +85,8 @@ impl Default for CalibrationOptions {
 pub struct BoardFound {
     /// The photograph, reduced for the screen.
     pub picture: Photograph,
-    /// For each mark, row by row, its pixel in the photograph of full size, or none where something hides it;
-    /// no marks at all if the board was not found.
+    /// For each mark, row by row, its pixel in the photograph of full size, or none where something
+    /// hides it; no marks at all if the board was not found.
     pub marks: Vec<Option<[f64; 2]>>,
     /// Why it was not found.
     pub problem: Option<String>,

@@ -12,7 +12,8 @@ use nalgebra::Point2;
 /// * `views`: the marks of each photograph, as [`BoardFound::marks`](super::BoardFound::marks)
 ///
 /// # Errors
-/// A sentence that says what to do: too few boards, or parallel ones; and if `progress` wants no more.
+/// A sentence that says what to do: too few boards, or parallel ones; and if `progress` wants no
+/// more.
 pub(super) fn calibration(
     options: &CalibrationOptions,
     size: (u32, u32),

@@ -30,7 +30,8 @@ pub struct Dense {
     pub num_shown: u32,
     /// The share of them with an answer.
     pub density: f64,
-    /// Disparities of the first picture, pixels of its own, NaN for none; four bytes each, least first.
+    /// Disparities of the first picture, pixels of its own, NaN for none; four bytes each, least
+    /// first.
     pub disparity: Blob,
     /// The first picture: red, green, blue, row by row.
     pub left: Blob,
@@ -79,8 +80,8 @@ impl Dense {
         })
     }
 
-    /// The points of every n-th pixel along rows and columns, in the frame of the reconstruction, with their
-    /// colors.
+    /// The points of every n-th pixel along rows and columns, in the frame of the reconstruction,
+    /// with their colors.
     pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
         let (center, ray) = (self.camera.center(), self.camera.rays());
         let step = every.max(1) as usize;
@@ -95,7 +96,8 @@ impl Dense {
         })
     }
 
-    /// The depths that all but the nearest and the farthest hundredth of pixels lie between; `None` without any.
+    /// The depths that all but the nearest and the farthest hundredth of pixels lie between; `None`
+    /// without any.
     pub fn depth_range(&self) -> Option<[f64; 2]> {
         let pixels = (0..self.height).flat_map(|v| (0..self.width).map(move |u| (u, v)));
         let mut depths: Vec<f64> = pixels.filter_map(|(u, v)| self.depth(u, v)).collect();

@@ -24,7 +24,8 @@ pub(super) struct Pair<'a> {
 
 /// Rectifies and matches.
 ///
-/// Photographs of two sizes are brought to one first, in which a pixel of either spans as large an angle.
+/// Photographs of two sizes are brought to one first, in which a pixel of either spans as large an
+/// angle.
 ///
 /// # Errors
 /// A sentence: one camera in front of the other, or too few points to propose
@@ -44,7 +45,8 @@ pub(super) fn depth(
         sizes,
         cameras.each_ref().map(|camera| camera.intrinsics.fu_px()),
     );
-    // Disparities are positive where the second photograph is the one from the right, or from below.
+    // Disparities are positive where the second photograph is the one from the right, or from
+    // below.
     let mut order = [0, 1];
     let mut whole = rectify(pair, &cameras, order, size)?;
     if stands_before(&whole, &cameras) {
@@ -143,7 +145,8 @@ fn rectify(
     };
     let cam2_from_cam1: RigidTransform =
         cameras[second].cam_from_world * cameras[first].cam_from_world.inverse();
-    // All of both photographs: a camera that rolled a little would leave only a small part without a border.
+    // All of both photographs: a camera that rolled a little would leave only a small part without
+    // a border.
     let options = RectifyOptions::default().with_alpha(1.0);
     rectify_calibrated(
         &[camera(first)?, camera(second)?],

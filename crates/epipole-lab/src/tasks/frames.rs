@@ -4,8 +4,8 @@ use super::{Blob, Progress, Told};
 use epipole::feature::photo_to_gray;
 use epipole::imaging::{DecodeOptions, decode_rgb, sharpness};
 
-/// The sharpest frame, as `epipole frames` chooses it, with a name that says which part it is of; nothing, if none can
-/// be read.
+/// The sharpest frame, as `epipole frames` chooses it, with a name that says which part it is of;
+/// nothing, if none can be read.
 ///
 /// # Errors
 /// If `progress` wants no more.

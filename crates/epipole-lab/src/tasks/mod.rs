@@ -1,8 +1,8 @@
 //! Long computations, from bytes to bytes: a native thread and a worker in the browser run the
 //! same.
 //!
-//! A [`Request`] holds everything that its [`Answer`] depends on, so equal requests have equal answers
-//! everywhere. `compute` is a function of the request alone.
+//! A [`Request`] holds everything that its [`Answer`] depends on, so equal requests have equal
+//! answers everywhere. `compute` is a function of the request alone.
 
 mod answer;
 mod blob;

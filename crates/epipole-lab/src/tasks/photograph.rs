@@ -1,4 +1,5 @@
-//! Photographs: decoded or rendered, upright, without the distortion of a lens that is known, reduced.
+//! Photographs: decoded or rendered, upright, without the distortion of a lens that is known,
+//! reduced.
 
 use super::board_sample;
 use super::convert::{core_lens_camera, unreadable};

@@ -1,4 +1,5 @@
-//! Rendered photographs: one set that works, and some that cannot, each with its reason; and one of a board.
+//! Rendered photographs: one set that works, and some that cannot, each with its reason; and one of
+//! a board.
 
 use serde::{Deserialize, Serialize};
 

@@ -57,7 +57,8 @@ mod tests {
 
     #[test]
     fn each_pixel_is_the_mean_of_a_block() {
-        // Two blocks of two columns each above an odd row, which is left out; columns beyond them likewise.
+        // Two blocks of two columns each above an odd row, which is left out; columns beyond them
+        // likewise.
         let (width, height) = (2 * WIDTH, 3);
         let level = |u: u32, v: u32| [(u / 2 % 200) as u8, (10 * v) as u8, (u % 2 * 8) as u8];
         let pixels = (0..height).flat_map(|v| (0..width).map(move |u| level(u, v)));

@@ -153,7 +153,8 @@ fn lines(update: &TreeUpdate) -> String {
             let opener = opener.map_or(String::new(), |NodeId(number)| number.to_string());
             text.push_str(&format!("{line}\t{opener}\n"));
         }
-        // Children of labels are runs of letters. Those of a button may be the menu that it has opened.
+        // Children of labels are runs of letters. Those of a button may be the menu that it has
+        // opened.
         if !matches!(node.role(), Role::Label | Role::TextInput) {
             let opener = node.is_expanded().map(|_| id).or(opener);
             open.extend(node.children().iter().rev().map(|child| (*child, opener)));

@@ -61,7 +61,8 @@ fn a_file_that_is_damaged_is_told_with_the_row() {
     });
     let whole = jpeg(&image, 1);
     let middle = whole.len() / 2;
-    // The data end in the middle, and the file does not: decoders that show what they can take it for whole.
+    // The data end in the middle, and the file does not: decoders that show what they can take it
+    // for whole.
     let cut: Blob = [&whole[..middle], &[0xFF, 0xD9]].concat().into();
     let mut project = Project::default();
     project.update(Event::Add(vec![

@@ -31,7 +31,8 @@ fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
             each.iter().all(|words| words.contains("only turned")),
             "{each:?}"
         );
-        // Small turns look alike by any focal length; that between the first and the last photograph does not.
+        // Small turns look alike by any focal length; that between the first and the last
+        // photograph does not.
         for photo in [0, 3].map(|n| &project.document().photos[n]) {
             let Fate::OnlyTurned(Some(focal_px)) = project.fate(photo) else {
                 panic!("{typed_px}: {each:?}");
@@ -102,7 +103,8 @@ fn some_upright_and_some_not_go_together_and_that_is_told() {
         words.contains("2 are upright and 3 are landscape"),
         "{words}"
     );
-    // On the arc around the table neighbors are equally far from each other, however the camera was held.
+    // On the arc around the table neighbors are equally far from each other, however the camera was
+    // held.
     let component = project.component().unwrap();
     let steps = steps_between(&component.cameras);
     for step in &steps {

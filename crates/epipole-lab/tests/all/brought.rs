@@ -1,4 +1,5 @@
-//! Results that come with a project, or with the sample: they are taken where they fit, and computed where they do not.
+//! Results that come with a project, or with the sample: they are taken where they fit, and
+//! computed where they do not.
 
 #![cfg(feature = "compute")]
 

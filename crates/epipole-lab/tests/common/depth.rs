@@ -1,4 +1,5 @@
-//! The depth of every pixel of a pair of the sample, against what the photographs were rendered from.
+//! The depth of every pixel of a pair of the sample, against what the photographs were rendered
+//! from.
 
 use super::{answer, exported, finish};
 use epipole::camera::{PosedCamera, look_at};

@@ -4,8 +4,8 @@ use super::depth::true_camera;
 use super::reopened;
 use epipole_lab::project::{Event, Measure, Project, Step};
 
-/// Distance of the middle of two neighboring places around the table, meters: an arc of 8° at 1.38 m, and
-/// 0.13 m up.
+/// Distance of the middle of two neighboring places around the table, meters: an arc of 8° at 1.38
+/// m, and 0.13 m up.
 fn true_step_m() -> f64 {
     let chord = 2.0 * 1.38 * libm::sin(4.0_f64.to_radians());
     (chord * chord + 0.13 * 0.13).sqrt()
@@ -66,13 +66,14 @@ pub(crate) fn a_known_length_sets_the_scale(project: &mut Project) {
     }
 }
 
-/// Three points of the table's top make it the floor: cameras are as high above it as they were put.
+/// Three points of the table's top make it the floor: cameras are as high above it as they were
+/// put.
 pub(crate) fn three_points_set_the_floor(project: &mut Project) {
     let component = project.component().unwrap().clone();
     let center = |n: usize| component.cameras[n].as_ref().unwrap().center();
     let meters = true_step_m() / (center(1) - center(0)).norm();
-    // Which points are on the table is known from where the photographs were rendered: by height below the cameras, in
-    // the direction that is down in all of them.
+    // Which points are on the table is known from where the photographs were rendered: by height
+    // below the cameras, in the direction that is down in all of them.
     let truth: Vec<_> = (0..9).map(true_camera).collect();
     let scene = epipole_scenes::Scene::still_life();
     let on_table = |point: usize| {

@@ -88,7 +88,8 @@ impl Raster {
     }
 }
 
-/// Twice the area of the triangle, positive where the corners go round with the clock on the screen.
+/// Twice the area of the triangle, positive where the corners go round with the clock on the
+/// screen.
 fn area(a: Pos2, b: Pos2, c: Pos2) -> f32 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }

@@ -1,4 +1,5 @@
-//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and nothing else.
+//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and
+//! nothing else.
 
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};

@@ -20,8 +20,8 @@ pub(crate) fn read_gray(path: &str) -> Outcome<GrayImage32> {
     Ok(decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image)
 }
 
-/// A table with things on it, photographed by a camera that moved: its place, the picture and the depth of each
-/// pixel.
+/// A table with things on it, photographed by a camera that moved: its place, the picture and the
+/// depth of each pixel.
 pub(crate) fn photograph(
     moved_from_start: &RigidTransform,
 ) -> Result<(PosedCamera, Photograph), Error> {

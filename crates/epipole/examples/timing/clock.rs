@@ -1,5 +1,5 @@
-//! The clock of the programs that scripts set beside peers. With `RAYON_NUM_THREADS=1` times are those
-//! that the process had a processor, where Linux tells it, so that other work on the machine
+//! The clock of the programs that scripts set beside peers. With `RAYON_NUM_THREADS=1` times are
+//! those that the process had a processor, where Linux tells it, so that other work on the machine
 //! disturbs less; else those that passed.
 
 use std::time::Instant;

@@ -12,7 +12,8 @@ pub(crate) struct Timed<T> {
     pub(crate) last: T,
 }
 
-/// Work that takes longer needs no run to warm up, no batch, and no more rounds than were asked for.
+/// Work that takes longer needs no run to warm up, no batch, and no more rounds than were asked
+/// for.
 const SLOW_MS: f64 = 1000.0;
 
 /// Times `work` in rounds: at least three, unless it is slow.

@@ -13,7 +13,8 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 ///
 /// * `points_in_world`, `pixels`: points and where they are seen, at least 6, not all on a plane
 ///
-/// Returns `cam_from_world`. World points are moved and scaled to root-mean-square distance √3 first.
+/// Returns `cam_from_world`. World points are moved and scaled to root-mean-square distance √3
+/// first.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 6 points, [`Error::SizeMismatch`], [`Error::NotFinite`] for NaN

@@ -14,9 +14,9 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 /// Camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is three points; the error is the reprojection error in pixels, infinite behind the camera, and through
-/// other lenses than pinholes linear about the ray of the pixel ([`Observation::offset_px`]);
-/// refinement minimizes its truncated square. Equal data count once.
+/// A sample is three points; the error is the reprojection error in pixels, infinite behind the
+/// camera, and through other lenses than pinholes linear about the ray of the pixel
+/// ([`Observation::offset_px`]); refinement minimizes its truncated square. Equal data count once.
 #[derive(Debug, Clone)]
 pub struct AbsolutePoseEstimator {
     points: Vec<Point3<f64>>,
@@ -41,8 +41,8 @@ impl AbsolutePoseEstimator {
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN,
-    /// [`Error::TooFew`] for fewer than 4 different data: three have up to four poses. A point at infinity,
-    /// and a pixel there, beyond 10⁹ or that the lens bends no ray to, is left out.
+    /// [`Error::TooFew`] for fewer than 4 different data: three have up to four poses. A point at
+    /// infinity, and a pixel there, beyond 10⁹ or that the lens bends no ray to, is left out.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],

@@ -31,11 +31,11 @@ impl AbsolutePoseWithFocal {
 /// Camera poses with an unknown focal length from points and their pixels, for
 /// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is four points, and of its solutions only those are looked at whose focal length is plausible: at
-/// least a fifth of the distance from the principal point within which three of four pixels are, and at most twenty
-/// times that of the farthest. The error is the reprojection error in
-/// pixels, infinite behind the camera; refinement minimizes its truncated square over the pose and the focal
-/// length. Equal data count once.
+/// A sample is four points, and of its solutions only those are looked at whose focal length is
+/// plausible: at least a fifth of the distance from the principal point within which three of four
+/// pixels are, and at most twenty times that of the farthest. The error is the reprojection error
+/// in pixels, infinite behind the camera; refinement minimizes its truncated square over the pose
+/// and the focal length. Equal data count once.
 ///
 /// Source: as [`pose_p4pf`](super::pose_p4pf).
 #[derive(Debug, Clone)]
@@ -55,9 +55,10 @@ impl AbsolutePoseFocalEstimator {
     /// * `principal`: the principal point, pixels
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a principal
-    /// point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as four may have several
-    /// poses. A point at infinity, and a pixel there or beyond 10⁹, is left out.
+    /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for
+    /// a principal point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as
+    /// four may have several poses. A point at infinity, and a pixel there or beyond 10⁹, is left
+    /// out.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -189,12 +190,13 @@ impl Estimator for AbsolutePoseFocalEstimator {
 /// The pose `cam_from_world` and the focal length that most points agree on.
 ///
 /// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
-/// * `principal`: the principal point, pixels: the middle of the image, for most cameras. Pixels are square
+/// * `principal`: the principal point, pixels: the middle of the image, for most cameras. Pixels
+///   are square
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
-/// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly as well, at
-/// a distance that suits it, and [`AbsolutePoseWithFocal::tells_focal`] says no. The same holds for points whose
-/// depths hardly differ.
+/// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly
+/// as well, at a distance that suits it, and [`AbsolutePoseWithFocal::tells_focal`] says no. The
+/// same holds for points whose depths hardly differ.
 ///
 /// # Errors
 /// As [`AbsolutePoseFocalEstimator::new`] and [`ransac`]; points on one line give

@@ -30,13 +30,13 @@ const STARTS: usize = 4;
 /// better one is returned.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different length,
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on one
-/// line, or no pose has them all in front of the camera; as [`Camera::unproject`] for a pixel
+/// [`Error::TooFew`] for fewer than 4 points, [`Error::SizeMismatch`] for lists of different
+/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points are on
+/// one line, or no pose has them all in front of the camera; as [`Camera::unproject`] for a pixel
 /// without a ray.
 ///
-/// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose estimation from a planar
-/// target" (the two minima).
+/// Source: Hartley & Zisserman 2004, §7.2 (the error); Schweighofer & Pinz 2006, "Robust pose
+/// estimation from a planar target" (the two minima).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

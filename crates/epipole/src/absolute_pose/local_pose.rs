@@ -7,7 +7,8 @@ use nalgebra::{Matrix2x3, Rotation3, SMatrix, SVector, Vector3};
 /// Rotation, and the pivot in the camera frame.
 pub(super) type LocalPose = Pose;
 
-/// The point about which a pose turns, so that turns and shifts have nearly independent effects on the pixels.
+/// The point about which a pose turns, so that turns and shifts have nearly independent effects on
+/// the pixels.
 pub(super) struct Pivot {
     /// In the world.
     pub(super) position: Vector3<f64>,
@@ -16,8 +17,8 @@ pub(super) struct Pivot {
 }
 
 impl Pivot {
-    /// The mean of the points, weighted by the square of their nearness. One point at the end of the world does not move
-    /// it.
+    /// The mean of the points, weighted by the square of their nearness. One point at the end of
+    /// the world does not move it.
     ///
     /// * `points`: points in the world with their depths
     pub(super) fn new(

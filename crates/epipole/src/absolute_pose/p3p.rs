@@ -10,23 +10,23 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// The poses, at most four, from which three known points are seen along three rays.
 ///
 /// The distances d of the points from the camera satisfy
-/// `dᵢ² + dⱼ² − 2 dᵢ dⱼ cos θᵢⱼ = ‖Xᵢ − Xⱼ‖²`. Two ratios of these are conics in the projective plane
-/// of (d0 : d1 : d2); a degenerate conic of their pencil, from a cubic, is a pair of lines, and a
-/// line meets a conic in two points.
+/// `dᵢ² + dⱼ² − 2 dᵢ dⱼ cos θᵢⱼ = ‖Xᵢ − Xⱼ‖²`. Two ratios of these are conics in the projective
+/// plane of (d0 : d1 : d2); a degenerate conic of their pencil, from a cubic, is a pair of lines,
+/// and a line meets a conic in two points.
 ///
 /// * `rays`: directions in the camera frame; their lengths do not matter
 /// * `points_in_world`: the three points, in the same order
 ///
 /// Returns `cam_from_world` of each solution, all different; none if the points lie on a line, rays
-/// coincide, or input is not finite. A root is dropped if it does not reproduce the sides of the triangle,
-/// to 10⁻¹¹ radians as seen from the camera.
+/// coincide, or input is not finite. A root is dropped if it does not reproduce the sides of the
+/// triangle, to 10⁻¹¹ radians as seen from the camera.
 ///
-/// Two solutions merge for a camera on the danger cylinder, which stands upright on the circle through
-/// the points. There they are known only to about the root of the rounding errors.
+/// Two solutions merge for a camera on the danger cylinder, which stands upright on the circle
+/// through the points. There they are known only to about the root of the rounding errors.
 ///
-/// Source: Persson & Nordberg 2018, "Lambda Twist: an accurate fast robust perspective three
-/// point (P3P) solver"; Richter-Gebert 2011, "Perspectives on projective geometry", §11.1 (splitting
-/// a degenerate conic).
+/// Source: Persson & Nordberg 2018, "Lambda Twist: an accurate fast robust perspective three point
+/// (P3P) solver"; Richter-Gebert 2011, "Perspectives on projective geometry", §11.1 (splitting a
+/// degenerate conic).
 ///
 /// ```
 /// use epipole::absolute_pose::pose_p3p;

@@ -10,8 +10,9 @@ pub struct AbsolutePoseWithFocal {
     pub cam_from_world: RigidTransform,
     /// The focal length, pixels.
     pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it. `None` for a
-    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
+    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it.
+    /// `None` for a candidate that is yet to be judged, and where the focal length makes no
+    /// difference at all.
     pub focal_std_px: Option<f64>,
 }
 

@@ -41,13 +41,14 @@ pub fn reprojection_error_px(
 /// * `camera`: of any lens
 /// * `loss`: its width is in pixels
 ///
-/// Points that are behind the camera at the start are left out. Neither the world's origin nor its unit
-/// of length matters: the search turns the pose about a point amid the others, not about the origin.
+/// Points that are behind the camera at the start are left out. Neither the world's origin nor its
+/// unit of length matters: the search turns the pose about a point amid the others, not about the
+/// origin.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for lists
-/// of different length, [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for a
-/// loss that [`RobustLoss::check`] refuses, and as [`Camera::observe`] for a pixel of a lens.
+/// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for
+/// lists of different length, [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`]
+/// for a loss that [`RobustLoss::check`] refuses, and as [`Camera::observe`] for a pixel of a lens.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
 ///
@@ -142,8 +143,8 @@ fn refine_all(
 ///
 /// * `fixed`: a point of the world that stays where the camera sees it
 ///
-/// The errors of R act over the distance from the fixed point. With R and t taken over as they are that
-/// would be the world's origin, which may be anywhere.
+/// The errors of R act over the distance from the fixed point. With R and t taken over as they are
+/// that would be the world's origin, which may be anywhere.
 pub(super) fn rigid((rotation, t): &Pose, fixed: &Vector3<f64>) -> RigidTransform {
     let unit = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
     let t = (rotation * fixed + t) - unit * fixed;

@@ -8,7 +8,8 @@ use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
 
-/// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics have.
+/// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics
+/// have.
 struct FocalProblem<'a> {
     problem: &'a PoseProblem<'a, PinholePoints<'a>>,
     pivot: Pivot,
@@ -101,7 +102,8 @@ impl FixedProblem<7> for FocalProblem<'_> {
     }
 }
 
-/// Refines a pose with its focal length; of the intrinsics of the problem only the principal point counts.
+/// Refines a pose with its focal length; of the intrinsics of the problem only the principal point
+/// counts.
 pub(super) fn refine_with_focal(
     problem: &PoseProblem<'_, PinholePoints<'_>>,
     start: &PoseFocal,
@@ -114,8 +116,8 @@ pub(super) fn refine_with_focal(
     (model.1 > 0.0 && model.1.is_finite()).then_some((rotation, t, model.1))
 }
 
-/// The standard deviation of the focal length, as a share of it: that of the errors, and how they depend on all
-/// seven parameters. `None` if they do not determine it.
+/// The standard deviation of the focal length, as a share of it: that of the errors, and how they
+/// depend on all seven parameters. `None` if they do not determine it.
 pub(super) fn relative_focal_deviation(
     problem: &PoseProblem<'_, PinholePoints<'_>>,
     model: &PoseFocal,

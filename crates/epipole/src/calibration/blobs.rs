@@ -69,8 +69,8 @@ pub(super) fn find_blobs(image: &GrayImage32, bright: bool) -> Result<Vec<Blob>>
     Ok(blobs)
 }
 
-/// The spot as an ellipse, its pixels weighed by how far they are from the board to the disk: those at its edge,
-/// which the disk covers in part, count in part.
+/// The spot as an ellipse, its pixels weighed by how far they are from the board to the disk: those
+/// at its edge, which the disk covers in part, count in part.
 fn as_ellipse(image: &GrayImage32, spot: &[usize], width: usize, sign: f32) -> Option<Blob> {
     let (u_min, u_max) = (
         spot.iter().map(|at| at % width).min()?,

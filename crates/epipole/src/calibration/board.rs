@@ -9,8 +9,8 @@ pub enum Pattern {
     /// Black and white squares; the marks are the inner corners, where four squares meet.
     #[default]
     Chessboard,
-    /// Dark disks, every second row shifted by half of the distance between neighbors; the marks are their
-    /// centers.
+    /// Dark disks, every second row shifted by half of the distance between neighbors; the marks
+    /// are their centers.
     AsymmetricCircles,
 }
 
@@ -26,13 +26,13 @@ pub struct Board {
 impl Board {
     /// A board.
     ///
-    /// * `columns`, `rows`: marks, so of a chessboard one less than squares; of a circle grid, disks in a row and
-    ///   rows
+    /// * `columns`, `rows`: marks, so of a chessboard one less than squares; of a circle grid,
+    ///   disks in a row and rows
     /// * `square_m`: the side of a square, or the distance of two rows of a circle grid, meters
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than 3 × 3 marks or more than 1000 along a side, and for a length that is
-    /// not above 0; a circle grid needs 2 columns only.
+    /// [`Error::OutOfRange`] for less than 3 × 3 marks or more than 1000 along a side, and for a
+    /// length that is not above 0; a circle grid needs 2 columns only.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

@@ -12,7 +12,8 @@ const MORE: f64 = 1.25;
 pub enum BoardSearch {
     /// Its marks.
     Found(BoardView),
-    /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is of another size.
+    /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is
+    /// of another size.
     Partial {
         /// Marks along the longer side.
         columns: usize,
@@ -63,8 +64,8 @@ impl BoardSearch {
         }
     }
 
-    /// Corners of other things stand in a row here and there: a grid is told from them by two rows and columns at least,
-    /// of which half is seen.
+    /// Corners of other things stand in a row here and there: a grid is told from them by two rows
+    /// and columns at least, of which half is seen.
     pub(super) fn unless_by_chance(self) -> Self {
         match self {
             Self::Partial {
@@ -76,8 +77,8 @@ impl BoardSearch {
         }
     }
 
-    /// Whether this is a whole grid, larger than the board, beside which a part of one means nothing: the board is of
-    /// another size then, and texture looked like it.
+    /// Whether this is a whole grid, larger than the board, beside which a part of one means
+    /// nothing: the board is of another size then, and texture looked like it.
     pub(super) fn outdoes(&self, view: &BoardView, board: &Board) -> bool {
         let &Self::Partial {
             columns,
@@ -150,7 +151,8 @@ mod tests {
         };
         assert!(grid(9, 6, 54).outdoes(&view(38), &board));
         assert!(grid(9, 7, 55).outdoes(&view(38), &board));
-        // All of the board is there; the other grid has gaps, as what is no board; or it has hardly more marks, or fewer.
+        // All of the board is there; the other grid has gaps, as what is no board; or it has hardly
+        // more marks, or fewer.
         assert!(!grid(9, 6, 54).outdoes(&view(42), &board));
         assert!(!grid(9, 7, 49).outdoes(&view(38), &board));
         assert!(!grid(8, 6, 48).outdoes(&view(41), &board));

@@ -22,7 +22,8 @@ const LEAST_RADIUS_PX: f64 = 6.5;
 /// Candidates looked at from each corner.
 const NEAREST: usize = 16;
 
-/// Looks for a chessboard in an image of this very size; corners are as exact as the search needs them.
+/// Looks for a chessboard in an image of this very size; corners are as exact as the search needs
+/// them.
 pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     let saddle_image = SaddleImage::new(image)?;
     let saddles = saddle_image.find()?;
@@ -113,8 +114,9 @@ fn is_next(from: &Saddle, to: &Saddle, way: usize) -> bool {
     way_vector(from, way).dot(&along) > ALONG && to.edges[1 - way / 2].dot(&along).abs() > ALONG
 }
 
-/// Grows the grid around a corner: i along its edge 0 and j along its edge 1, so that the quadrants towards +i and
-/// +j are dark in cells whose coordinates have an even sum, and j is clockwise from i on the screen.
+/// Grows the grid around a corner: i along its edge 0 and j along its edge 1, so that the quadrants
+/// towards +i and +j are dark in cells whose coordinates have an even sum, and j is clockwise from
+/// i on the screen.
 fn grow(
     seed: usize,
     saddles: &[Saddle],
@@ -131,7 +133,8 @@ fn grow(
     cells.insert((0, 0), seed);
     frames.insert((0, 0), saddles[seed].edges);
     taken[seed] = true;
-    // Short steps first: one over something that hides two corners must not come before the way around it.
+    // Short steps first: one over something that hides two corners must not come before the way
+    // around it.
     let mut links: Vec<(f64, Cell, usize)> = Vec::new();
     let mut arrived = Some((0, 0));
     loop {
@@ -313,8 +316,8 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
     best.map_or(partial, |(_, view)| BoardSearch::Found(view))
 }
 
-/// Whether a row or column beside the window is filled by more than half: the board is larger then. A few corners
-/// beside it are things in the background.
+/// Whether a row or column beside the window is filled by more than half: the board is larger then.
+/// A few corners beside it are things in the background.
 fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) -> bool {
     let (right, bottom) = (left + columns as i32, top + rows as i32);
     let is_filled = |cells: &mut dyn Iterator<Item = Cell>, count: usize| {
@@ -348,7 +351,8 @@ fn slope(view: &BoardView) -> f64 {
     first - seen.next_back().unwrap_or(first)
 }
 
-/// Whether the outermost rows and columns are seen, so that there is no doubt which corner is which.
+/// Whether the outermost rows and columns are seen, so that there is no doubt which corner is
+/// which.
 fn reaches_all_sides(view: &BoardView, columns: usize, rows: usize) -> bool {
     let count = |cells: &mut dyn Iterator<Item = usize>| {
         cells.filter(|&k| view.pixels[k].is_some()).count() >= LEAST_IN_A_LINE

@@ -38,8 +38,8 @@ pub(super) fn find_circle_grid(image: &GrayImage32, board: &Board) -> Result<Boa
     Ok(best)
 }
 
-/// The steps to a disk's nearest neighbors, which stand crosswise: two pairs of opposite ones of four. The second is
-/// clockwise from the first.
+/// The steps to a disk's nearest neighbors, which stand crosswise: two pairs of opposite ones of
+/// four. The second is clockwise from the first.
 fn frame_of(seed: usize, blobs: &[Blob]) -> Option<[Vector2<f64>; 2]> {
     let here = &blobs[seed];
     let mut near: Vec<Vector2<f64>> = blobs

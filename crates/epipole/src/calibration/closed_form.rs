@@ -7,17 +7,19 @@ use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 
 const WHAT: &str = "the intrinsics from views of a plane";
 
-/// K from homographies of a plane with a metric, in two views or more that are not parallel, no skew.
+/// K from homographies of a plane with a metric, in two views or more that are not parallel, no
+/// skew.
 ///
-/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic `ω = K⁻ᵀ K⁻¹`,
-/// since r1 and r2 have one length and are perpendicular: `h1ᵀ ω h2 = 0` and `h1ᵀ ω h1 = h2ᵀ ω h2`.
+/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic
+/// `ω = K⁻ᵀ K⁻¹`, since r1 and r2 have one length and are perpendicular: `h1ᵀ ω h2 = 0` and
+/// `h1ᵀ ω h1 = h2ᵀ ω h2`.
 ///
 /// * `pixels_from_plane`: homographies from the plane, in any unit of length, to pixels
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two views (three of general position are needed for certainty),
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the views leave K open, for instance
-/// since all planes are parallel, or if noise makes ω the conic of no camera.
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the views leave K open,
+/// for instance since all planes are parallel, or if noise makes ω the conic of no camera.
 ///
 /// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.1.
 ///

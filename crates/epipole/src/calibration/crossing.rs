@@ -1,4 +1,5 @@
-//! A chessboard's corner to a hundredth of a pixel: two blurred edges that cross, fitted to the gray values.
+//! A chessboard's corner to a hundredth of a pixel: two blurred edges that cross, fitted to the
+//! gray values.
 //!
 //! Gradients are strong on the edges and locate them, but every pixel of the squares' borders has
 //! information, which a fit to the gray values weighs optimally. On coarse renderings its error is
@@ -18,7 +19,8 @@ const LEAST_CONTRAST: f64 = 0.02;
 /// Fewer pixels than this do not determine nine numbers well.
 const LEAST_PIXELS: usize = 25;
 
-/// The gray `m + c·Φ(d₁/σ)·Φ(d₂/σ) + s·x`, where dᵢ is the distance from edge i and `Φ(x) = erf(x/√2)`.
+/// The gray `m + c·Φ(d₁/σ)·Φ(d₂/σ) + s·x`, where dᵢ is the distance from edge i and
+/// `Φ(x) = erf(x/√2)`.
 #[derive(Debug, Clone, Copy)]
 struct Crossing {
     /// Relative to the middle of the window.

@@ -20,7 +20,8 @@ const WINDOWS: (usize, usize) = (2, 15);
 /// four squares.
 const DISK: f64 = 0.45;
 const DISKS_PX: (f64, f64) = (3.0, 15.0);
-/// The two refinements agree to this share of the distance to the nearest mark, or something else is in the disk.
+/// The two refinements agree to this share of the distance to the nearest mark, or something else
+/// is in the disk.
 const AGREEMENT: f64 = 0.05;
 const LEAST_AGREEMENT_PX: f64 = 0.5;
 
@@ -37,8 +38,9 @@ const LEAST_AGREEMENT_PX: f64 = 0.5;
 /// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
 ///
-/// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing using circular
-/// boundaries"; refined by [`refine_corners`], then by two blurred edges that cross, fitted to the gray values.
+/// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing
+/// using circular boundaries"; refined by [`refine_corners`], then by two blurred edges that cross,
+/// fitted to the gray values.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -99,8 +101,9 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     Ok(best.unless_by_chance())
 }
 
-/// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients, and from there by
-/// two edges fitted to the gray values. Those that do not stay where they are are left out.
+/// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients,
+/// and from there by two edges fitted to the gray values. Those that do not stay where they are are
+/// left out.
 fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
@@ -307,7 +310,8 @@ mod tests {
                         continue;
                     };
                     assert_eq!(view.num_seen(), 44);
-                    // The center of an ellipse is not the image of the disk's center, by a tenth of a pixel.
+                    // The center of an ellipse is not the image of the disk's center, by a tenth of
+                    // a pixel.
                     let (largest, rms) = errors(&view, &truth);
                     assert!(
                         largest < 0.4 && rms < 0.15,

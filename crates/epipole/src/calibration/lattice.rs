@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 /// A place in the grid.
 pub(super) type Cell = (i32, i32);
 
-/// A point may be so far, as a share of a step, from where others expect it: perspective and lenses bend rows.
+/// A point may be so far, as a share of a step, from where others expect it: perspective and lenses
+/// bend rows.
 const MOST_STRAYED: f64 = 0.3;
 
 /// Positions of points in a grid.

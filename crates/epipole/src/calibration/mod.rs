@@ -1,14 +1,17 @@
 //! Cameras from photographs of a board: intrinsics, lens, and where a second camera stands.
 //!
-//! 1. [`find_board`] finds a chessboard's corners, or the circles of an asymmetric grid, in a photograph.
-//! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, and says how sure each
-//!    number is.
+//! 1. [`find_board`] finds a chessboard's corners, or the circles of an asymmetric grid, in a
+//!    photograph.
+//! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, and says how
+//!    sure each number is.
 //! 3. [`calibrate_rig`] adds how a second camera stands beside the first.
 //! 4. [`photograph_of_board`] makes photographs to try this on, with exact truth.
 //! 5. [`Undistortion`] redraws photographs as a camera without distortion would show them.
-//! 6. With the feature `decode`, `prepare_photo` does so with files, turns them upright and reduces them.
+//! 6. With the feature `decode`, `prepare_photo` does so with files, turns them upright and reduces
+//!    them.
 //!
-//! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at the origin.
+//! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at
+//! the origin.
 
 mod advice;
 mod blobs;

@@ -1,4 +1,5 @@
-//! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is known, not too large.
+//! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is
+//! known, not too large.
 
 use super::Undistortion;
 use crate::Result;

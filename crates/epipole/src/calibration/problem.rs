@@ -1,4 +1,5 @@
-//! A calibration as a least-squares problem: one camera or two, the board's pose in every view, the pixels.
+//! A calibration as a least-squares problem: one camera or two, the board's pose in every view, the
+//! pixels.
 
 use crate::camera::moving_pose::PoseState;
 use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
@@ -124,7 +125,8 @@ impl Problem {
         }
     }
 
-    /// Root mean square of the distances between pixels and where the marks are predicted, of those that count.
+    /// Root mean square of the distances between pixels and where the marks are predicted, of those
+    /// that count.
     pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&SeenMark) -> bool) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
         for (index, o) in self.observations.iter().enumerate() {
@@ -247,7 +249,8 @@ pub(super) fn strict(max_iterations: usize) -> LmOptions {
     }
 }
 
-/// An error where the least squares ran off: a focal length that is no longer positive, or no number.
+/// An error where the least squares ran off: a focal length that is no longer positive, or no
+/// number.
 pub(super) fn intrinsics_of(numbers: &[f64; OF_CAMERA]) -> Result<Intrinsics> {
     Intrinsics::new(numbers[0], numbers[1], numbers[2], numbers[3]).map_err(|_| Error::Degenerate {
         what: "a calibration",

@@ -24,24 +24,24 @@ pub struct RigCalibration {
     /// One standard deviation of the translation, meters.
     /// The intrinsics count as exact: what is unknown of them comes on top.
     pub std_dev_translation_m: [f64; 3],
-    /// For each pair given, the root mean square in both cameras, pixels; `None` where a board was not seen by
-    /// both.
+    /// For each pair given, the root mean square in both cameras, pixels; `None` where a board was
+    /// not seen by both.
     pub pairs_rms_px: Vec<Option<f64>>,
 }
 
-/// The motion between two calibrated cameras that minimizes the reprojection errors of a board that both saw at
-/// the same time. The cameras stay as they are.
+/// The motion between two calibrated cameras that minimizes the reprojection errors of a board that
+/// both saw at the same time. The cameras stay as they are.
 ///
 /// * `cameras`: left and right, from [`calibrate`](super::calibrate)
 /// * `left`, `right`: views of the same moments, in the same order; `None` where no board was found
 /// * `monitor`: hears after each step of the refinement, in the one stage [`Stage::Calibration`]
 ///
 /// # Errors
-/// [`Error::TooFew`] if no board was seen by both, [`Error::SizeMismatch`] for lists of different length, and as
-/// [`calibrate`](super::calibrate).
+/// [`Error::TooFew`] if no board was seen by both, [`Error::SizeMismatch`] for lists of different
+/// length, and as [`calibrate`](super::calibrate).
 ///
-/// Source: Bradski & Kaehler 2008, "Learning OpenCV", ch. 12; the start is the motion, of those of single pairs,
-/// that agrees with the others best.
+/// Source: Bradski & Kaehler 2008, "Learning OpenCV", ch. 12; the start is the motion, of those of
+/// single pairs, that agrees with the others best.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -9,14 +9,15 @@ use nalgebra::{Point2, Vector2};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saddle {
     pub(super) place: Point2<f64>,
-    /// Unit vectors along the two edges. The quadrant from the first to the second, clockwise on the screen, is
-    /// dark.
+    /// Unit vectors along the two edges. The quadrant from the first to the second, clockwise on
+    /// the screen, is dark.
     pub(super) edges: [Vector2<f64>; 2],
 }
 
 /// Blur before anything else, pixels: noise and the blocks of JPEG files make saddles of their own.
 const SIGMA_PX: f64 = 1.4;
-/// The circles on which a corner must show four quadrants, pixels. One of a square of 9 pixels fits the first.
+/// The circles on which a corner must show four quadrants, pixels. One of a square of 9 pixels fits
+/// the first.
 const RADII_PX: [f64; 2] = [4.0, 6.0];
 const SAMPLES: usize = 48;
 /// Bright and dark must differ by this, of a range of 1.
@@ -80,8 +81,8 @@ impl SaddleImage {
     pub(super) fn examine(&self, near: &Point2<f64>) -> Option<Saddle> {
         let place = self.saddle_point(near)?;
         let edges = RADII_PX.map(|radius| self.quadrants(&place, radius));
-        // The smaller circle must show a corner; the larger one tells its edges better, if the squares are large
-        // enough for it.
+        // The smaller circle must show a corner; the larger one tells its edges better, if the
+        // squares are large enough for it.
         let small = edges[0]?;
         let agree =
             |large: &[Vector2<f64>; 2]| (0..2).all(|i| large[i].dot(&small[i]).abs() > 0.94);
@@ -89,8 +90,8 @@ impl SaddleImage {
         Some(Saddle { place, edges })
     }
 
-    /// Whether nothing but the four squares is within a radius: an edge of something in front of them would draw the
-    /// corner to itself.
+    /// Whether nothing but the four squares is within a radius: an edge of something in front of
+    /// them would draw the corner to itself.
     pub(super) fn is_clear(&self, place: &Point2<f64>, radius: f64) -> bool {
         let Some([a, b]) = self.quadrants(place, radius) else {
             return false;
@@ -179,7 +180,8 @@ impl SaddleImage {
         if most - least < LEAST_CONTRAST {
             return None;
         }
-        // The gray of the corner itself is midway between bright and dark, wherever the light falls.
+        // The gray of the corner itself is midway between bright and dark, wherever the light
+        // falls.
         let center = f64::from(sample_bilinear(
             &self.blurred,
             place.x,
@@ -218,7 +220,8 @@ impl SaddleImage {
             Vector2::new(cosine, sine)
         };
         let [a, b] = lines.map(|(line, _)| direction(line));
-        // Behind a line where the gray falls comes the dark quadrant; angles grow clockwise, since v is down.
+        // Behind a line where the gray falls comes the dark quadrant; angles grow clockwise, since
+        // v is down.
         Some(if lines[0].1 { [b, -a] } else { [a, b] })
     }
 }

@@ -8,7 +8,8 @@ use crate::math::nearest_orthogonal;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 
-/// The focal lengths that a fisheye may have, in units of the longer side: fields of view of some 90° to 250°.
+/// The focal lengths that a fisheye may have, in units of the longer side: fields of view of some
+/// 90° to 250°.
 const FISHEYE_FOCALS: [f64; 6] = [0.2, 0.28, 0.36, 0.46, 0.6, 0.8];
 
 /// Intrinsics to begin with, the likeliest first: at least one.
@@ -61,7 +62,8 @@ pub(super) fn starts(
 /// `cam_from_board` from one view, given the camera.
 ///
 /// # Errors
-/// [`Error::TooFew`] and [`Error::Degenerate`] if too few marks are in front of the camera, or on one line.
+/// [`Error::TooFew`] and [`Error::Degenerate`] if too few marks are in front of the camera, or on
+/// one line.
 pub(super) fn board_pose(
     board: &Board,
     view: &BoardView,

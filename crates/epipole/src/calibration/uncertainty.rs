@@ -4,8 +4,9 @@ use super::problem::{Problem, SHARED, State};
 use crate::optim::BundleProblem;
 use nalgebra::{DMatrix, Matrix6, SMatrix};
 
-/// Standard deviations of what all views share, 0 for what is held: the square roots of the diagonal of
-/// `σ² (JᵀJ)⁻¹`, with σ² the sum of squares over the degrees of freedom. `None` if the views leave it open.
+/// Standard deviations of what all views share, 0 for what is held: the square roots of the
+/// diagonal of `σ² (JᵀJ)⁻¹`, with σ² the sum of squares over the degrees of freedom. `None` if the
+/// views leave it open.
 ///
 /// Source: Hartley & Zisserman 2004, §5.2 and appendix A6.3 (the poses are eliminated).
 pub(super) fn standard_deviations(problem: &Problem, state: &State) -> Option<[f64; SHARED]> {

@@ -30,10 +30,10 @@ impl Undistortion {
     /// The camera of the same picture size that shows as much as asked for, as large as possible.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the lens model
-    /// folds less than half-way to the border, so that most of the picture has no rays, or if a fisheye sees too far
-    /// sideways to keep all of it in a flat picture: then keep what is valid. What lies beyond a fold nearer to the
-    /// border is left black.
+    /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the
+    /// lens model folds less than half-way to the border, so that most of the picture has no rays,
+    /// or if a fisheye sees too far sideways to keep all of it in a flat picture: then keep what is
+    /// valid. What lies beyond a fold nearer to the border is left black.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

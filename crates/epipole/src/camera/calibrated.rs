@@ -122,14 +122,16 @@ impl Camera {
         })
     }
 
-    /// The pixel where a camera with the same K and no distortion would see what this one sees at `pixel`.
+    /// The pixel where a camera with the same K and no distortion would see what this one sees at
+    /// `pixel`.
     ///
-    /// Functions that take [`Intrinsics`], such as a triangulation, take such pixels of any lens, together with
-    /// [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
+    /// Functions that take [`Intrinsics`], such as a triangulation, take such pixels of any lens,
+    /// together with [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
     /// photograph: where the lens squeezes the margin, they count for more there.
     ///
     /// # Errors
-    /// As [`Lens::ray`]; [`Error::PointBehindCamera`] for what a fisheye sees 90° and more off its axis.
+    /// As [`Lens::ray`]; [`Error::PointBehindCamera`] for what a fisheye sees 90° and more off its
+    /// axis.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

@@ -156,9 +156,9 @@ impl Distortion {
         }
     }
 
-    /// As [`undistort`](Self::undistort); for a place beyond all that the lens model bends rays to, the ray at
-    /// the fold that is seen nearest to it. For drawing up to the border of a picture, where the model was
-    /// never measured, not for measuring.
+    /// As [`undistort`](Self::undistort); for a place beyond all that the lens model bends rays to,
+    /// the ray at the fold that is seen nearest to it. For drawing up to the border of a picture,
+    /// where the model was never measured, not for measuring.
     ///
     /// # Errors
     /// [`Error::NotFinite`] for NaN or infinities.
@@ -306,8 +306,8 @@ mod tests {
         assert!(Distortion::from_coefficients([0.0, f64::INFINITY, 0.0, 0.0, 0.0]).is_err());
     }
 
-    /// Lenses of every kind, many of which fold: each ray inside the fold comes back, and an answer is never
-    /// beyond it, also where the fold is so narrow that few steps would pass over it.
+    /// Lenses of every kind, many of which fold: each ray inside the fold comes back, and an answer
+    /// is never beyond it, also where the fold is so narrow that few steps would pass over it.
     #[test]
     fn every_ray_inside_the_fold_comes_back() {
         let mut random = Random::new(3);

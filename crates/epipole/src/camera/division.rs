@@ -7,7 +7,8 @@ use nalgebra::{Matrix2, Point2};
 /// at `r / (1 + k r²)`. The one parameter, negative for barrel distortion, fits wide-angle lenses
 /// well, too, and both directions are in closed form.
 ///
-/// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens distortion", §2.
+/// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens
+/// distortion", §2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -25,7 +26,8 @@ impl Division {
         (1.0 - 4.0 * self.k * ray.coords.norm_squared()).sqrt()
     }
 
-    /// Distorted position of the ray (x, y, 1), in normalized coordinates; NaN where it is not seen.
+    /// Distorted position of the ray (x, y, 1), in normalized coordinates; NaN where it is not
+    /// seen.
     ///
     /// ```
     /// use epipole::camera::Division;
@@ -57,8 +59,8 @@ impl Division {
     /// The ray (x, y, 1) that is seen at a distorted place.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no ray is seen: beyond `1 / √|k|`, a barrel's rays at right angles, a cushion's fold.
-    /// [`Error::NotFinite`] for NaN and infinities.
+    /// [`Error::Degenerate`] where no ray is seen: beyond `1 / √|k|`, a barrel's rays at right
+    /// angles, a cushion's fold. [`Error::NotFinite`] for NaN and infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

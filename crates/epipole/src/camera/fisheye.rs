@@ -7,10 +7,11 @@ use nalgebra::{Matrix2x3, Point2, Vector2, Vector3};
 /// A fisheye lens: a ray at the angle θ from the optical axis is seen at the radius
 /// `θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)`, in units of the focal length.
 ///
-/// These are the four numbers of OpenCV's fisheye model. Rays beside and behind the camera are seen, too.
+/// These are the four numbers of OpenCV's fisheye model. Rays beside and behind the camera are
+/// seen, too.
 ///
-/// Source: Kannala & Brandt 2006, "A generic camera model and calibration method for conventional, wide-angle,
-/// and fish-eye lenses".
+/// Source: Kannala & Brandt 2006, "A generic camera model and calibration method for conventional,
+/// wide-angle, and fish-eye lenses".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -33,7 +34,8 @@ impl Fisheye {
         )
     }
 
-    /// Distorted position of a ray, in units of the focal length; `None` for no ray at all and straight backwards.
+    /// Distorted position of a ray, in units of the focal length; `None` for no ray at all and
+    /// straight backwards.
     ///
     /// ```
     /// use epipole::camera::Fisheye;
@@ -85,8 +87,8 @@ impl Fisheye {
     /// The ray, of length 1, that is seen at a place.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no ray is seen: beyond the angle at which the radius stops growing, or beyond
-    /// straight backwards. [`Error::NotFinite`] for NaN or infinities.
+    /// [`Error::Degenerate`] where no ray is seen: beyond the angle at which the radius stops
+    /// growing, or beyond straight backwards. [`Error::NotFinite`] for NaN or infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

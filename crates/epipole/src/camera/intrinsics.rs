@@ -111,7 +111,8 @@ impl Intrinsics {
         )
     }
 
-    /// The same camera after its image of size `from` was resized to `to`, whose shape may differ a little.
+    /// The same camera after its image of size `from` was resized to `to`, whose shape may differ a
+    /// little.
     ///
     /// * `from`, `to`: width and height, pixels
     ///

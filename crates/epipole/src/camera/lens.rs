@@ -33,11 +33,12 @@ impl Lens {
     /// A lens that bends nothing.
     pub const NONE: Self = Self::Brown(Distortion::NONE);
 
-    /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6 (rational); k1 to
-    /// k4 (fisheye). The division model, which OpenCV does not have, has k alone.
+    /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6
+    /// (rational); k1 to k4 (fisheye). The division model, which OpenCV does not have, has k alone.
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for another number of coefficients, [`Error::NotFinite`] for NaN and infinities.
+    /// [`Error::SizeMismatch`] for another number of coefficients, [`Error::NotFinite`] for NaN and
+    /// infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -137,8 +138,8 @@ impl Lens {
         Self::of(self.kind(), numbers)
     }
 
-    /// Distorted position of a point of the camera frame, in units of the focal length. `None` for what the lens does
-    /// not see: points behind the camera, except through a fisheye.
+    /// Distorted position of a point of the camera frame, in units of the focal length. `None` for
+    /// what the lens does not see: points behind the camera, except through a fisheye.
     ///
     /// ```
     /// use epipole::camera::{Distortion, Lens};
@@ -158,8 +159,8 @@ impl Lens {
         (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
     }
 
-    /// Image of a point of the camera frame, in units of the focal length; not finite where there is none. A point
-    /// behind the camera is mirrored through the center, except by a fisheye.
+    /// Image of a point of the camera frame, in units of the focal length; not finite where there
+    /// is none. A point behind the camera is mirrored through the center, except by a fisheye.
     #[inline]
     pub(crate) fn project_or_mirror(&self, p: &Vector3<f64>) -> Point2<f64> {
         match self {
@@ -179,8 +180,8 @@ impl Lens {
         }
     }
 
-    /// The pixel where a camera with these intrinsics sees a point of the camera frame; `None` where
-    /// [`project`](Self::project) is.
+    /// The pixel where a camera with these intrinsics sees a point of the camera frame; `None`
+    /// where [`project`](Self::project) is.
     pub(crate) fn pixel(&self, k: &Intrinsics, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
         let seen = self.project(x_in_cam)?;
         let center = k.principal_point();
@@ -202,8 +203,8 @@ impl Lens {
         }
     }
 
-    /// The same lens after its image was turned clockwise by so many quarters of a turn, as [`Intrinsics::turned`]
-    /// has it: only tangential terms know of a direction.
+    /// The same lens after its image was turned clockwise by so many quarters of a turn, as
+    /// [`Intrinsics::turned`] has it: only tangential terms know of a direction.
     ///
     /// [`Intrinsics::turned`]: super::Intrinsics::turned
     ///
@@ -246,8 +247,8 @@ impl Lens {
         }
     }
 
-    /// The derivatives of [`project`](Self::project) by the point and by the coefficients, those that the
-    /// model lacks 0.
+    /// The derivatives of [`project`](Self::project) by the point and by the coefficients, those
+    /// that the model lacks 0.
     pub(crate) fn derivatives(
         &self,
         x_in_cam: &Vector3<f64>,

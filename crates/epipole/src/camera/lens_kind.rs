@@ -15,7 +15,8 @@ pub enum LensKind {
     Rational,
     /// Four numbers, for views of 120° and more: [`Fisheye`](super::Fisheye).
     Fisheye,
-    /// One number, where there is little to see of a lens that bends much: [`Division`](super::Division).
+    /// One number, where there is little to see of a lens that bends much:
+    /// [`Division`](super::Division).
     Division,
 }
 

@@ -1,7 +1,7 @@
 //! Cameras: what turns a point in the world into a pixel.
 //!
-//! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is intrinsics and a rigid transform.
-//! Camera frame: x right, y down, z forward.
+//! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is intrinsics and a rigid
+//! transform. Camera frame: x right, y down, z forward.
 
 mod calibrated;
 mod distortion;

@@ -39,7 +39,8 @@ impl PoseState {
         (by_pose, self.matrix.tr_mul(by_p).into())
     }
 
-    /// The camera's center `−Rᵀ t`, and the derivatives of its coordinates by the six of [`PoseState::moved`].
+    /// The camera's center `−Rᵀ t`, and the derivatives of its coordinates by the six of
+    /// [`PoseState::moved`].
     pub(crate) fn center(&self) -> (Point3<f64>, [[f64; 6]; 3]) {
         let center = Point3::from(-self.matrix.tr_mul(&self.translation));
         // −Rᵀ exp(−δ) (t + d): the axis e moves by −(R e) · d + δ · (t × R e).

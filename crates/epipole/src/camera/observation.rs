@@ -2,10 +2,11 @@
 
 use nalgebra::{Matrix2x3, Matrix3x2, Point2, Vector2, Vector3};
 
-/// A pixel, its ray, and the derivative of the pixel by the ray: all that pose and motion need of a lens.
+/// A pixel, its ray, and the derivative of the pixel by the ray: all that pose and motion need of a
+/// lens.
 ///
-/// Residuals stay in pixels of the distorted photograph, because the derivative predicts where points near the ray
-/// are seen. A ray may point to the side or behind the camera.
+/// Residuals stay in pixels of the distorted photograph, because the derivative predicts where
+/// points near the ray are seen. A ray may point to the side or behind the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {
     pixel: Point2<f64>,
@@ -17,7 +18,8 @@ pub struct Observation {
 impl Observation {
     /// * `pixel`: observed position
     /// * `ray`: its direction in the camera frame, of any length but 0
-    /// * `px_by_ray`: the derivative of the pixel by a ray of length 1, pixels; it is 0 along the ray
+    /// * `px_by_ray`: the derivative of the pixel by a ray of length 1, pixels; it is 0 along the
+    ///   ray
     ///
     /// `None` if these are not finite, or if a lateral step of the ray does not move the pixel, as
     /// at the fold of a lens.

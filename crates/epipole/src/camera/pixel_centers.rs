@@ -25,8 +25,8 @@ pub fn pixel_to_colmap(pixel: &Point2<f64>) -> Point2<f64> {
     pixel + Vector2::repeat(HALF_PIXEL)
 }
 
-/// A pixel of COLMAP, with centers at halves, in our convention, with centers at integers: the inverse of
-/// [`pixel_to_colmap`].
+/// A pixel of COLMAP, with centers at halves, in our convention, with centers at integers: the
+/// inverse of [`pixel_to_colmap`].
 ///
 /// Source: COLMAP's documentation, "Output format", `images.txt`.
 ///

@@ -10,11 +10,11 @@ use nalgebra::{Matrix2, Point2};
 ///
 /// `(1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)`
 ///
-/// The tangential terms are those of [`Distortion`]. These are OpenCV's first eight numbers, in the order k1,
-/// k2, p1, p2, k3, k4, k5, k6.
+/// The tangential terms are those of [`Distortion`]. These are OpenCV's first eight numbers, in the
+/// order k1, k2, p1, p2, k3, k4, k5, k6.
 ///
-/// Source: Claus & Fitzgibbon 2005, "A rational function lens distortion model for general cameras" (the idea);
-/// the form is OpenCV's.
+/// Source: Claus & Fitzgibbon 2005, "A rational function lens distortion model for general cameras"
+/// (the idea); the form is OpenCV's.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -77,7 +77,8 @@ impl RationalDistortion {
         )
     }
 
-    /// The derivatives of [`distort`](Self::distort) by the coefficients, in OpenCV's order: of x', of y'.
+    /// The derivatives of [`distort`](Self::distort) by the coefficients, in OpenCV's order: of x',
+    /// of y'.
     pub fn by_coefficients(&self, ray: &Point2<f64>) -> [[f64; 8]; 2] {
         let (x, y) = (ray.x, ray.y);
         let r_sq = x * x + y * y;
@@ -96,8 +97,8 @@ impl RationalDistortion {
         ]
     }
 
-    /// The ray (x, y, 1) that is seen at a distorted place, inside the radius at which the radial part stops
-    /// growing.
+    /// The ray (x, y, 1) that is seen at a distorted place, inside the radius at which the radial
+    /// part stops growing.
     ///
     /// # Errors
     /// [`Error::Degenerate`] where no such ray is seen, [`Error::NotFinite`] for NaN or infinities.
@@ -136,7 +137,8 @@ impl RationalDistortion {
         }
     }
 
-    /// The squared radius at which the radial part stops growing, or has a pole; infinite if there is none.
+    /// The squared radius at which the radial part stops growing, or has a pole; infinite if there
+    /// is none.
     pub(crate) fn fold_sq(&self) -> f64 {
         let Distortion { k1, k2, k3, .. } = self.numerator;
         let [k4, k5, k6] = self.denominator;

@@ -7,8 +7,8 @@ const MAX_STEPS: usize = 50;
 /// The residual at which it stops, in units of the focal length: 1e-9 px or better.
 pub(super) const RESIDUAL: f64 = 1e-13;
 
-/// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do not
-/// help, or lead to the fold, are halved.
+/// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do
+/// not help, or lead to the fold, are halved.
 ///
 /// * `fold_sq`: the squared radius that rays stay inside of
 /// * `distort`, `jacobian`: where a ray is seen, and the derivative of that

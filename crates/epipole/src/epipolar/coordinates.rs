@@ -116,7 +116,8 @@ impl Coordinates {
         [0, 1, 2, 3].map(|k: usize| group[k][index % LANES])
     }
 
-    /// Matches `start..start + 8`, where `start` is a multiple of 8; beyond the end zeros, and the number of real ones.
+    /// Matches `start..start + 8`, where `start` is a multiple of 8; beyond the end zeros, and the
+    /// number of real ones.
     #[inline(always)]
     pub(crate) fn lanes(&self, start: usize) -> (&[Lanes; 4], usize) {
         (&self.groups[start / LANES], (self.len - start).min(LANES))

@@ -75,8 +75,8 @@ impl Distance {
                 factor: 1.0,
             };
         }
-        // Squares may have overflowed or vanished, so sizes are taken out first. The scale of F does
-        // not matter; the distance of pixels is in units of their size.
+        // Squares may have overflowed or vanished, so sizes are taken out first. The scale of F
+        // does not matter; the distance of pixels is in units of their size.
         let size = power_of_two(x1.amax().max(x2.amax()));
         let parts = Parts::new(
             &(fundamental / power_of_two(fundamental.amax())),

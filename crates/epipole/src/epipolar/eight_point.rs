@@ -23,8 +23,8 @@ pub struct EightPoint {
 
 /// The fundamental matrix that minimizes `Σ (x2ᵀ F x1)²`, by the normalized eight-point algorithm.
 ///
-/// Points of each image are moved and scaled so that their root-mean-square distance from
-/// the origin is √2; then the system of [`epipolar_row`](super::epipolar_row)s is solved by a singular
+/// Points of each image are moved and scaled so that their root-mean-square distance from the
+/// origin is √2; then the system of [`epipolar_row`](super::epipolar_row)s is solved by a singular
 /// value decomposition, the smallest singular value of the solution is set to 0, and the scaling
 /// undone.
 ///
@@ -131,8 +131,8 @@ pub fn fundamental_8point_unnormalized(
 /// The nearest matrix of rank 2, in Frobenius norm: the smallest singular value becomes 0.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for NaN and infinities, and for entries at the very end of the range of numbers if
-/// those of the result are beyond it.
+/// [`Error::NotFinite`] for NaN and infinities, and for entries at the very end of the range of
+/// numbers if those of the result are beyond it.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.1.
 ///
@@ -254,7 +254,8 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from
+    /// Matlab.
     #[test]
     fn published_reference() {
         let points = |flat: &[f64]| -> Vec<Point2<f64>> {

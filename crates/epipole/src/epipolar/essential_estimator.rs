@@ -20,12 +20,12 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is five matches, and of its solutions only those that put the five points in front of
-/// both cameras are looked at. The error is the Sampson error in pixels, through other lenses than pinholes
-/// the [tangent Sampson error](super::tangent_sampson_px); refinement
-/// minimizes it, truncated, over rotation and direction. A match that is behind a camera supports no
-/// pose, however near to its line; one that could be infinitely far away, up to an error within the
-/// threshold, is not behind. Where a plane holds most of the inliers of pinhole cameras, the other motion that it
-/// allows is tried, too. Equal matches count once.
+/// both cameras are looked at. The error is the Sampson error in pixels, through other lenses than
+/// pinholes the [tangent Sampson error](super::tangent_sampson_px); refinement minimizes it,
+/// truncated, over rotation and direction. A match that is behind a camera supports no pose,
+/// however near to its line; one that could be infinitely far away, up to an error within the
+/// threshold, is not behind. Where a plane holds most of the inliers of pinhole cameras, the other
+/// motion that it allows is tried, too. Equal matches count once.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem";
 /// Longuet-Higgins 1986, "The reconstruction of a plane surface from two perspective projections".
@@ -45,8 +45,9 @@ impl EssentialEstimator {
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
     /// # Errors
-    /// As [`MatchSet::new`]; [`Error::TooFew`] for fewer than 5 different matches, [`Error::Degenerate`] if all pixels
-    /// of an image of a pinhole camera lie on one line, or are equal.
+    /// As [`MatchSet::new`]; [`Error::TooFew`] for fewer than 5 different matches,
+    /// [`Error::Degenerate`] if all pixels of an image of a pinhole camera lie on one line, or are
+    /// equal.
     pub fn new(
         pixels1: &[Point2<f64>],
         pixels2: &[Point2<f64>],
@@ -123,7 +124,8 @@ impl EssentialEstimator {
 }
 
 impl Estimator for EssentialEstimator {
-    /// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of the rays of others.
+    /// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of
+    /// the rays of others.
     type Model = (RelativePose, Matrix3<f64>);
 
     fn problem(&self) -> Problem<'_> {

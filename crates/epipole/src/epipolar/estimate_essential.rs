@@ -13,14 +13,14 @@ use nalgebra::{Matrix3, Point2};
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
 /// * `cameras`: the two cameras, of any lens
-/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels; an inlier
-///   is in front of both cameras as well, or so far away that this cannot be told
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels; an
+///   inlier is in front of both cameras as well, or so far away that this cannot be told
 ///
-/// Through other lenses than pinholes, rays may point to the side and backwards, and the error is the
-/// [tangent Sampson error](super::tangent_sampson_px), in the pixels of the distorted images.
+/// Through other lenses than pinholes, rays may point to the side and backwards, and the error is
+/// the [tangent Sampson error](super::tangent_sampson_px), in the pixels of the distorted images.
 ///
-/// Of the four motions that the essential matrix allows, the one that puts the most inliers in front
-/// of both cameras is returned. If the camera hardly moved, the direction means nothing;
+/// Of the four motions that the essential matrix allows, the one that puts the most inliers in
+/// front of both cameras is returned. If the camera hardly moved, the direction means nothing;
 /// [`find_explaining_turn`](crate::two_view::find_explaining_turn) tells whether this may be so.
 ///
 /// # Errors

@@ -19,9 +19,9 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// A sample is seven matches; the error is [`sampson_px`](super::sampson_px); refinement minimizes
 /// the truncated Sampson error. A sample of which five or more matches lie on one plane does not
-/// determine F: then the plane's homography and two matches off the plane give another one. Samples whose points cannot
-/// all be in front of both cameras are left out, unless the matches are so few that there are no others. Equal matches
-/// count once.
+/// determine F: then the plane's homography and two matches off the plane give another one. Samples
+/// whose points cannot all be in front of both cameras are left out, unless the matches are so few
+/// that there are no others. Equal matches count once.
 ///
 /// Source: Hartley & Zisserman 2004, §11.6; Chum, Werner & Matas 2004, "Epipolar geometry
 /// estimation via RANSAC benefits from the oriented epipolar constraint"; Chum, Werner & Matas
@@ -37,7 +37,8 @@ pub struct FundamentalEstimator {
     is_oriented: bool,
 }
 
-/// Up to so many matches, all samples are tried in advance: whether one can have its points in front of the cameras.
+/// Up to so many matches, all samples are tried in advance: whether one can have its points in
+/// front of the cameras.
 const FEW: usize = 10;
 
 impl FundamentalEstimator {
@@ -285,7 +286,8 @@ pub fn estimate_fundamental(
 mod tests {
     use super::*;
 
-    /// Eight to ten matches anywhere: a sample of seven fits exactly, whatever the signs of its depths.
+    /// Eight to ten matches anywhere: a sample of seven fits exactly, whatever the signs of its
+    /// depths.
     #[test]
     fn few_matches_have_a_matrix_whatever_is_behind_a_camera() {
         let mut num_unoriented = 0;

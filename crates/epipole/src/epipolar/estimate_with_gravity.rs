@@ -12,9 +12,10 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// Relative poses of calibrated cameras that know the direction of gravity from matches, for
 /// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is three matches, and of its solutions only those that put the three points in front of both
-/// cameras are looked at. Errors and inliers are those of [`EssentialEstimator`]; refinement leaves gravity where
-/// it is and finds the turn about it and the direction of the translation. Equal matches count once.
+/// A sample is three matches, and of its solutions only those that put the three points in front of
+/// both cameras are looked at. Errors and inliers are those of [`EssentialEstimator`]; refinement
+/// leaves gravity where it is and finds the turn about it and the direction of the translation.
+/// Equal matches count once.
 ///
 /// Source: as [`relative_pose_3point`](super::relative_pose_3point).
 #[derive(Debug)]
@@ -29,8 +30,8 @@ impl GravityEstimator {
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     /// * `cameras`: the two cameras, of any lens
-    /// * `gravity1`, `gravity2`: the same direction of the world, down or up, in the frames of both cameras, of any
-    ///   length
+    /// * `gravity1`, `gravity2`: the same direction of the world, down or up, in the frames of both
+    ///   cameras, of any length
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than 5 different matches, as fewer fit many motions well,
@@ -106,19 +107,22 @@ impl Estimator for GravityEstimator {
     }
 }
 
-/// The relative pose of two calibrated cameras that know the direction of gravity, as most matches have it.
+/// The relative pose of two calibrated cameras that know the direction of gravity, as most matches
+/// have it.
 ///
-/// Three matches are a sample in place of five, so that many more wrong ones are borne: with one right match in four,
-/// 440 samples find three right ones with 99.9 %, and 7000 five.
+/// Three matches are a sample in place of five, so that many more wrong ones are borne: with one
+/// right match in four, 440 samples find three right ones with 99.9 %, and 7000 five.
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
 /// * `cameras`: the two cameras, of any lens
-/// * `gravity`: the same direction of the world, down or up, in the frames of both cameras, of any length: from accelerometers, or from vanishing points of verticals
+/// * `gravity`: the same direction of the world, down or up, in the frames of both cameras, of any
+///   length: from accelerometers, or from vanishing points of verticals
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels
 ///
-/// Gravity is taken for exact. Where it is off by half a degree, as a phone's is, the threshold should let pass what that does to
-/// pixels, and [`refine_relative_pose`](super::refine_relative_pose) with the inliers then frees the pose from it. If the
-/// camera hardly moved, the direction means nothing.
+/// Gravity is taken for exact. Where it is off by half a degree, as a phone's is, the threshold
+/// should let pass what that does to pixels, and
+/// [`refine_relative_pose`](super::refine_relative_pose) with the inliers then frees the pose from
+/// it. If the camera hardly moved, the direction means nothing.
 ///
 /// # Errors
 /// As [`GravityEstimator::new`] and [`ransac`].

@@ -4,7 +4,8 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector2};
 
-/// The sine, of the parallelepiped of baseline and both optical axes, below which the axes meet but for rounding.
+/// The sine, of the parallelepiped of baseline and both optical axes, below which the axes meet but
+/// for rounding.
 const LEAST_VOLUME: f64 = 1e-9;
 
 /// The focal lengths in pixels, of camera 1 and camera 2, of square pixels without skew.
@@ -23,8 +24,8 @@ const LEAST_VOLUME: f64 = 1e-9;
 /// cameras gives nonsense, or a negative square, which is the same error. [`Error::NotFinite`] for
 /// NaN and infinities.
 ///
-/// Source: Bougnoux 1998, "From projective to Euclidean space under any practical situation, a criticism of
-/// self-calibration".
+/// Source: Bougnoux 1998, "From projective to Euclidean space under any practical situation, a
+/// criticism of self-calibration".
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -1,4 +1,5 @@
-//! The best motion for each of many focal lengths: whether another focal length explains the matches better.
+//! The best motion for each of many focal lengths: whether another focal length explains the
+//! matches better.
 
 use super::coordinates::Coordinates;
 use super::essential::rotations_and_direction;
@@ -15,7 +16,8 @@ use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 use nalgebra::{Matrix3, Vector3};
 
-/// Ratio of neighboring focal lengths that are tried, unless there were too many: valleys of the cost are wider.
+/// Ratio of neighboring focal lengths that are tried, unless there were too many: valleys of the
+/// cost are wider.
 const STEP: f64 = 1.2;
 
 /// Maximum number of focal lengths that are tried.
@@ -160,8 +162,8 @@ impl<'a> FocalProfile<'a> {
     /// standard deviations by which its cost exceeds the minimum. For a parabolic cost all ratios
     /// are equal; for a cost that is flat on one side, or has two valleys, the largest counts.
     ///
-    /// Source: the likelihood ratio; Venzon & Moolgavkar 1988, "A method for computing profile-likelihood-based confidence
-    /// intervals".
+    /// Source: the likelihood ratio; Venzon & Moolgavkar 1988, "A method for computing
+    /// profile-likelihood-based confidence intervals".
     pub(super) fn relative_deviation(&self, model: &PoseWithFocal) -> f64 {
         let start = (model.pose.rotation, model.pose.direction);
         let here = self.fit(start, model.focal_px).map(|fit| fit.cost);
@@ -185,8 +187,8 @@ impl<'a> FocalProfile<'a> {
         Some([k1, k2])
     }
 
-    /// A motion judged by the matches in front of both cameras, as that of the four motions of its essential matrix which
-    /// has the most.
+    /// A motion judged by the matches in front of both cameras, as that of the four motions of its
+    /// essential matrix which has the most.
     fn fit(&self, (rotation, direction): Pose, focal_px: f64) -> Option<Fit> {
         let [k1, k2] = self.intrinsics(focal_px)?;
         let lenses = Lenses::new(&k1, &k2);

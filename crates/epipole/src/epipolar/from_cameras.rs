@@ -73,8 +73,8 @@ pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Resul
     )
 }
 
-/// Whether two cameras stand at the same place, as far as rounding lets one tell: centers that differ
-/// by rounding alone would give a baseline in a random direction.
+/// Whether two cameras stand at the same place, as far as rounding lets one tell: centers that
+/// differ by rounding alone would give a baseline in a random direction.
 pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
     let (c1, c2) = (cam1.center_in_world().coords, cam2.center_in_world().coords);
     let (c1, c2) = {
@@ -144,8 +144,8 @@ pub fn essential_from_fundamental(
     product(&k2.matrix().transpose(), fundamental, &k1.matrix())
 }
 
-/// `A B C` with unit Frobenius norm. Its scale means nothing, so it is taken out of each factor before
-/// their product could overflow or vanish.
+/// `A B C` with unit Frobenius norm. Its scale means nothing, so it is taken out of each factor
+/// before their product could overflow or vanish.
 fn product(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     let [a, b, c] = [a, b, c].map(|m| m / power_of_two(m.amax()));
     unit_norm(&(a * b * c))

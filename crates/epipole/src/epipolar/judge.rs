@@ -73,7 +73,8 @@ pub(crate) fn inliers(
     inliers: &mut Vec<usize>,
 ) {
     let per_threshold_sq = 1.0 / (max_error * max_error);
-    // Every index is written, and the next one over it unless it fits: no branch that cannot be foreseen.
+    // Every index is written, and the next one over it unless it fits: no branch that cannot be
+    // foreseen.
     let mut num_inliers = 0;
     inliers.resize(coordinates.len(), 0);
     for start in (0..coordinates.len()).step_by(LANES) {

@@ -57,8 +57,8 @@ impl RayPair {
         }
     }
 
-    /// The Sampson error with its sign, px, and its derivatives by the entries of E, row by row: `r = C/√D`,
-    /// `∂r/∂E = (∂C/∂E − (C/D) ½ ∂D/∂E)/√D`. `None` for a ray through both centers.
+    /// The Sampson error with its sign, px, and its derivatives by the entries of E, row by row:
+    /// `r = C/√D`, `∂r/∂E = (∂C/∂E − (C/D) ½ ∂D/∂E)/√D`. `None` for a ray through both centers.
     fn linearized(&self, essential: &Matrix3<f64>) -> Option<(f64, SVector<f64, 9>)> {
         let (algebraic, [by1, by2]) = self.algebraic(essential);
         let slope_sq = by1.norm_squared() + by2.norm_squared();
@@ -85,7 +85,8 @@ impl RayPair {
     }
 }
 
-/// Matches between two cameras of any lens. Errors are tangent Sampson errors: in the pixels of the distorted images.
+/// Matches between two cameras of any lens. Errors are tangent Sampson errors: in the pixels of the
+/// distorted images.
 #[derive(Debug, Clone)]
 pub(super) struct LensMatches {
     matches: MatchSet,
@@ -231,16 +232,16 @@ impl SampsonErrors for RayErrors<'_> {
     }
 }
 
-/// The tangent Sampson error of a match between cameras of any lens, pixels of both images; infinite where the rays
-/// cannot meet in front of both cameras.
+/// The tangent Sampson error of a match between cameras of any lens, pixels of both images;
+/// infinite where the rays cannot meet in front of both cameras.
 ///
 /// * `cam2_from_cam1`: the length of its translation does not matter
 /// * `seen1`, `seen2`: the observations of both cameras
 ///
 /// Between pinhole cameras it is [`sampson_px`](super::sampson_px).
 ///
-/// Source: Terekhov & Larsson 2023, "Tangent Sampson error: fast approximate two-view reprojection error for central
-/// camera models".
+/// Source: Terekhov & Larsson 2023, "Tangent Sampson error: fast approximate two-view reprojection
+/// error for central camera models".
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

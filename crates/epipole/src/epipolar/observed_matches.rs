@@ -5,7 +5,8 @@ use crate::camera::{Camera, Observation};
 use crate::robust::MatchSet;
 use nalgebra::Point2;
 
-/// Different matches that both lenses see, and their observations in images 1 and 2, in the order of the set.
+/// Different matches that both lenses see, and their observations in images 1 and 2, in the order
+/// of the set.
 #[derive(Debug, Clone)]
 pub(crate) struct ObservedMatches {
     pub(crate) matches: MatchSet,
@@ -13,7 +14,8 @@ pub(crate) struct ObservedMatches {
 }
 
 impl ObservedMatches {
-    /// Matches with a pixel that its lens bends no ray to are left out, as those that [`MatchSet::new`] leaves out.
+    /// Matches with a pixel that its lens bends no ray to are left out, as those that
+    /// [`MatchSet::new`] leaves out.
     ///
     /// # Errors
     /// As [`MatchSet::new`].

@@ -3,13 +3,14 @@
 use crate::math::nearest_orthogonal;
 use nalgebra::{Matrix3, Vector3};
 
-/// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ; this gives the other one.
+/// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ; this gives the other
+/// one.
 ///
 /// * `rotation`, `direction`: one of them, the direction of unit length
 /// * `homography`: of the plane, rays of camera 1 to rays of camera 2, at any scale
 ///
-/// Returns R' and t' of unit length; `None` if the camera does not move with regard to the plane, or
-/// the two are the same.
+/// Returns R' and t' of unit length; `None` if the camera does not move with regard to the plane,
+/// or the two are the same.
 ///
 /// With u = Rᵀt, HᵀH = I + n wᵀ + w nᵀ for w = u + ½|u|² n: the normal and w may change places.
 ///

@@ -28,8 +28,8 @@ pub(super) struct PinholeMatches {
     k2: Intrinsics,
 }
 
-/// If a smaller share of the matches near their lines is in front of both cameras, the pose is wrong, not the matches,
-/// and refinement uses them all.
+/// If a smaller share of the matches near their lines is in front of both cameras, the pose is
+/// wrong, not the matches, and refinement uses them all.
 const FEW_BEHIND: f64 = 0.8;
 
 impl PinholeMatches {

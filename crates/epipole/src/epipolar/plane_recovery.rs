@@ -79,8 +79,8 @@ impl PlaneRecovery {
         self.best_epipole(matches, &homography, max_error, random)
     }
 
-    /// Fundamental matrices that fit a dominant plane as `f` does and more of the matches off it; all
-    /// in one frame, without a refinement. Empty where no plane dominates.
+    /// Fundamental matrices that fit a dominant plane as `f` does and more of the matches off it;
+    /// all in one frame, without a refinement. Empty where no plane dominates.
     ///
     /// The matches on the plane fit `[e2]ₓ H` for any e2. Their distances to its lines depend on
     /// e2, though, and hundreds of them outweigh the few matches off the plane that determine e2:

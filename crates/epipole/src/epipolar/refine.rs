@@ -1,5 +1,6 @@
-//! Nonlinear refinement of F: the Sampson error by Levenberg–Marquardt. What the refinements of a pose
-//! (`refine_pose`) and of a pose with its focal length (`refine_focal`) share with it is here, too.
+//! Nonlinear refinement of F: the Sampson error by Levenberg–Marquardt. What the refinements of a
+//! pose (`refine_pose`) and of a pose with its focal length (`refine_focal`) share with it is here,
+//! too.
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::enforce_rank2;
@@ -12,8 +13,8 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 
-/// The fundamental matrix near `fundamental` that minimizes `½ Σ ρ(e²)` over the matches, where e is
-/// the Sampson error in pixels.
+/// The fundamental matrix near `fundamental` that minimizes `½ Σ ρ(e²)` over the matches, where e
+/// is the Sampson error in pixels.
 ///
 /// F is kept on the seven-dimensional set `U diag(1, σ, 0) Vᵀ` throughout.
 ///
@@ -21,10 +22,11 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of
-/// rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
+/// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of rank
+/// 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
 /// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
-/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match counts.
+/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
+/// counts.
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
 /// parameters" (the parameters); Hartley & Zisserman 2004, §11.4.3 (the error).

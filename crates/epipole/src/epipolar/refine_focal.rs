@@ -91,8 +91,8 @@ impl FixedProblem<6> for FocalProblem<'_> {
     }
 }
 
-/// The standard deviation of the focal length, as a share of it: that of the errors, and how they depend on all
-/// six parameters. `None` if they do not determine it.
+/// The standard deviation of the focal length, as a share of it: that of the errors, and how they
+/// depend on all six parameters. `None` if they do not determine it.
 ///
 /// * `num_matches`: there are so many in the coordinates, all of them inliers
 pub(crate) fn relative_focal_deviation(

@@ -12,17 +12,19 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// The relative pose near `pose` that minimizes `½ Σ ρ(e²)` over the matches, where e is the Sampson
-/// error in pixels.
+/// The relative pose near `pose` that minimizes `½ Σ ρ(e²)` over the matches, where e is the
+/// Sampson error in pixels.
 ///
-/// * `cameras`: the two cameras, of any lens; e is the [tangent Sampson error](super::tangent_sampson_px) then
+/// * `cameras`: the two cameras, of any lens; e is the [tangent Sampson
+///   error](super::tangent_sampson_px) then
 ///
 /// The rotation and the direction of the translation, five parameters, are refined.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at some
-/// match, [`Error::Degenerate`] for a pixel that its lens bends no ray to, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at
+/// some match, [`Error::Degenerate`] for a pixel that its lens bends no ray to, and as
+/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
 /// counts.
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with `E = [t]ₓR` instead of F.

@@ -39,9 +39,9 @@ pub fn epipolar_row(x1: &Point2<f64>, x2: &Point2<f64>) -> [f64; 9] {
 ///
 /// * `pixels1`, `pixels2`: matching pixels, pixel by pixel
 ///
-/// Returns an empty list for NaN and infinities, where two matches are equal, and where all points of an
-/// image are. Seven matches that leave more than a pencil otherwise, such as matches of a plane, give some
-/// of the solutions.
+/// Returns an empty list for NaN and infinities, where two matches are equal, and where all points
+/// of an image are. Seven matches that leave more than a pencil otherwise, such as matches of a
+/// plane, give some of the solutions.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.2.
 ///
@@ -154,7 +154,8 @@ mod tests {
         core::array::from_fn(|i| Point2::new(flat[2 * i], flat[2 * i + 1]))
     }
 
-    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from
+    /// Matlab.
     #[test]
     fn published_reference() {
         let p1 = points(&[

@@ -6,7 +6,8 @@ use crate::math::random::Random;
 use crate::robust::Support;
 use nalgebra::Matrix3;
 
-/// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of the rays of others.
+/// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of the
+/// rays of others.
 pub(super) type Candidate = (RelativePose, Matrix3<f64>);
 
 /// Errors of matches between two cameras: how a pose is judged and refined. Errors are in pixels.
@@ -17,7 +18,8 @@ pub(super) trait Sight: core::fmt::Debug + Send + Sync {
     /// The squared error of a match.
     fn error_sq(&self, candidate: &Candidate, index: usize) -> f64;
 
-    /// Support among the matches in front of both cameras; stops once the cost exceeds `cost_limit`.
+    /// Support among the matches in front of both cameras; stops once the cost exceeds
+    /// `cost_limit`.
     fn support(&self, candidate: &Candidate, max_error_px: f64, cost_limit: f64) -> Support;
 
     /// Fills `inliers` with the matches within the threshold, in front of both cameras.

@@ -19,23 +19,24 @@ const NO_DIRECTION: f64 = 1e-12;
 /// A leading coefficient below this share of the largest one is zero but for rounding.
 const NO_LEADING: f64 = 1e-12;
 
-/// The motions `cam2_from_cam1`, with t of length 1, at most four, that three matches and the direction of gravity
-/// allow.
+/// The motions `cam2_from_cam1`, with t of length 1, at most four, that three matches and the
+/// direction of gravity allow.
 ///
-/// With both cameras turned upright only the turn about the vertical, by θ, and the direction of t are left. A
-/// match says that t is orthogonal to `R x1 × x2`, and three such rows have a null vector: their determinant, of degree
-/// six in tan(θ/2), has the factor 1 + tan²(θ/2), and a quartic is left.
+/// With both cameras turned upright only the turn about the vertical, by θ, and the direction of t
+/// are left. A match says that t is orthogonal to `R x1 × x2`, and three such rows have a null
+/// vector: their determinant, of degree six in tan(θ/2), has the factor 1 + tan²(θ/2), and a
+/// quartic is left.
 ///
 /// * `rays1`, `rays2`: matching rays in the frames of cameras 1 and 2; their lengths do not matter
-/// * `gravity1`, `gravity2`: the same direction of the world in the frames of both cameras, of any length: down, as an
-///   accelerometer has it, or up
+/// * `gravity1`, `gravity2`: the same direction of the world in the frames of both cameras, of any
+///   length: down, as an accelerometer has it, or up
 ///
-/// Only motions that put the three points in front of both cameras are returned. The list is empty for a camera that
-/// only turned, for points at infinity, where matches are equal or nearly so, and for input that is not finite or a
-/// gravity without direction.
+/// Only motions that put the three points in front of both cameras are returned. The list is empty
+/// for a camera that only turned, for points at infinity, where matches are equal or nearly so, and
+/// for input that is not finite or a gravity without direction.
 ///
-/// Source: Fraundorfer, Tanskanen & Pollefeys 2010, "A minimal case solution to the calibrated relative pose
-/// problem for the case of two known orientation angles".
+/// Source: Fraundorfer, Tanskanen & Pollefeys 2010, "A minimal case solution to the calibrated
+/// relative pose problem for the case of two known orientation angles".
 ///
 /// ```
 /// use epipole::camera::RigidTransform;
@@ -107,7 +108,8 @@ impl Upright {
         })
     }
 
-    /// The rotation from camera 1 to camera 2 whose turn about the vertical has this cosine and sine.
+    /// The rotation from camera 1 to camera 2 whose turn about the vertical has this cosine and
+    /// sine.
     fn rotation(&self, cos: f64, sin: f64) -> Matrix3<f64> {
         let about_y = Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos);
         self.from_cam2.transpose() * about_y * self.from_cam1

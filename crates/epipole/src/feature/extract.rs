@@ -25,11 +25,12 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 /// The features of an image, of the kind that `options` names, strongest first.
 ///
 /// Corners of Harris are located between pixels; those that cannot be are dropped. The one stage is
-/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection); ORB and Harris, which are quick, report
-/// nothing.
+/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection); ORB and Harris, which are
+/// quick, report nothing.
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel, [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
 /// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: as [`detect_sift`](super::detect_sift), [`detect_orb`], [`good_features_to_track`].
@@ -71,10 +72,12 @@ pub fn detect_features(
     }
 }
 
-/// Share of the time that a search in the size of a photograph takes of one in twice the size as well.
+/// Share of the time that a search in the size of a photograph takes of one in twice the size as
+/// well.
 const OWN_SIZE_SHARE: f32 = 0.2;
 
-/// SIFT, in twice the size where the photograph is small, or where the larger features leave room for more.
+/// SIFT, in twice the size where the photograph is small, or where the larger features leave room
+/// for more.
 fn sift(
     image: &GrayImage32,
     options: &FeatureOptions,

@@ -10,9 +10,9 @@ use crate::{Error, Result};
 ///
 /// * `radius`: pixels, ≥ 1; the window is `2 radius + 1` wide and is cut off at the image's edge
 ///
-/// Of equal maxima within a window the first in reading order stays; one that does not stay, because of
-/// another or because a greater response is near it, suppresses nothing equal.
-/// Positions are whole pixels.
+/// Of equal maxima within a window the first in reading order stays; one that does not stay,
+/// because of another or because a greater response is near it, suppresses nothing equal. Positions
+/// are whole pixels.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite response or threshold, [`Error::OutOfRange`] for a
@@ -120,7 +120,8 @@ mod tests {
         assert!(non_maximum_suppression(&flat, 2, 1.0).unwrap().is_empty());
     }
 
-    /// The second pixel of the plateau is in the window of none but the first, which the peak has suppressed.
+    /// The second pixel of the plateau is in the window of none but the first, which the peak has
+    /// suppressed.
     #[test]
     fn what_is_suppressed_suppresses_nothing_equal() {
         let values = vec![5.0, 0.0, 3.0, 3.0, 0.0, 0.0];

@@ -55,8 +55,9 @@ pub struct FeatureOptions {
     pub contrast_threshold: Option<f32>,
     /// Take every direction to be 0, for cameras held upright. Harris' corners have none. False.
     pub upright: bool,
-    /// SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones, which takes
-    /// seconds, only if they have fewer than `max_features` without; none if 0. 1.5 million.
+    /// SIFT: photographs of up to this many pixels are also searched at twice their size; larger
+    /// ones, which takes seconds, only if they have fewer than `max_features` without; none if 0.
+    /// 1.5 million.
     pub max_upsampled_pixels: u64,
     /// SIFT: assumed blur of the input, pixels, 0 to half of `sigma_px`. 0.5, as Lowe's; 0.3 gives
     /// more matches in sharp photographs, fewer where features are rare.
@@ -69,7 +70,8 @@ pub struct FeatureOptions {
     pub edge_threshold: f32,
     /// SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2.
     pub max_orientations: usize,
-    /// SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
+    /// SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1].
+    /// 0.8.
     pub orientation_peak_ratio: f32,
     /// ORB: levels of the pyramid, 1 to 16. 8.
     pub num_levels: usize,

@@ -271,7 +271,8 @@ dispatched! {
 mod tests {
     use super::*;
 
-    /// The exact integers of scikit-image's skimage/feature/tests/test_corner.py: a square of ones, Sobel, almost no window.
+    /// The exact integers of scikit-image's skimage/feature/tests/test_corner.py: a square of ones,
+    /// Sobel, almost no window.
     #[test]
     fn a_bright_pixel_gives_exact_integers() {
         let mut image = GrayImage32::new(5, 5);

@@ -23,8 +23,8 @@ pub struct PlaneMotion {
 /// (R, −t, −n); points in front of camera 1 have `n · x < 0` in the right one of a pair. Two
 /// remain; a third view, or knowledge of the plane, decides.
 ///
-/// Returns a single element with t = 0 and an arbitrary normal if the three singular values are equal to
-/// within 10⁻⁹: a pure rotation.
+/// Returns a single element with t = 0 and an arbitrary normal if the three singular values are
+/// equal to within 10⁻⁹: a pure rotation.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a singular matrix.

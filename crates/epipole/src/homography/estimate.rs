@@ -16,8 +16,9 @@ use nalgebra::{Matrix3, Point2};
 /// Homographies from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is four matches, no three of them on a line, whose triangles turn the same way in both
-/// images; the error is the distance in image 2; refinement minimizes its truncated square, and the last one
-/// the weighted square of the Sampson error, which treats both images alike. Equal matches count once.
+/// images; the error is the distance in image 2; refinement minimizes its truncated square, and the
+/// last one the weighted square of the Sampson error, which treats both images alike. Equal matches
+/// count once.
 #[derive(Debug, Clone)]
 pub struct HomographyEstimator {
     matches: MatchSet,
@@ -48,8 +49,8 @@ impl HomographyEstimator {
     /// Prepares the estimation.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::Degenerate`] if all pixels of an image lie
-    /// on one line.
+    /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::Degenerate`] if all pixels of
+    /// an image lie on one line.
     pub fn new(matches: MatchSet) -> Result<Self> {
         matches.at_least(4, "a homography from matches")?;
         let [u1, v1, u2, v2] = matches.coordinates();
@@ -159,9 +160,9 @@ impl Estimator for HomographyEstimator {
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
-/// Mirrored images are refused. Two cameras on the same side of a plane see every triangle of it turn the
-/// same way, so a sample with one that turns over holds a wrong match, and is skipped. An image and its
-/// mirror image therefore give [`Error::NoConsensus`]: flip one of them first, or use
+/// Mirrored images are refused. Two cameras on the same side of a plane see every triangle of it
+/// turn the same way, so a sample with one that turns over holds a wrong match, and is skipped. An
+/// image and its mirror image therefore give [`Error::NoConsensus`]: flip one of them first, or use
 /// [`fit_homography`](super::fit_homography), which takes matches as they are.
 ///
 /// # Errors

@@ -18,7 +18,8 @@ struct RayHomographyEstimator {
     seen2: Vec<Observation>,
 }
 
-/// The three rays, each so long that together they are the fourth: `None` if three of the four lie in a plane.
+/// The three rays, each so long that together they are the fourth: `None` if three of the four lie
+/// in a plane.
 fn basis(rays: &[Vector3<f64>; 4]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     let columns = Matrix3::from_columns(&[rays[0], rays[1], rays[2]]);
     let lengths = columns.try_inverse()? * rays[3];
@@ -151,8 +152,9 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     }
 }
 
-/// The homography of rays, `ray2 ∝ H ray1` by a positive factor, that most matches of two calibrated cameras agree on: of
-/// a plane, or of a camera that only turned. H has unit Frobenius norm.
+/// The homography of rays, `ray2 ∝ H ray1` by a positive factor, that most matches of two
+/// calibrated cameras agree on: of a plane, or of a camera that only turned. H has unit Frobenius
+/// norm.
 ///
 /// * `pixels1`, `pixels2`: matching pixels, in the same order; wrong matches are expected
 /// * `cameras`: the two cameras, of any lens
@@ -161,10 +163,11 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 /// Between pinhole cameras it is `K2⁻¹ H K1` of [`estimate_homography`].
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4 different matches that both
-/// lenses see, and as [`estimate_homography`] and [`ransac`].
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4
+/// different matches that both lenses see, and as [`estimate_homography`] and [`ransac`].
 ///
-/// Source: as [`homography_4point`](super::homography_4point), with rays in the place of homogeneous points.
+/// Source: as [`homography_4point`](super::homography_4point), with rays in the place of
+/// homogeneous points.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

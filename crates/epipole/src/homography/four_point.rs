@@ -10,7 +10,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// * `pixels1`, `pixels2`: matching pixels
 ///
-/// Returns a list like every minimal solver: of one, or of none if three of the points of an image lie on one line, or for NaN.
+/// Returns a list like every minimal solver: of one, or of none if three of the points of an image
+/// lie on one line, or for NaN.
 ///
 /// Source: Heckbert 1989, "Fundamentals of texture mapping and image warping", §2.2.3; Semple &
 /// Kneebone 1952.

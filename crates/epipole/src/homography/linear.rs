@@ -15,8 +15,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 matches, [`Error::SizeMismatch`] for lists of different
-/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points but one, or all,
-/// lie on one line.
+/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points but
+/// one, or all, lie on one line.
 ///
 /// Source: Hartley & Zisserman 2004, algorithm 4.2.
 ///

@@ -9,7 +9,8 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 
-/// The homography near `homography` that minimizes `½ Σ ρ(‖x2 − H x1‖²)`, pixels; unit Frobenius norm.
+/// The homography near `homography` that minimizes `½ Σ ρ(‖x2 − H x1‖²)`, pixels; unit Frobenius
+/// norm.
 ///
 /// H moves on the unit sphere of its nine entries, eight parameters.
 ///
@@ -18,8 +19,9 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and as
-/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match counts.
+/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and
+/// as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
+/// counts.
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
 ///

@@ -31,7 +31,8 @@ impl FixedProblem<8> for BothImages<'_> {
     }
 }
 
-/// Refines H in the frame of the coordinates, by least squares of the Sampson error: once repeated, until H stays.
+/// Refines H in the frame of the coordinates, by least squares of the Sampson error: once repeated,
+/// until H stays.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 pub(super) fn refine_by_both_images(

@@ -21,7 +21,8 @@ pub(crate) fn homography_sampson_sq(
     let h = homography;
     let x = h * Vector3::new(pixel1.x, pixel1.y, 1.0);
     let (u2, v2) = (pixel2.x, pixel2.y);
-    // The constraint is x − z (u2, v2) = 0; it is divided by z, so that entries of H of any size do.
+    // The constraint is x − z (u2, v2) = 0; it is divided by z, so that entries of H of any size
+    // do.
     let per_z = 1.0 / x.z;
     let [cu, cv] = [x.x * per_z - u2, x.y * per_z - v2];
     let [a, b, c, d] = [
@@ -124,7 +125,8 @@ mod tests {
         );
     }
 
-    /// The value in exact arithmetic, where H stretches by 10⁸ in one direction and hardly in the other.
+    /// The value in exact arithmetic, where H stretches by 10⁸ in one direction and hardly in the
+    /// other.
     #[test]
     fn no_square_is_negative() {
         #[rustfmt::skip]

@@ -25,7 +25,8 @@ pub(super) fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes)
 
 /// The symmetric matrix `Σ M ⊗ x xᵀ` of 9 × 9, where M and x xᵀ are of 3 × 3.
 ///
-/// * `products`: for each entry of M, `M00 M01 M11 M02 M12 M22`, the sums with `x0x0 x0x1 x0x2 x1x1 x1x2 x2x2`
+/// * `products`: for each entry of M, `M00 M01 M11 M02 M12 M22`, the sums with
+///   `x0x0 x0x1 x0x2 x1x1 x1x2 x2x2`
 pub(super) fn by_entries(products: &[[f64; 6]; 6]) -> SMatrix<f64, 9, 9> {
     const BLOCK: [[usize; 3]; 3] = [[0, 1, 3], [1, 2, 4], [3, 4, 5]];
     const PLACE: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
@@ -82,8 +83,8 @@ dispatched! {
     /// The sums of least squares with respect to the nine entries of H, row by row:
     /// (`JᵀJ`, `Jᵀr`, cost).
     ///
-    /// With `x = (u1, v1, 1)/z`, the residual (du, dv) has the derivatives x by the first row of H, x
-    /// by the second, and `−(u', v') x` by the third, (u', v') being the transferred pixel.
+    /// With `x = (u1, v1, 1)/z`, the residual (du, dv) has the derivatives x by the first row of H,
+    /// x by the second, and `−(u', v') x` by the third, (u', v') being the transferred pixel.
     pub(crate) fn linearize(
         coordinates: &Coordinates,
         homography: &Matrix3<f64>,
@@ -104,8 +105,9 @@ dispatched! {
             }
             let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             for l in 0..LANES {
-                // Lanes beyond the end may hold infinities, which a weight of 0 does not remove. Chosen one by one, as a
-                // branch for all of them would keep lanes from being computed together.
+                // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
+                // Chosen one by one, as a branch for all of them would keep lanes from being
+                // computed together.
                 let counts = weight[l] > 0.0;
                 let du = if counts { du[l] } else { 0.0 };
                 let dv = if counts { dv[l] } else { 0.0 };

@@ -1,7 +1,8 @@
 //! Transfer errors that are measured by the noise of both images, over many matches at once.
 //!
-//! With the derivative A of `x(H x1)` by pixel 1, noise of the same size in both images makes the transfer error scatter as
-//! `S = (1 + A Aᵀ) / 2`: where H changes no length, 1 and A Aᵀ alike make 2.
+//! With the derivative A of `x(H x1)` by pixel 1, noise of the same size in both images makes the
+//! transfer error scatter as `S = (1 + A Aᵀ) / 2`: where H changes no length, 1 and A Aᵀ alike make
+//! 2.
 
 use super::sums::{by_entries, offsets};
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
@@ -73,10 +74,12 @@ dispatched! {
 }
 
 dispatched! {
-    /// The sums of least squares with respect to the nine entries of H, row by row: (`JᵀJ`, `Jᵀr`, cost).
+    /// The sums of least squares with respect to the nine entries of H, row by row: (`JᵀJ`, `Jᵀr`,
+    /// cost).
     ///
-    /// The derivatives are those of [`linearize`](super::sums::linearize): with `x = (u1, v1, 1)/z`, the residuals have
-    /// `E ⊗ xᵀ` with `E = (1 0 −u'; 0 1 −v')`, so that `JᵀJ` is the sum of `EᵀS⁻¹E ⊗ x xᵀ`.
+    /// The derivatives are those of [`linearize`](super::sums::linearize): with
+    /// `x = (u1, v1, 1)/z`, the residuals have `E ⊗ xᵀ` with `E = (1 0 −u'; 0 1 −v')`, so that
+    /// `JᵀJ` is the sum of `EᵀS⁻¹E ⊗ x xᵀ`.
     pub(super) fn linearize(
         coordinates: &Coordinates,
         whitenings: &[Whitening],

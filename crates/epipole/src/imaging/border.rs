@@ -51,8 +51,8 @@ impl Border {
         }
     }
 
-    /// The value at column `u`, row `v`, also where that is outside of the image; 0 in an image without
-    /// pixels, unless the border is constant.
+    /// The value at column `u`, row `v`, also where that is outside of the image; 0 in an image
+    /// without pixels, unless the border is constant.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

@@ -10,8 +10,8 @@ use crate::{Error, Result};
 /// [`separable_filter`](super::separable_filter) takes far fewer. The kernel is not flipped.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a kernel with an even side or none, [`Error::NotFinite`] for weights that are
-/// not finite.
+/// [`Error::OutOfRange`] for a kernel with an even side or none, [`Error::NotFinite`] for weights
+/// that are not finite.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -36,9 +36,9 @@ impl Facts {
 
     /// Focal length in pixels of a `width × height` image.
     ///
-    /// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without it,
-    /// the focal length in millimeters times the resolution of the focal plane. `None` if neither is
-    /// there or they make no sense.
+    /// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without
+    /// it, the focal length in millimeters times the resolution of the focal plane. `None` if
+    /// neither is there or they make no sense.
     ///
     /// Source: CIPA DC-008 (EXIF 2.32), §4.6.5; CIPA DCG-001 for the equivalence of diagonals.
     pub(crate) fn focal_length_px(&self, width: u32, height: u32) -> Option<f64> {
@@ -130,7 +130,8 @@ mod tests {
         Facts::read(data)?.focal_length_px(width, height)
     }
 
-    /// A directory with a place: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a height of 20.5 m.
+    /// A directory with a place: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a height of
+    /// 20.5 m.
     fn block_of_place(letters: [u8; 2], below: u8, degrees: u32) -> Vec<u8> {
         let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
         data.extend(1u16.to_le_bytes());

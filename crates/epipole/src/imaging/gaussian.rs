@@ -88,8 +88,9 @@ pub fn gaussian_blur(image: &GrayImage32, sigma_px: f64, border: Border) -> Resu
     Ok(blurred)
 }
 
-/// The kernels of [`gaussian_derivative`](super::gaussian_derivative): a Gaussian `g` and its derivative
-/// `g′`, both sampled to about 4σ. `g` sums to one, and `g′` gives a ramp of slope 1 the value 1.
+/// The kernels of [`gaussian_derivative`](super::gaussian_derivative): a Gaussian `g` and its
+/// derivative `g′`, both sampled to about 4σ. `g` sums to one, and `g′` gives a ramp of slope 1 the
+/// value 1.
 ///
 /// * `sigma_px`: standard deviation, pixels, in (0, 1000]
 ///

@@ -14,8 +14,8 @@ fn reduced_size((width, height): (u32, u32), max_pixels: u64) -> (u32, u32) {
     (side(width), side(height))
 }
 
-/// The photograph with at most so many pixels: each new one is a mean, weighed by a triangle, of those around
-/// its place. One that is small enough is given back as it is.
+/// The photograph with at most so many pixels: each new one is a mean, weighed by a triangle, of
+/// those around its place. One that is small enough is given back as it is.
 ///
 /// The corner (−½, −½) stays, as in [`resize`](super::resize()):
 /// [`Intrinsics::resized`](crate::camera::Intrinsics::resized) is its camera then.

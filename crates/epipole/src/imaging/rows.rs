@@ -6,13 +6,14 @@ use super::kernel::{Kernel, Row, Symmetry};
 use super::weigh::{LANES, across_any, across_short, along_any, along_short, both};
 use std::ops::Range;
 
-/// Whether short kernels have loops of their own. What a page downloads does without: there the walk that goes both ways
-/// at once has most of the pixels, and these are for its ends.
+/// Whether short kernels have loops of their own. What a page downloads does without: there the
+/// walk that goes both ways at once has most of the pixels, and these are for its ends.
 const SHORT: bool = cfg!(not(target_arch = "wasm32"));
 
 impl Kernel<'_> {
-    /// Correlates a row, `None` being one outside the image: `out[x] = Σ weights[k] row[x + k − r]`.
-    /// `edge` is memory for the ends of the row with their border.
+    /// Correlates a row, `None` being one outside the image:
+    /// `out[x] = Σ weights[k] row[x + k − r]`. `edge` is memory for the ends of the row with their
+    /// border.
     pub(crate) fn along(
         &self,
         row: Option<&[f32]>,

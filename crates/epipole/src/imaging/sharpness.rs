@@ -2,12 +2,12 @@
 
 use super::{GrayImage32, laplacian_pyramid};
 
-/// The mean square of what a photograph shows between one and two steps of its Laplacian pyramid: blur takes
-/// details of a few pixels away. Single pixels do not count, since they are mostly noise, and what a codec makes
-/// of it.
+/// The mean square of what a photograph shows between one and two steps of its Laplacian pyramid:
+/// blur takes details of a few pixels away. Single pixels do not count, since they are mostly
+/// noise, and what a codec makes of it.
 ///
-/// Only photographs of one size that show much the same can be compared, such as frames of a video that follow each
-/// other. 0 for photographs of less than some four pixels a side.
+/// Only photographs of one size that show much the same can be compared, such as frames of a video
+/// that follow each other. 0 for photographs of less than some four pixels a side.
 ///
 /// Source: Burt & Adelson 1983, §3, for the pyramid.
 ///

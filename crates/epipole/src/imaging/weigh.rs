@@ -9,7 +9,8 @@ use std::ops::Range;
 
 /// Pixels whose sums are kept in registers at once.
 pub(super) const LANES: usize = 32;
-/// The same for what is too short for that; a page does not download it for the sake of a few narrow pictures.
+/// The same for what is too short for that; a page does not download it for the sake of a few
+/// narrow pictures.
 const FEW: usize = if cfg!(target_arch = "wasm32") { 1 } else { 8 };
 
 /// Fills `out` by blocks, the last of which may overlap the one before it.

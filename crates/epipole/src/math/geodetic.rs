@@ -19,15 +19,16 @@ const SEMI_MAJOR_M: f64 = 6_378_137.0;
 /// Its flattening.
 const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
-/// East, north and up of a place in a frame of meters whose origin is another one, such as that of the first
-/// photograph. This is how [`PositionPrior`](crate::sfm::PositionPrior) wants it, in meters.
+/// East, north and up of a place in a frame of meters whose origin is another one, such as that of
+/// the first photograph. This is how [`PositionPrior`](crate::sfm::PositionPrior) wants it, in
+/// meters.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a latitude or longitude that is none, [`Error::NotFinite`] for NaN and infinities, both of
-/// the place and of the origin.
+/// [`Error::OutOfRange`] for a latitude or longitude that is none, [`Error::NotFinite`] for NaN and
+/// infinities, both of the place and of the origin.
 ///
-/// Source: Defense Mapping Agency 1991, "Department of Defense World Geodetic System 1984", TR 8350.2 (the ellipsoid, and
-/// coordinates from degrees).
+/// Source: Defense Mapping Agency 1991, "Department of Defense World Geodetic System 1984", TR
+/// 8350.2 (the ellipsoid, and coordinates from degrees).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -86,7 +87,8 @@ impl Geodetic {
         Ok(())
     }
 
-    /// In the frame that turns with the earth, meters: x through Greenwich's meridian on the equator, z through the pole.
+    /// In the frame that turns with the earth, meters: x through Greenwich's meridian on the
+    /// equator, z through the pole.
     fn in_earth_frame(&self) -> Vector3<f64> {
         let (sin_lat, cos_lat) = libm::sincos(self.latitude_deg.to_radians());
         let (sin_lon, cos_lon) = libm::sincos(self.longitude_deg.to_radians());

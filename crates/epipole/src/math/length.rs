@@ -4,9 +4,9 @@ use nalgebra::SVector;
 
 /// The length of a vector, the same bits as nalgebra's `norm`.
 ///
-/// `norm` takes its square root from `libm`, like all that transcendental functions are asked of here, and without
-/// unstable features that computes it bit by bit in WebAssembly. A square root is rounded correctly everywhere, so
-/// the processor's own, one instruction, gives nothing else.
+/// `norm` takes its square root from `libm`, like all that transcendental functions are asked of
+/// here, and without unstable features that computes it bit by bit in WebAssembly. A square root is
+/// rounded correctly everywhere, so the processor's own, one instruction, gives nothing else.
 ///
 /// ```
 /// use epipole::math::length;

@@ -1,6 +1,6 @@
-//! Orders of things, found by one sort for all of them. The standard library's sorts are compiled anew for every type
-//! and every comparison, to 5 or 8 KB each; where few things are sorted, asking the comparison through a pointer costs
-//! nothing that could be measured.
+//! Orders of things, found by one sort for all of them. The standard library's sorts are compiled
+//! anew for every type and every comparison, to 5 or 8 KB each; where few things are sorted, asking
+//! the comparison through a pointer costs nothing that could be measured.
 
 use std::cmp::Ordering;
 
@@ -22,7 +22,8 @@ pub(crate) fn order_by(
     order
 }
 
-/// The value at a rank in ascending order, NaN last. Puts smaller values before it and larger ones behind it.
+/// The value at a rank in ascending order, NaN last. Puts smaller values before it and larger ones
+/// behind it.
 pub(crate) fn at_rank(values: &mut [f64], rank: usize) -> f64 {
     *values.select_nth_unstable_by(rank, f64::total_cmp).1
 }

@@ -10,8 +10,8 @@ pub(crate) const DEGREE: usize = 10;
 #[cfg(test)]
 const ROUNDING: f64 = 1e-14;
 
-/// Newton's method takes six steps or so; halving takes one for each power of two between the ends and
-/// a root near zero.
+/// Newton's method takes six steps or so; halving takes one for each power of two between the ends
+/// and a root near zero.
 const MAX_STEPS: usize = 1200;
 
 /// The last step to a root, relative to it.
@@ -20,7 +20,8 @@ const LAST: f64 = 4.0 * f64::EPSILON;
 /// on an extremum's value the square of that.
 const LAST_OF_DERIVATIVES: f64 = 1e-6;
 
-/// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were written.
+/// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were
+/// written.
 ///
 /// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the
 /// polynomial, the others as inverses of roots of the reversed one, each in the scale of its
@@ -29,8 +30,8 @@ const LAST_OF_DERIVATIVES: f64 = 1e-6;
 /// * `noise`: an extremum whose value is below this share of the sum of its terms' sizes counts as
 ///   a root, as errors of the coefficients may hide a double root there. At least 1e-14
 ///
-/// Source: Yuksel 2022, "High-performance polynomial root finding for graphics", §3 (between roots of the
-/// derivative a polynomial is monotone).
+/// Source: Yuksel 2022, "High-performance polynomial root finding for graphics", §3 (between roots
+/// of the derivative a polynomial is monotone).
 pub(crate) fn real_roots(c: &[f64; DEGREE + 1], noise: f64, roots: &mut [f64; DEGREE]) -> usize {
     let largest = c.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     if largest == 0.0 || !c.iter().all(|x| x.is_finite()) {
@@ -219,8 +220,8 @@ fn monotone_parts(
     part(from, (1.0, at_ends[1]));
 }
 
-/// The root between two places where the signs differ: Newton's method, with halving where it would leave
-/// the interval or is slow.
+/// The root between two places where the signs differ: Newton's method, with halving where it would
+/// leave the interval or is slow.
 ///
 /// * `derivative`: of the polynomial `c`
 /// * `last_of_newton`: a step of Newton's method that is this share of the root is the last
@@ -354,9 +355,9 @@ mod tests {
         assert!(lost == 0, "{lost} of {judged}");
     }
 
-    /// The first, of whole numbers with a root at an end of a part, is that of COLMAP's src/colmap/math/polynomial_test.cc
-    /// (FindPolynomialRootsCompanionMatrixZeroSolution), 10 x⁴ − 5 x³ + 3 x² − 3 x, times (x² + 1)³; in the other one
-    /// root is far away.
+    /// The first, of whole numbers with a root at an end of a part, is that of COLMAP's
+    /// src/colmap/math/polynomial_test.cc (FindPolynomialRootsCompanionMatrixZeroSolution), 10 x⁴ −
+    /// 5 x³ + 3 x² − 3 x, times (x² + 1)³; in the other one root is far away.
     #[test]
     fn roots_that_were_lost() {
         let mut roots = [0.0; DEGREE];

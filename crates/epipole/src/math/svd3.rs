@@ -94,8 +94,8 @@ pub(crate) fn perpendicular(direction: &Vector3<f64>) -> Vector3<f64> {
     direction.cross(&axis).normalize()
 }
 
-/// The orthogonal matrix nearest to a matrix: of a product of many rotations, which drifts from orthogonality, the
-/// rotation that was meant.
+/// The orthogonal matrix nearest to a matrix: of a product of many rotations, which drifts from
+/// orthogonality, the rotation that was meant.
 pub(crate) fn nearest_orthogonal(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     let svd = svd3(matrix);
     svd.u * svd.v.transpose()

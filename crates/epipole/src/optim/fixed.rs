@@ -101,7 +101,8 @@ impl<const P: usize> NormalEquations<P> {
         );
     }
 
-    /// Adds sums over the nine entries of a matrix, which moves along the columns of D: `DᵀHD` and `Dᵀg`.
+    /// Adds sums over the nine entries of a matrix, which moves along the columns of D: `DᵀHD` and
+    /// `Dᵀg`.
     pub(crate) fn add_along(
         &mut self,
         directions: &SMatrix<f64, 9, P>,
@@ -117,8 +118,8 @@ impl<const P: usize> NormalEquations<P> {
     }
 }
 
-/// Adds `DᵀHD`, everything column by column. As products of matrices of fixed size it would be compiled for each number
-/// of directions, with all loops rolled out: 13 KB for eight of them.
+/// Adds `DᵀHD`, everything column by column. As products of matrices of fixed size it would be
+/// compiled for each number of directions, with all loops rolled out: 13 KB for eight of them.
 fn add_products(sums: &mut [f64], directions: &[[f64; 9]], columns: &[[f64; 9]]) {
     for (sums, direction) in sums.chunks_exact_mut(directions.len()).zip(directions) {
         // Adding to −0 changes nothing.

@@ -68,9 +68,10 @@ pub struct LmOptions {
     pub cost_tolerance: f64,
     /// The first λ, relative to the diagonal of `JᵀJ`.
     pub initial_damping: f64,
-    /// Maximum number of steps in a row that raise the cost before the loop returns to the best place and
-    /// tries smaller ones. 0, a cost that never rises, suits most problems; on pose graphs the
-    /// full step first bends the trajectory and only the next one stretches it into place.
+    /// Maximum number of steps in a row that raise the cost before the loop returns to the best
+    /// place and tries smaller ones. 0, a cost that never rises, suits most problems; on pose
+    /// graphs the full step first bends the trajectory and only the next one stretches it into
+    /// place.
     pub patience: usize,
 }
 
@@ -169,8 +170,8 @@ const MIN_DAMPING: f64 = 1e-20;
 ///   [`Stage::Refinement`]
 ///
 /// # Errors
-/// [`Error::NotFinite`] if the cost or gradient at the start is not finite, [`Error::Canceled`] if the monitor
-/// cancels; `parameters` are then the best found so far.
+/// [`Error::NotFinite`] if the cost or gradient at the start is not finite, [`Error::Canceled`] if
+/// the monitor cancels; `parameters` are then the best found so far.
 ///
 /// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
 /// in Marquardt's method", §3; steps that may raise the cost are the

@@ -95,8 +95,8 @@ impl RobustLoss {
     /// Refuses a width that makes no loss. Everything that takes a loss asks this first.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless the width, if there is one, is greater than 0 and finite. So must
-    /// be its square, which the loss computes with.
+    /// [`Error::OutOfRange`] unless the width, if there is one, is greater than 0 and finite. So
+    /// must be its square, which the loss computes with.
     ///
     /// ```
     /// use epipole::optim::RobustLoss;

@@ -5,8 +5,8 @@ use nalgebra::{SMatrix, SVector};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// In which order vertices are eliminated, and which blocks that fills. It does not depend on the blocks' size, so it is
-/// compiled once.
+/// In which order vertices are eliminated, and which blocks that fills. It does not depend on the
+/// blocks' size, so it is compiled once.
 struct Pattern {
     /// Place in the order of elimination of each vertex.
     place: Vec<usize>,

@@ -148,7 +148,8 @@ fn check(sample_size: usize, confidence: f64) -> Result<()> {
 mod tests {
     use super::*;
 
-    /// Hartley & Zisserman 2004, Table 4.3, as in skimage/measure/tests/test_fit.py of scikit-image (dynamic_max_trials).
+    /// Hartley & Zisserman 2004, Table 4.3, as in skimage/measure/tests/test_fit.py of scikit-image
+    /// (dynamic_max_trials).
     #[test]
     fn published_counts_with_replacement() {
         for (sample_size, counts) in [(2, [2, 3, 7, 17]), (8, [5, 9, 78, 1177])] {

@@ -15,8 +15,8 @@ const ROUNDS: usize = 4;
 /// Thresholds within this ratio of each other are the same.
 const SAME: f64 = 1.15;
 
-/// No threshold is smaller, pixels: nothing is seen more exactly in an image, and data that fit exactly
-/// would ask for 0.
+/// No threshold is smaller, pixels: nothing is seen more exactly in an image, and data that fit
+/// exactly would ask for 0.
 const LEAST_PX: f64 = 0.05;
 
 /// Nor is one so large that more than this share of wrong data would be within it.
@@ -47,9 +47,9 @@ struct Search<'a> {
 
 /// [`ransac`](super::ransac) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
 ///
-/// A run at some threshold gives a model, the errors of all data from it tell the noise, and the noise another
-/// threshold, until both agree. Of what several starts lead to, the model is kept that is least likely by
-/// chance.
+/// A run at some threshold gives a model, the errors of all data from it tell the noise, and the
+/// noise another threshold, until both agree. Of what several starts lead to, the model is kept
+/// that is least likely by chance.
 pub(super) fn ransac_by_noise<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,

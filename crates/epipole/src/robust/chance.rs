@@ -2,7 +2,8 @@
 
 use crate::math::order::at_rank;
 
-/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not know.
+/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not
+/// know.
 pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 
 /// The expected number of models with at least this support among unrelated data: a bound on the
@@ -18,9 +19,9 @@ pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 /// above 0, the support is not significant; at −10 it would come about once in 10¹⁰ data sets of
 /// this kind.
 ///
-/// Source: Moisan & Stival 2004, "A probabilistic criterion to detect rigid point matches between two
-/// images and estimate the fundamental matrix" (the number of false alarms); Hoeffding 1963 (the
-/// bound).
+/// Source: Moisan & Stival 2004, "A probabilistic criterion to detect rigid point matches between
+/// two images and estimate the fundamental matrix" (the number of false alarms); Hoeffding 1963
+/// (the bound).
 ///
 /// ```
 /// use epipole::robust::log10_false_alarms;

@@ -99,7 +99,8 @@ impl<'a> Data<'a> {
         })
     }
 
-    /// Support of a model, given its squared errors in px². Stops once the cost exceeds `cost_limit`.
+    /// Support of a model, given its squared errors in px². Stops once the cost exceeds
+    /// `cost_limit`.
     pub(crate) fn support(
         &self,
         error_sq: impl Fn(usize) -> f64,

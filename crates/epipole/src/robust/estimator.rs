@@ -29,11 +29,11 @@ pub enum Evidence<'a> {
 
 /// A problem that [`Ransac`](super::Ransac) can solve.
 ///
-/// Data are addressed by index, and are all different; errors are in pixels. An estimator keeps the buffers it needs,
-/// so that no call in the loop allocates.
+/// Data are addressed by index, and are all different; errors are in pixels. An estimator keeps the
+/// buffers it needs, so that no call in the loop allocates.
 ///
-/// Required are the description, a minimal solver, the error and a refinement. `support` and `inliers` may be
-/// overridden for speed, `polish` and `alternative` for accuracy.
+/// Required are the description, a minimal solver, the error and a refinement. `support` and
+/// `inliers` may be overridden for speed, `polish` and `alternative` for accuracy.
 ///
 /// ```
 /// use epipole::robust::{Data, Estimator, Problem, RansacOptions, ransac};
@@ -106,7 +106,8 @@ pub trait Estimator {
         None
     }
 
-    /// Degeneracy test: a model to try in place of one whose sample or inliers are degenerate. May allocate at the end.
+    /// Degeneracy test: a model to try in place of one whose sample or inliers are degenerate. May
+    /// allocate at the end.
     ///
     /// The one for a sample is taken if it is better, the one at the end as it is.
     fn alternative(
@@ -135,7 +136,8 @@ pub trait Estimator {
     }
 }
 
-/// A borrowed estimator is one, too: [`ransac`](super::ransac) compiles its loop once for each kind of model.
+/// A borrowed estimator is one, too: [`ransac`](super::ransac) compiles its loop once for each kind
+/// of model.
 impl<E: Estimator + ?Sized> Estimator for &mut E {
     type Model = E::Model;
 
@@ -213,7 +215,8 @@ mod tests {
 
     #[test]
     fn matches_bring_their_votes_repetitions_and_chances() {
-        // Twenty matches move by (7, 2); thirty more lead to one pixel, and one is given forty times.
+        // Twenty matches move by (7, 2); thirty more lead to one pixel, and one is given forty
+        // times.
         let at = |i: usize| Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
         let shift = Vector2::new(7.0, 2.0);
         let mut pixels1: Vec<_> = (0..50).map(at).collect();

@@ -54,20 +54,21 @@ pub struct LeastMedian<M> {
     pub num_inliers: usize,
 }
 
-/// The model with the smallest median error, of those that samples give, then fitted to the data near it.
+/// The model with the smallest median error, of those that samples give, then fitted to the data
+/// near it.
 ///
-/// It needs no threshold: the median itself says how large the noise is, `σ = 1.4826 (1 + 5/(n − s)) median`,
-/// and what is within 2.5 σ is an inlier. In return it breaks down once half of the data are outliers, for
-/// then the middle error belongs to one of them.
+/// It needs no threshold: the median itself says how large the noise is,
+/// `σ = 1.4826 (1 + 5/(n − s)) median`, and what is within 2.5 σ is an inlier. In return it breaks
+/// down once half of the data are outliers, for then the middle error belongs to one of them.
 ///
 /// * `estimator`: as for [`ransac`](super::ransac)
 ///
 /// # Errors
-/// [`Error::TooFew`] unless there are more data than a sample has, [`Error::OutOfRange`] for no samples,
-/// [`Error::Degenerate`] if no sample gave a model.
+/// [`Error::TooFew`] unless there are more data than a sample has, [`Error::OutOfRange`] for no
+/// samples, [`Error::Degenerate`] if no sample gave a model.
 ///
-/// Source: Rousseeuw 1984, "Least median of squares regression"; Rousseeuw & Leroy 1987, "Robust regression
-/// and outlier detection", ch. 5 (the scale).
+/// Source: Rousseeuw 1984, "Least median of squares regression"; Rousseeuw & Leroy 1987, "Robust
+/// regression and outlier detection", ch. 5 (the scale).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -151,7 +152,8 @@ pub fn least_median<E: Estimator>(
     })
 }
 
-/// The error in the middle, a little beyond it so that the data of the sample, whose error is 0, do not count.
+/// The error in the middle, a little beyond it so that the data of the sample, whose error is 0, do
+/// not count.
 fn middle(errors_sq: &mut [f64], sample_size: usize) -> f64 {
     let rank = (errors_sq.len() + sample_size)
         .div_ceil(2)

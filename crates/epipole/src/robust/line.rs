@@ -278,7 +278,8 @@ mod tests {
         ));
     }
 
-    /// openMVG's src/openMVG/robust_estimation/robust_estimator_Ransac_test.cpp: five points on a line and one off it.
+    /// openMVG's src/openMVG/robust_estimation/robust_estimator_Ransac_test.cpp: five points on a
+    /// line and one off it.
     #[test]
     fn one_outlier_is_found_exactly() {
         let cloud = points(&[

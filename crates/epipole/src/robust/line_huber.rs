@@ -9,20 +9,21 @@ use nalgebra::{Point2, SVector, Vector2};
 /// The line that minimizes `½ Σ ρ(e²)` over the points, where e is the distance in pixels and ρ is
 /// [`RobustLoss::Huber`].
 ///
-/// The minimum is the one that Levenberg–Marquardt reaches from the least-squares line. A point farther off
-/// than `width_px` pulls with a constant force, so that one point can no longer take the line anywhere; many
-/// that agree still can, and so can one that is far along the line, where its lever is long.
+/// The minimum is the one that Levenberg–Marquardt reaches from the least-squares line. A point
+/// farther off than `width_px` pulls with a constant force, so that one point can no longer take
+/// the line anywhere; many that agree still can, and so can one that is far along the line, where
+/// its lever is long.
 ///
 /// * `points`: at least two, pixels
-/// * `width_px`: distances up to this one count as in least squares; 1.345 times the standard deviation of
-///   the noise loses 5 % of its efficiency
+/// * `width_px`: distances up to this one count as in least squares; 1.345 times the standard
+///   deviation of the noise loses 5 % of its efficiency
 ///
 /// # Errors
-/// As [`fit_line_total_least_squares`], and [`Error::OutOfRange`](crate::Error::OutOfRange) for a width that
-/// [`RobustLoss::check`] refuses.
+/// As [`fit_line_total_least_squares`], and [`Error::OutOfRange`](crate::Error::OutOfRange) for a
+/// width that [`RobustLoss::check`] refuses.
 ///
-/// Source: Huber 1964, "Robust estimation of a location parameter"; Zhang 1997, "Parameter estimation
-/// techniques: a tutorial with application to conic fitting", §9.
+/// Source: Huber 1964, "Robust estimation of a location parameter"; Zhang 1997, "Parameter
+/// estimation techniques: a tutorial with application to conic fitting", §9.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -58,8 +59,8 @@ pub fn fit_line_huber(points: &[Point2<f64>], width_px: f64) -> Result<Line2> {
 
 struct HuberLine<'a> {
     points: &'a [Point2<f64>],
-    /// The line turns about the place of it that is nearest to here, so that turning and shifting hardly
-    /// depend on each other.
+    /// The line turns about the place of it that is nearest to here, so that turning and shifting
+    /// hardly depend on each other.
     middle: Vector2<f64>,
     loss: RobustLoss,
 }

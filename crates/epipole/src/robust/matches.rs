@@ -17,8 +17,8 @@ pub struct MatchSet {
     crowds: Option<Crowds>,
 }
 
-/// Votes of all the matches that meet in a pixel. Two, and not one: pairs are common, do no harm, and
-/// half a vote for the right one of them would.
+/// Votes of all the matches that meet in a pixel. Two, and not one: pairs are common, do no harm,
+/// and half a vote for the right one of them would.
 const VOTES_OF_PIXEL: f64 = 2.0;
 
 /// Which matches meet in one pixel of an image.
@@ -30,8 +30,8 @@ struct Crowds {
     votes: Vec<f64>,
 }
 
-/// Matches with coordinates farther from 0, pixels, are left out of robust estimation: their fourth power no longer fits
-/// the arithmetic of the solvers.
+/// Matches with coordinates farther from 0, pixels, are left out of robust estimation: their fourth
+/// power no longer fits the arithmetic of the solvers.
 ///
 /// ```
 /// assert_eq!(epipole::robust::FARTHEST_PX, 1e9);
@@ -43,8 +43,8 @@ impl MatchSet {
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
-    /// A match with a coordinate that is infinite or beyond 10⁹ pixels, whose fourth power no longer fits the
-    /// arithmetic of the solvers, is wrong in any case and left out; see
+    /// A match with a coordinate that is infinite or beyond 10⁹ pixels, whose fourth power no
+    /// longer fits the arithmetic of the solvers, is wrong in any case and left out; see
     /// [`RansacReport::num_left_out`](super::RansacReport::num_left_out).
     ///
     /// # Errors
@@ -108,8 +108,8 @@ impl MatchSet {
     /// As [`new`](Self::new), for who counts on every match.
     ///
     /// # Errors
-    /// As [`new`](Self::new); [`Error::NotFinite`] for infinities and [`Error::OutOfRange`] for coordinates
-    /// beyond 10⁹ pixels.
+    /// As [`new`](Self::new); [`Error::NotFinite`] for infinities and [`Error::OutOfRange`] for
+    /// coordinates beyond 10⁹ pixels.
     pub(crate) fn of_all(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Result<Self> {
         for value in pixels1.iter().chain(pixels2).flat_map(|p| [p.x, p.y]) {
             if value.is_infinite() {
@@ -180,9 +180,9 @@ impl MatchSet {
 
     /// Weight of each match where models are scored; `None` if all are equal.
     ///
-    /// At most one of the matches that meet in a pixel can be right, so together they have few votes.
-    /// Counted one by one, those of a pixel that half of all matches lead to would outvote everything:
-    /// each F with its epipole there fits them all.
+    /// At most one of the matches that meet in a pixel can be right, so together they have few
+    /// votes. Counted one by one, those of a pixel that half of all matches lead to would outvote
+    /// everything: each F with its epipole there fits them all.
     pub(crate) fn votes(&self) -> Option<&[f64]> {
         self.crowds.as_ref().map(|crowds| &*crowds.votes)
     }

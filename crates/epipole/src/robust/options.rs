@@ -14,8 +14,8 @@ pub enum SamplerKind {
     /// Every subset of the data is equally likely.
     Uniform,
     /// Good data first: the data are ordered by quality, best first, and samples come from a
-    /// growing share of the front. The run ends once a front of the data has more inliers than chance
-    /// would give and was sampled often enough.
+    /// growing share of the front. The run ends once a front of the data has more inliers than
+    /// chance would give and was sampled often enough.
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC".
     Prosac,
@@ -68,8 +68,8 @@ pub enum ThresholdKind {
     /// guess; [`RansacReport::max_error_px`] is the estimated threshold, at least a twentieth of a
     /// pixel. The loop runs some five times, with [`RansacOptions::max_iterations`] for each run.
     ///
-    /// This is for [`ransac`](super::ransac) and all that call it; [`Ransac`](super::Ransac) by itself is
-    /// one run, with the threshold given.
+    /// This is for [`ransac`](super::ransac) and all that call it; [`Ransac`](super::Ransac) by
+    /// itself is one run, with the threshold given.
     ///
     /// Source: Edstedt 2025, "Less biased noise scale estimation for threshold-robust RANSAC".
     Noise,
@@ -91,8 +91,8 @@ pub enum ThresholdKind {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct RansacOptions {
-    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of one's
-    /// own, the unit of its errors. 1.
+    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an
+    /// estimator of one's own, the unit of its errors. 1.
     pub max_error_px: f64,
     /// Source of the threshold. Given.
     pub threshold: ThresholdKind,
@@ -207,8 +207,9 @@ pub enum StopReason {
 /// Result of [`Ransac`](super::Ransac).
 #[derive(Debug, Clone, PartialEq)]
 pub struct RansacReport<M> {
-    /// The best model. With [`ScoreKind::Msac`] its last refinement weighs errors by how large those of
-    /// the inliers are, so that it may have up to one in twenty inliers fewer than the best one seen.
+    /// The best model. With [`ScoreKind::Msac`] its last refinement weighs errors by how large
+    /// those of the inliers are, so that it may have up to one in twenty inliers fewer than the
+    /// best one seen.
     pub model: M,
     /// For each datum given, whether it is within the threshold of `model`.
     pub inliers: Vec<bool>,
@@ -217,7 +218,8 @@ pub struct RansacReport<M> {
     /// The same, with equal data counted once, and for F, E and H also matches that meet in a pixel
     /// of an image. This number, not `num_inliers`, measures the support of the model.
     pub num_unique_inliers: usize,
-    /// Data that were left out, and so are no inliers: an infinite coordinate, or one beyond 10⁹ pixels.
+    /// Data that were left out, and so are no inliers: an infinite coordinate, or one beyond 10⁹
+    /// pixels.
     pub num_left_out: usize,
     /// Samples drawn.
     pub iterations: usize,
@@ -238,12 +240,13 @@ pub struct RansacReport<M> {
     pub stop: StopReason,
 }
 
-/// Support that unrelated data would show less often than this, as a decimal logarithm, is no chance.
+/// Support that unrelated data would show less often than this, as a decimal logarithm, is no
+/// chance.
 pub(super) const HARDLY_CHANCE: f64 = -2.0;
 
 impl<M> RansacReport<M> {
-    /// Whether data that have nothing to do with one another might have shown as much support: then the
-    /// model means nothing. False if the estimator does not know the chance of a datum.
+    /// Whether data that have nothing to do with one another might have shown as much support: then
+    /// the model means nothing. False if the estimator does not know the chance of a datum.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

@@ -12,8 +12,8 @@ use crate::progress::Stage;
 
 /// Runs [`Ransac`] to its end.
 ///
-/// The stage is [`Stage::RobustEstimation`]. [`Ransac::step`] shows every sample, and can end a run with the best model
-/// so far.
+/// The stage is [`Stage::RobustEstimation`]. [`Ransac::step`] shows every sample, and can end a run
+/// with the best model so far.
 ///
 /// # Errors
 /// As [`Ransac::new`] and [`Ransac::finish`]; [`Error::Canceled`] if the monitor cancels.
@@ -40,7 +40,8 @@ pub fn ransac<E: Estimator>(
     run(&mut estimator, options, monitor)
 }
 
-/// Body of [`ransac`], compiled once for each kind of model: a copy of the loop for every estimator is 10 KB.
+/// Body of [`ransac`], compiled once for each kind of model: a copy of the loop for every estimator
+/// is 10 KB.
 fn run<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,

@@ -54,9 +54,9 @@ impl PlaneSimilarity {
 /// `a + i b = Σ conj(z1) z2 / Σ |z1|²`.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two matches, [`Error::Degenerate`] if all points of image 1
-/// are equal, [`Error::OutOfRange`] for coordinates beyond 10⁹ pixels, [`Error::NotFinite`] for infinities,
-/// and as [`MatchSet::new`].
+/// [`Error::TooFew`] for fewer than two matches, [`Error::Degenerate`] if all points of image 1 are
+/// equal, [`Error::OutOfRange`] for coordinates beyond 10⁹ pixels, [`Error::NotFinite`] for
+/// infinities, and as [`MatchSet::new`].
 ///
 /// Source: Umeyama 1991, in two dimensions, without reflection.
 ///
@@ -117,8 +117,8 @@ fn fit(
 
 /// Similarities from matches of which some are wrong, for [`Ransac`](super::Ransac).
 ///
-/// A sample is two matches; the error is the distance in image 2. Equal matches count once, and those that
-/// meet in a pixel have few votes together.
+/// A sample is two matches; the error is the distance in image 2. Equal matches count once, and
+/// those that meet in a pixel have few votes together.
 #[derive(Debug, Clone)]
 pub struct SimilarityEstimator {
     matches: MatchSet,
@@ -207,7 +207,8 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// As in COLMAP's src/colmap/optim/ransac_test.cc, in the plane: 1000 matches, the first 400 of them wrong.
+    /// As in COLMAP's src/colmap/optim/ransac_test.cc, in the plane: 1000 matches, the first 400 of
+    /// them wrong.
     fn problem(seed: u64) -> (PlaneSimilarity, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let mut random = Random::new(seed);
         let truth = PlaneSimilarity {

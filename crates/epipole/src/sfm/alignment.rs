@@ -84,9 +84,9 @@ pub fn align_points(
         Ok(spread)
     };
     let (from_spread, to_spread) = (spread(from, &from_mean)?, spread(to, &to_mean)?);
-    // Along the axes of each set. Of points near a line the covariance has singular values of very different size, and
-    // the rotation about that line is in the vectors of the small ones: in any other frame, rounding of the long
-    // coordinates would drown them.
+    // Along the axes of each set. Of points near a line the covariance has singular values of very
+    // different size, and the rotation about that line is in the vectors of the small ones: in any
+    // other frame, rounding of the long coordinates would drown them.
     let (from_axes, to_axes) = (from_spread.u, to_spread.u);
     let mut covariance = Matrix3::zeros();
     for (a, b) in from.iter().zip(to) {

@@ -8,7 +8,8 @@ use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::Result;
 use crate::progress::{Monitor, Part, Stage, report};
 
-/// Share of the work of [`reconstruct`] after which all pairs are tested, judged by some dozens of photographs.
+/// Share of the work of [`reconstruct`] after which all pairs are tested, judged by some dozens of
+/// photographs.
 const VERIFIED: f32 = 0.25;
 
 /// Rounds of refining everything at the end of a component.
@@ -63,7 +64,8 @@ pub struct SfmResult {
     pub unregistered: Vec<usize>,
     /// Steps taken, in order.
     pub steps: Vec<SfmStep>,
-    /// Whether every image was tried; false for [`IncrementalReconstruction::finish`] before the last step.
+    /// Whether every image was tried; false for [`IncrementalReconstruction::finish`] before the
+    /// last step.
     pub is_complete: bool,
 }
 
@@ -78,18 +80,18 @@ pub struct SfmResult {
 /// A component with three known [`SfmImage::position`]s that are not on one line is moved there in
 /// the end, and refined once more with these positions; some may be wrong.
 ///
-/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`] and
-///   [`Stage::BundleAdjustment`]
+/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`]
+///   and [`Stage::BundleAdjustment`]
 ///
 /// The result can be empty: then no pair of photographs had enough matches in common.
 /// [`IncrementalReconstruction`] does the same step by step, and keeps the partial result when it
 /// is canceled.
 ///
 /// # Errors
-/// [`TooFew`](crate::Error::TooFew) for fewer than two photographs, [`SizeMismatch`](crate::Error::SizeMismatch)
-/// unless there is one set of intrinsics or one a photograph,
-/// [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with invalid
-/// indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, in a lens, too,
+/// [`TooFew`](crate::Error::TooFew) for fewer than two photographs,
+/// [`SizeMismatch`](crate::Error::SizeMismatch) unless there is one set of intrinsics or one a
+/// photograph, [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with
+/// invalid indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, in a lens, too,
 /// [`Canceled`](crate::Error::Canceled).
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited".
@@ -161,7 +163,8 @@ enum Phase {
 impl IncrementalReconstruction {
     /// Tests the pairs of `input`.
     ///
-    /// * `monitor`: the one stage is [`Stage::PairVerification`]; shares are of the work with all steps
+    /// * `monitor`: the one stage is [`Stage::PairVerification`]; shares are of the work with all
+    ///   steps
     ///
     /// # Errors
     /// As [`reconstruct`].

@@ -56,21 +56,24 @@ pub struct Localization {
 impl Reconstruction {
     /// Localizes a photo that is not part of the reconstruction.
     ///
-    /// Keypoints of the photo are matched with those of each registered image, and stand for the points that these saw.
+    /// Keypoints of the photo are matched with those of each registered image, and stand for the
+    /// points that these saw.
     ///
     /// * `features`: of all images of the reconstruction, in their order
     /// * `photo`: features of the new photo, of the same kind
     /// * `camera`: of the new photo, of any lens
-    /// * `monitor`: the stages are [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching) and
+    /// * `monitor`: the stages are
+    ///   [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching) and
     ///   [`Stage::RobustEstimation`](crate::progress::Stage::RobustEstimation)
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for features of another number of images and for keypoints without descriptors, [`Error::OutOfRange`] for a track with a
-    /// keypoint that is not there, [`Error::TooFew`] where fewer than [`LocalizeOptions::min_num_inliers`] points are
-    /// matched or agree with a pose, and as [`match_any_descriptors`] and [`estimate_absolute_pose`].
+    /// [`Error::SizeMismatch`] for features of another number of images and for keypoints without
+    /// descriptors, [`Error::OutOfRange`] for a track with a keypoint that is not there,
+    /// [`Error::TooFew`] where fewer than [`LocalizeOptions::min_num_inliers`] points are matched
+    /// or agree with a pose, and as [`match_any_descriptors`] and [`estimate_absolute_pose`].
     ///
-    /// Source: Sattler, Leibe & Kobbelt 2011, "Fast image-based localization using direct 2D-to-3D matching" (the
-    /// problem); Schönberger & Frahm 2016, §4.2.
+    /// Source: Sattler, Leibe & Kobbelt 2011, "Fast image-based localization using direct 2D-to-3D
+    /// matching" (the problem); Schönberger & Frahm 2016, §4.2.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {

@@ -1,13 +1,14 @@
 //! Structure from motion: from many photographs to cameras and points.
 //!
-//! * [`adjust_bundle`] refines cameras, their lenses and points together, with known positions such as those of satellite
-//!   navigation ([`local_from_geodetic`](crate::math::local_from_geodetic)) if there are any; [`BalProblem`] is the published text
-//!   format for such problems, and [`adjust_bal`] solves it.
+//! * [`adjust_bundle`] refines cameras, their lenses and points together, with known positions such
+//!   as those of satellite navigation ([`local_from_geodetic`](crate::math::local_from_geodetic))
+//!   if there are any; [`BalProblem`] is the published text format for such problems, and
+//!   [`adjust_bal`] solves it.
 //! * [`align_points`] brings two reconstructions into one frame;
 //!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
 //! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
-//!   the path of a camera whose scale drifts. [`PoseGraph::initialize`] needs no start, and [`average_rotations`] is its
-//!   first step by itself.
+//!   the path of a camera whose scale drifts. [`PoseGraph::initialize`] needs no start, and
+//!   [`average_rotations`] is its first step by itself.
 //! * [`two_view_reconstruction`] leads from the matches of two views and the motion between them to
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from

@@ -31,8 +31,8 @@ const VERIFIED: f32 = 0.5;
 ///
 /// * `input`: frames in order of time, and matches between frames that are near in time; each
 ///   frame with several before it, so that tracks survive a bad pair
-/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`] and
-///   [`Stage::BundleAdjustment`]
+/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`]
+///   and [`Stage::BundleAdjustment`]
 ///
 /// The start comes from the essential matrix of the first two frames that see their points under
 /// a sufficient angle; each further frame is placed by P3P. Frames that show something new become
@@ -116,8 +116,8 @@ pub struct Odometry {
 impl Odometry {
     /// Tests the pairs and finds the first frames of [`monocular_odometry`].
     ///
-    /// * `monitor`: the stages are [`Stage::PairVerification`] and [`Stage::BundleAdjustment`]; shares are of the
-    ///   work with all steps
+    /// * `monitor`: the stages are [`Stage::PairVerification`] and [`Stage::BundleAdjustment`];
+    ///   shares are of the work with all steps
     ///
     /// # Errors
     /// As [`monocular_odometry`].
@@ -313,8 +313,8 @@ impl Odometry {
         cost
     }
 
-    /// Refines everything at once, again for as long as the focal length is on its way: with a better one other
-    /// matches fit.
+    /// Refines everything at once, again for as long as the focal length is on its way: with a
+    /// better one other matches fit.
     fn adjust_all(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
         let builder = &mut self.builder;
         let before = builder.intrinsics.clone();

@@ -19,7 +19,8 @@ pub struct OdometryOptions {
     pub sfm: SfmOptions,
     /// Keyframes that are refined together; older ones stay. 8.
     pub window: usize,
-    /// Refine everything once more at the end, and again while a focal length that is refined has not arrived. True.
+    /// Refine everything once more at the end, and again while a focal length that is refined has
+    /// not arrived. True.
     pub final_adjustment: bool,
 }
 

@@ -17,7 +17,8 @@ pub struct OdometryResult {
     pub lost: Vec<usize>,
     /// The cameras and points; of a stereo rig the left cameras, then the right ones.
     pub reconstruction: Reconstruction,
-    /// Whether every frame was tried; false for [`Odometry::finish`](super::Odometry::finish) before the last step.
+    /// Whether every frame was tried; false for [`Odometry::finish`](super::Odometry::finish)
+    /// before the last step.
     pub is_complete: bool,
 }
 

@@ -48,14 +48,17 @@ pub struct SfmOptions {
     pub min_track_length: usize,
     /// Refine one factor for the focal lengths of each lens. False.
     pub refine_focal: bool,
-    /// Refine where the principal points are, one shift for each lens. False: turning a camera looks much the same.
+    /// Refine where the principal points are, one shift for each lens. False: turning a camera
+    /// looks much the same.
     pub refine_principal_point: bool,
     /// Refine the radial terms of each lens, as
-    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them. False.
+    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them.
+    /// False.
     pub refine_distortion: bool,
     /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
-    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones bend nothing. None.
+    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones
+    /// bend nothing. None.
     pub lenses: Vec<Lens>,
     /// Equal seeds give equal results. 0.
     pub seed: u64,

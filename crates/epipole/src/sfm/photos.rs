@@ -45,8 +45,8 @@ pub struct PhotoOptions {
     /// Number of following photographs to match each one with; 0 for all. For frames in order of
     /// time.
     pub neighbors: usize,
-    /// Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than in the
-    /// order of the first photograph's keypoints. False.
+    /// Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than
+    /// in the order of the first photograph's keypoints. False.
     pub best_first: bool,
 }
 
@@ -189,7 +189,8 @@ pub fn match_pair(
 /// * `monitor`: the stages are [`Stage::FeatureDetection`] and [`Stage::FeatureMatching`]
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two photographs, and as [`photo_features`] and [`match_features`].
+/// [`Error::TooFew`] for fewer than two photographs, and as [`photo_features`] and
+/// [`match_features`].
 ///
 /// Source: as these.
 pub fn match_photos(
@@ -215,7 +216,8 @@ pub fn match_photos(
     Ok((features.into_iter().map(|f| f.image).collect(), pairs))
 }
 
-/// Share of the work of [`match_photos`] after which all features are found, judged by some dozens of photographs.
+/// Share of the work of [`match_photos`] after which all features are found, judged by some dozens
+/// of photographs.
 const DETECTED: f32 = 0.5;
 /// Share of the work of [`reconstruct_photos`] after which all are matched.
 const MATCHED: f32 = 0.6;

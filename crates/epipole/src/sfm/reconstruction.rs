@@ -18,8 +18,8 @@ pub struct SfmImage {
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.
     pub colors: Vec<[u8; 3]>,
-    /// Its lens, of [`SfmOptions::lenses`](super::SfmOptions::lenses): photographs with the same number share what is
-    /// refined of it. 0.
+    /// Its lens, of [`SfmOptions::lenses`](super::SfmOptions::lenses): photographs with the same
+    /// number share what is refined of it. 0.
     pub lens: usize,
     /// Position of the camera, if known.
     pub position: Option<PositionPrior>,
@@ -38,8 +38,8 @@ pub struct ScenePoint {
     pub error_px: f64,
 }
 
-/// Cameras and points that share one frame. Its scale and pose are arbitrary, unless positions of photographs are
-/// known: see [`is_placed`](Self::is_placed).
+/// Cameras and points that share one frame. Its scale and pose are arbitrary, unless positions of
+/// photographs are known: see [`is_placed`](Self::is_placed).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
@@ -90,7 +90,8 @@ impl Reconstruction {
     }
 
     /// The pixel where a camera shows a point through its lens; `None` if the image is not
-    /// registered or the lens does not see the point: what is behind its camera, except by a fisheye.
+    /// registered or the lens does not see the point: what is behind its camera, except by a
+    /// fisheye.
     pub fn project(&self, image: usize, point: &Point3<f64>) -> Option<Point2<f64>> {
         let camera = self.cameras.get(image)?.as_ref()?;
         let p = camera.cam_from_world * point;
@@ -173,7 +174,8 @@ impl Reconstruction {
     }
 }
 
-/// `cam_from_world` after the world was moved; the camera keeps its unit of length no more than the world does.
+/// `cam_from_world` after the world was moved; the camera keeps its unit of length no more than the
+/// world does.
 pub(super) fn moved_pose(
     cam_from_world: &RigidTransform,
     to_from_world: &Similarity3<f64>,

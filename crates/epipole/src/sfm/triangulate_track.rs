@@ -34,7 +34,8 @@ impl Sight<'_> {
         }
     }
 
-    /// The reprojection error and its derivative by the point in the camera frame; `None` 90° and more off a ray.
+    /// The reprojection error and its derivative by the point in the camera frame; `None` 90° and
+    /// more off a ray.
     fn residual(&self, p: &Point3<f64>) -> Option<(Vector2<f64>, SMatrix<f64, 2, 3>)> {
         let pixel = match &self.view {
             View::Pixel(pixel) => pixel,
@@ -70,9 +71,9 @@ fn nearest_to_rays(sights: &[Sight<'_>], chosen: impl Fn(usize) -> bool) -> Opti
         .then(|| Point3::from(solved))
 }
 
-/// The largest angle at which rays from two of the cameras meet in a point, radians, in [0, π/2]; as
-/// [`triangulation_angle_rad`](crate::triangulation::triangulation_angle_rad), rays that meet head on are as bad as
-/// parallel ones.
+/// The largest angle at which rays from two of the cameras meet in a point, radians, in [0, π/2];
+/// as [`triangulation_angle_rad`](crate::triangulation::triangulation_angle_rad), rays that meet
+/// head on are as bad as parallel ones.
 pub(super) fn widest_angle_rad<'a>(
     point: &Point3<f64>,
     centers: impl Iterator<Item = Point3<f64>> + Clone + 'a,

@@ -83,7 +83,8 @@ pub struct TwoViewReconstruction {
 /// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
 /// * `intrinsics1`, `intrinsics2`: of the two cameras, without lens distortion
 /// * `cam2_from_cam1`: the motion to start from; the length of its translation does not matter
-/// * `monitor`: the one stage is [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment)
+/// * `monitor`: the one stage is
+///   [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment)
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and
@@ -91,8 +92,8 @@ pub struct TwoViewReconstruction {
 /// motion without translation, [`Error::TooFew`] if fewer than `min_num_points` points remain, as
 /// for a camera that hardly moved; and as [`adjust_bundle`].
 ///
-/// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.4 (to leave points out and refine
-/// the rest again); the four motions are those of Hartley & Zisserman 2004, §9.6.
+/// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.4 (to leave points out
+/// and refine the rest again); the four motions are those of Hartley & Zisserman 2004, §9.6.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -23,8 +23,8 @@ pub struct VerifiedPair {
     /// Motion of the camera; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
-    /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane and a pure
-    /// rotation explains them, by the focal length given or by another one.
+    /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane
+    /// and a pure rotation explains them, by the focal length given or by another one.
     pub median_angle_rad: f64,
     /// A homography explains most matches: the scene is flat or the camera only rotated. A pair
     /// with depth makes the safer start.
@@ -35,8 +35,8 @@ pub struct VerifiedPair {
 ///
 /// * `pair`: matches of the photographs' keypoints
 /// * `images`, `intrinsics`: of the two photographs that the pair names
-/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::lenses`] and the
-///   seed
+/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::lenses`] and
+///   the seed
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if a match refers to a keypoint that is not there.

@@ -37,7 +37,8 @@ pub enum WhyUnregistered {
         "it was taken from nearly the same place as the photographs that match it, so that nothing can be said about depth"
     )]
     NoBaseline,
-    /// It could have begun a reconstruction with one that matches it, and no points were left of it.
+    /// It could have begun a reconstruction with one that matches it, and no points were left of
+    /// it.
     #[error(
         "too few of its matches become points within the largest error and under the smallest angle that are asked for, or its focal length is wrong"
     )]
@@ -71,8 +72,8 @@ const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 /// * `input`, `options`: what [`reconstruct`](super::reconstruct) was given
 /// * `result`: what it answered
 ///
-/// The pairs of these photographs are tested once more, so this takes a moment for each, in the one stage
-/// [`Stage::PairVerification`].
+/// The pairs of these photographs are tested once more, so this takes a moment for each, in the one
+/// stage [`Stage::PairVerification`].
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct).
@@ -220,7 +221,8 @@ mod tests {
         let at = |x: f64| RigidTransform::new(Vector3::new(x, 0.0, 0.1 * x), Vector3::zeros());
         let mut keypoints: Vec<Vec<Point2<f64>>> =
             [0.0, -0.6, -1.2].iter().map(|x| see(&at(*x))).collect();
-        // 3: nothing in it. 4: looks like nothing else. 5: matches at random. 6: sees 10 of the points.
+        // 3: nothing in it. 4: looks like nothing else. 5: matches at random. 6: sees 10 of the
+        // points.
         keypoints.push(Vec::new());
         let mut anywhere = |count: usize| -> Vec<Point2<f64>> {
             (0..count)

@@ -88,7 +88,8 @@ impl StereoBm {
     /// The disparities of `left`.
     ///
     /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
-    /// * `monitor`: the one stage is [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
+    /// * `monitor`: the one stage is
+    ///   [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty

@@ -60,7 +60,8 @@ fn advance<const BLOCK: usize>(
     let n = costs.len();
     let jump = minimum.saturating_add(p2);
     let mut least = [u8::MAX; BLOCK];
-    // Counted rather than zipped: this runs for every pixel, and five slices in step cost more to begin than to walk.
+    // Counted rather than zipped: this runs for every pixel, and five slices in step cost more to
+    // begin than to walk.
     let [below, same, above] = [0, 1, 2].map(|first| before[first..first + n].as_chunks().0);
     let (costs, next) = (costs.as_chunks().0, next.as_chunks_mut().0);
     for block in 0..n / BLOCK {

@@ -7,18 +7,20 @@ use crate::{Error, Result};
 use image::{GrayImage, RgbImage};
 use nalgebra::{Point2, Point3, Vector4};
 
-/// So near to the edge of a photograph, pixels of the photograph, answers are not trusted: edges match each other.
+/// So near to the edge of a photograph, pixels of the photograph, answers are not trusted: edges
+/// match each other.
 const EDGE_PX: f64 = 6.0;
 /// Fewer points than this say nothing of the range of disparities.
 const MIN_POINTS: usize = 8;
 /// The share of points below and above the range, which may be wrong.
 const WRONG: f64 = 0.02;
-/// Surfaces go on where no point is: so much more on either side, pixels and as a share of the range.
+/// Surfaces go on where no point is: so much more on either side, pixels and as a share of the
+/// range.
 const BEYOND: (f64, f64) = (2.0, 0.15);
 
 impl Rectification {
-    /// The pixel of the first rectified picture that shows a point, and the disparity of the point there, pixels.
-    /// `None` if the point is not in front of the camera.
+    /// The pixel of the first rectified picture that shows a point, and the disparity of the point
+    /// there, pixels. `None` if the point is not in front of the camera.
     ///
     /// * `place`: in the frame of the first photograph's camera, in the unit of the baseline
     ///
@@ -46,8 +48,8 @@ impl Rectification {
         is_finite.then(|| (Point2::new(found[0], found[1]), found[2]))
     }
 
-    /// The smallest and the largest disparity to look for, pixels: those of nearly all points, and some more, since
-    /// surfaces go on where no point is; nothing lies beyond infinity.
+    /// The smallest and the largest disparity to look for, pixels: those of nearly all points, and
+    /// some more, since surfaces go on where no point is; nothing lies beyond infinity.
     ///
     /// * `places`: points that both photographs show, in the frame of the first photograph's camera
     ///
@@ -92,9 +94,10 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
 
 /// Two photographs as a rectified rig sees them.
 ///
-/// Zoomed out ([`RectifyOptions::alpha`](super::RectifyOptions::alpha) of 1) the pictures have borders that no
-/// photograph fills. Borders match each other perfectly, so answers there, and those whose match is there, are taken
-/// back. Where one camera stands above the other the pictures are laid on their side before they are matched.
+/// Zoomed out ([`RectifyOptions::alpha`](super::RectifyOptions::alpha) of 1) the pictures have
+/// borders that no photograph fills. Borders match each other perfectly, so answers there, and
+/// those whose match is there, are taken back. Where one camera stands above the other the pictures
+/// are laid on their side before they are matched.
 #[derive(Debug, Clone)]
 pub struct RectifiedPair<'a> {
     rig: &'a Rectification,
@@ -214,7 +217,8 @@ impl<'a> RectifiedPair<'a> {
     }
 }
 
-/// Which pixels of a rectified picture are read from a photograph of this size, so far from its edge.
+/// Which pixels of a rectified picture are read from a photograph of this size, so far from its
+/// edge.
 fn filled(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool> {
     let inside = |at: f64, side: u32| (edge_px..=f64::from(side) - 1.0 - edge_px).contains(&at);
     let is_filled = |(u, v)| {

@@ -111,7 +111,8 @@ fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>
     camera.project(x_in_world).ok().filter(in_picture)
 }
 
-/// Draws points until `num` of them are seen: `see` takes a point and its index, and says whether it is.
+/// Draws points until `num` of them are seen: `see` takes a point and its index, and says whether
+/// it is.
 ///
 /// # Errors
 /// `nothing` after a thousand draws a point.

@@ -11,14 +11,15 @@ use nalgebra::{Matrix3x4, Point2, Point3};
 /// For inexact pixels, the minimum depends on the world's origin and unit of length. Best are an
 /// origin near the cameras and a unit about as long as the baseline.
 ///
-/// * `p1`, `p2`: 3×4 projection matrices, such as [`PosedCamera::projection_matrix`](crate::camera::PosedCamera::projection_matrix)
+/// * `p1`, `p2`: 3×4 projection matrices, such as
+///   [`PosedCamera::projection_matrix`](crate::camera::PosedCamera::projection_matrix)
 /// * `pixel1`, `pixel2`: projections of the point
 ///
 /// # Errors
 /// [`Error::PointAtInfinity`] for parallel rays, those that meet 10¹² baselines away or farther,
-/// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`] for
-/// NaN and infinities, [`Error::Degenerate`] if the cameras are at the same place, or a matrix has a
-/// rank below 3.
+/// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`]
+/// for NaN and infinities, [`Error::Degenerate`] if the cameras are at the same place, or a matrix
+/// has a rank below 3.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
@@ -89,8 +90,9 @@ pub fn triangulate_dlt_all(
         .collect())
 }
 
-/// The distance between the centers of the cameras, which are the null vectors of the matrices; refused
-/// if they are the same. 1 if a center is at infinity: then nothing in the matrices is a length.
+/// The distance between the centers of the cameras, which are the null vectors of the matrices;
+/// refused if they are the same. 1 if a center is at infinity: then nothing in the matrices is a
+/// length.
 fn baseline(p1: &[Row; 3], p2: &[Row; 3]) -> Result<f64> {
     if !p1.iter().chain(p2).flatten().all(|x| x.is_finite()) {
         return Err(Error::NotFinite {
@@ -261,8 +263,8 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], baseline: f64, x: &Row) -> Result<Point3
     if x[3].abs() * baseline <= 1e-12 * in_space {
         return Err(Error::PointAtInfinity);
     }
-    // Depths have the sign of z w, for projection matrices K [R t]. A point in the center of a camera has
-    // a depth that is rounding alone.
+    // Depths have the sign of z w, for projection matrices K [R t]. A point in the center of a
+    // camera has a depth that is rounding alone.
     let in_front = |p: &[Row; 3], z: f64| {
         let rounding = 1e-13 * dot(&p[2].map(f64::abs), &x.map(f64::abs));
         z * x[3].signum() > rounding

@@ -18,8 +18,8 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// # Errors
 /// [`Error::Degenerate`] if the cameras are at the same place, t being 0,
 /// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the rays diverge,
-/// [`Error::NotFinite`] for NaN, infinities and zero rays, and for a point whose coordinates are beyond
-/// the range of numbers.
+/// [`Error::NotFinite`] for NaN, infinities and zero rays, and for a point whose coordinates are
+/// beyond the range of numbers.
 ///
 /// Source: Hartley & Sturm 1997, "Triangulation", §5.3.
 ///
@@ -129,8 +129,8 @@ impl Meeting {
 /// frame of camera 1.
 ///
 /// On each ray the point is taken at the depth where it would be if the rays met,
-/// `d1 = |x2 × t|/|R x1 × x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by
-/// the inverse of their depths. Nearly as good as minimizing the reprojection error, at the price of
+/// `d1 = |x2 × t|/|R x1 × x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by the
+/// inverse of their depths. Nearly as good as minimizing the reprojection error, at the price of
 /// [`triangulate_midpoint`].
 ///
 /// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
@@ -220,8 +220,8 @@ pub fn triangulate_angular(
     } = meeting;
     let along = t.normalize();
     let (along1, along2) = (turned.dot(&along), ray2.dot(&along));
-    // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 leaves the baseline
-    // least.
+    // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 leaves the
+    // baseline least.
     let (across1, across2) = (1.0 - along1 * along1, 1.0 - along2 * along2);
     let both = turned.dot(&ray2) - along1 * along2;
     let half = 0.5 * (across1 - across2);

@@ -8,13 +8,14 @@
 //! | [`triangulate_optimal`] | two | cameras | the reprojection error |
 //! | [`triangulate_nview`] | two or more | cameras | the reprojection error, iteratively |
 //!
-//! Each takes the least that it needs. Reprojection errors need cameras. Rays are enough for distances and angles, so
-//! those methods serve any lens ([`Lens::ray`](crate::camera::Lens::ray)). The linear transform needs no intrinsics, so
-//! it takes matrices that only F gave, too; that of a camera is
-//! [`projection_matrix`](crate::camera::PosedCamera::projection_matrix).
+//! Each takes the least that it needs. Reprojection errors need cameras. Rays are enough for
+//! distances and angles, so those methods serve any lens ([`Lens::ray`](crate::camera::Lens::ray)).
+//! The linear transform needs no intrinsics, so it takes matrices that only F gave, too; that of a
+//! camera is [`projection_matrix`](crate::camera::PosedCamera::projection_matrix).
 //!
 //! Cameras that stand at the same place see along the same rays whatever is on them. All methods
-//! answer this with [`Error::Degenerate`](crate::Error::Degenerate), before they look at the pixels.
+//! answer this with [`Error::Degenerate`](crate::Error::Degenerate), before they look at the
+//! pixels.
 
 mod dlt;
 mod midpoint;

@@ -15,15 +15,15 @@ use nalgebra::{Point2, Point3, Vector3};
 ///
 /// * `cameras`, `pixels`: each camera and where it sees the point, two at least
 ///
-/// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with few.
-/// Lengths are measured from the first camera in units of about the longest baseline from there, so neither
-/// the world's origin nor its unit of length matters.
+/// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with
+/// few. Lengths are measured from the first camera in units of about the longest baseline from
+/// there, so neither the world's origin nor its unit of length matters.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if all
-/// cameras are at the same place, [`Error::NotFinite`] for NaN and infinities,
-/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would have
-/// the point behind it.
+/// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if
+/// all cameras are at the same place, [`Error::NotFinite`] for NaN and infinities,
+/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would
+/// have the point behind it.
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
@@ -62,8 +62,8 @@ pub fn triangulate_nview_dlt(
     if cameras[1..].iter().all(|c| share_center(&cameras[0], c)) {
         return Err(NO_BASELINE);
     }
-    // Measured from the first camera, so that a far-away world origin costs no digits, and in units of
-    // the baseline, so that the unit of length in the world does not matter.
+    // Measured from the first camera, so that a far-away world origin costs no digits, and in units
+    // of the baseline, so that the unit of length in the world does not matter.
     let origin = cameras[0].center_in_world().coords;
     let unit = baseline_unit(cameras);
     let (values, vectors) = right_singular_vectors(2 * cameras.len(), |row| {
@@ -118,14 +118,14 @@ pub struct NviewPoint {
 /// * `loss`: its width is in pixels
 ///
 /// A wrong pixel leads the linear start astray, even behind a camera. So with a robust loss, three
-/// views or more, and a minimum at which some view has less than half its weight, the points that two
-/// views give are looked at as well: of all pairs of up to 12 views, of 66 pairs of more. The one
-/// of least cost is a second start, and the lower of both minima is returned.
+/// views or more, and a minimum at which some view has less than half its weight, the points that
+/// two views give are looked at as well: of all pairs of up to 12 views, of 66 pairs of more. The
+/// one of least cost is a second start, and the lower of both minima is returned.
 ///
 /// # Errors
 /// As [`triangulate_nview_dlt`], and [`Error::OutOfRange`] for a loss that [`RobustLoss::check`]
-/// refuses. With a robust loss, [`Error::PointAtInfinity`] and [`Error::PointBehindCamera`] mean that
-/// no pair of views gives a point in front of all cameras, either.
+/// refuses. With a robust loss, [`Error::PointAtInfinity`] and [`Error::PointBehindCamera`] mean
+/// that no pair of views gives a point in front of all cameras, either.
 ///
 /// Source: Hartley & Zisserman 2004, §12.3; starts from the fewest views that give one, as in
 /// Fischler & Bolles 1981.

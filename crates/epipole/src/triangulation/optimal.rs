@@ -11,18 +11,19 @@ use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2, Vector3};
 /// The nearest pair of pixels that satisfies `x2ᵀ F x1 = 0` exactly, minimizing
 /// `‖x1' − x1‖² + ‖x2' − x2‖²`.
 ///
-/// Two steps of a fixed scheme, each of closed form, bring the result to the optimum within far less
-/// than any measurement error, also for large corrections.
+/// Two steps of a fixed scheme, each of closed form, bring the result to the optimum within far
+/// less than any measurement error, also for large corrections.
 ///
 /// * `fundamental`: F, of any scale
 /// * `pixel1`, `pixel2`: the match
 ///
-/// A match that satisfies the constraint stays as it is, and so does one of which one pixel is an epipole:
-/// it satisfies the constraint whatever the other pixel is.
+/// A match that satisfies the constraint stays as it is, and so does one of which one pixel is an
+/// epipole: it satisfies the constraint whatever the other pixel is.
 ///
 /// # Errors
-/// [`Error::Degenerate`] if both pixels are epipoles, to within 10⁻¹² of what makes up their lines, if
-/// both lines are infinitely far away, or if F is zero; [`Error::NotFinite`] for NaN and infinities.
+/// [`Error::Degenerate`] if both pixels are epipoles, to within 10⁻¹² of what makes up their lines,
+/// if both lines are infinitely far away, or if F is zero; [`Error::NotFinite`] for NaN and
+/// infinities.
 ///
 /// Source: Lindström 2010, "Triangulation made easy", the `niter2` method.
 ///
@@ -57,8 +58,8 @@ pub fn correct_matches(
             why: "the fundamental matrix is zero",
         });
     }
-    // The scale of F does not matter. Pixels in units of their size s are seen by a matrix whose last
-    // row and column are smaller by s.
+    // The scale of F does not matter. Pixels in units of their size s are seen by a matrix whose
+    // last row and column are smaller by s.
     let size = power_of_two(pixel1.coords.amax().max(pixel2.coords.amax()).max(1.0));
     let shrink = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 1.0 / size));
     let f = shrink * (fundamental / power_of_two(fundamental.amax())) * shrink;
@@ -123,8 +124,8 @@ fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64
 /// # Errors
 /// [`Error::Degenerate`] if the cameras are at the same place, or both pixels are epipoles, so that
 /// both rays run along the baseline; [`Error::PointAtInfinity`] for parallel rays,
-/// [`Error::PointBehindCamera`] if they diverge, or meet in the center of a camera because one pixel is an
-/// epipole; [`Error::NotFinite`] for NaN and infinities.
+/// [`Error::PointBehindCamera`] if they diverge, or meet in the center of a camera because one
+/// pixel is an epipole; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Lindström 2010, "Triangulation made easy"; Hartley & Sturm 1997, "Triangulation".
 ///
@@ -266,7 +267,8 @@ mod tests {
         assert_eq!(correct_matches(&ahead, &off, &o), Ok((off, o)));
     }
 
-    /// The ray of an epipole runs through the other camera, where every other ray of that camera meets it.
+    /// The ray of an epipole runs through the other camera, where every other ray of that camera
+    /// meets it.
     #[test]
     fn epipoles_give_no_point() {
         let mut random = Random::new(4);

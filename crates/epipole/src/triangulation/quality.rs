@@ -6,8 +6,8 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, SMatrix};
 
-/// The angle at which the rays from two camera centers meet at a point, in [0, π/2]; 0 if the point is a
-/// center.
+/// The angle at which the rays from two camera centers meet at a point, in [0, π/2]; 0 if the point
+/// is a center.
 ///
 /// Rays that meet head on, the point being between the centers, determine it as badly as
 /// parallel ones, so angles beyond π/2 count as π minus the angle.
@@ -34,8 +34,9 @@ pub fn triangulation_angle_rad(
     if angle.is_finite() { angle } else { 0.0 }
 }
 
-/// The covariance of a triangulated point, m², from pixel errors of standard deviation `sigma_px` in each
-/// coordinate of each view: `σ² (Σ JᵀJ)⁻¹`, J being the derivatives of a projection by the point.
+/// The covariance of a triangulated point, m², from pixel errors of standard deviation `sigma_px`
+/// in each coordinate of each view: `σ² (Σ JᵀJ)⁻¹`, J being the derivatives of a projection by the
+/// point.
 ///
 /// Square roots of its eigenvalues are the semiaxes of the error ellipsoid: long along the rays,
 /// short across.

@@ -10,10 +10,11 @@ use nalgebra::Point3;
 /// Pairs of views that are looked at, at most: all of 12 views.
 const MAX_PAIRS: usize = 66;
 
-/// The lower of two minima: that reached from the linear solution, and that from the best pair of views.
+/// The lower of two minima: that reached from the linear solution, and that from the best pair of
+/// views.
 ///
-/// * `linear`: the solution that all views take part in, or why there is none; that is the error if no
-///   pair gives a point, either
+/// * `linear`: the solution that all views take part in, or why there is none; that is the error if
+///   no pair gives a point, either
 pub(super) fn robust_minimum(
     problem: &Problem<'_>,
     linear: Result<Point3<f64>>,

@@ -29,8 +29,8 @@ use nalgebra::{Matrix3, Point2};
 /// camera only turned.
 ///
 /// # Errors
-/// As [`TwoViewOptions::check`], and as [`estimate_fundamental`] and [`estimate_homography`] if neither finds a
-/// model.
+/// As [`TwoViewOptions::check`], and as [`estimate_fundamental`] and [`estimate_homography`] if
+/// neither finds a model.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
 ///
@@ -96,21 +96,22 @@ pub fn estimate_two_view(
 
 /// Chooses among E, F and H for two views of known intrinsics, and finds the motion.
 ///
-/// * `cameras`: the two cameras, of any lens. If the intrinsics of pinhole cameras are wrong, F explains more matches
-///   than E and is chosen
+/// * `cameras`: the two cameras, of any lens. If the intrinsics of pinhole cameras are wrong, F
+///   explains more matches than E and is chosen
 ///
-/// A camera that only turned is recognized by a rotation that explains nearly all matches that the best
-/// other model does. Where F is chosen, the motion is still that of E, if enough matches support it: it
-/// is the best that agrees with the intrinsics. For a plane the motion is taken from E or from the
-/// decomposition of H, whichever fits more matches with the points in front of both cameras; often two
-/// motions do equally well.
+/// A camera that only turned is recognized by a rotation that explains nearly all matches that the
+/// best other model does. Where F is chosen, the motion is still that of E, if enough matches
+/// support it: it is the best that agrees with the intrinsics. For a plane the motion is taken from
+/// E or from the decomposition of H, whichever fits more matches with the points in front of both
+/// cameras; often two motions do equally well.
 ///
-/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`] are of rays then
-/// ([`TwoViewReport::is_of_rays`]), `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in the pixels of the distorted images.
+/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`]
+/// are of rays then ([`TwoViewReport::is_of_rays`]), `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in
+/// the pixels of the distorted images.
 ///
 /// # Errors
-/// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if no model
-/// is found.
+/// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if
+/// no model is found.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
 ///

@@ -13,8 +13,8 @@ const MAX_SAMPLES: usize = 500;
 /// Why a fundamental matrix that fits its inliers is one of many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Degeneracy {
-    /// Nearly all inliers are where they were in image 1, but for noise: the camera hardly moved, or the matches are
-    /// of something that moves with it.
+    /// Nearly all inliers are where they were in image 1, but for noise: the camera hardly moved,
+    /// or the matches are of something that moves with it.
     Unmoved {
         /// Number of them.
         num_unmoved: usize,
@@ -30,14 +30,14 @@ pub enum Degeneracy {
     },
 }
 
-/// Why the inliers of F do not determine it, if they do not: F fits a camera that never moved, one that only turned,
-/// and a plane, and means nothing there.
+/// Why the inliers of F do not determine it, if they do not: F fits a camera that never moved, one
+/// that only turned, and a plane, and means nothing there.
 ///
 /// * `pixels1`, `pixels2`: the matches that F was found from
 /// * `inliers`: for each match, whether it is an inlier of F
-/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and [`RansacOptions::max_error_px`]
-///   should be that of F. Matches have to fit a homography in two dimensions, with the noise of both images: they are
-///   given 1.25 √2 times as much
+/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
+///   [`RansacOptions::max_error_px`] should be that of F. Matches have to fit a homography in two
+///   dimensions, with the noise of both images: they are given 1.25 √2 times as much
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN, and as
@@ -91,8 +91,9 @@ pub fn find_degeneracy(
     }))
 }
 
-/// Whether nearly all inliers of a model are where they were: [`Degeneracy::Unmoved`], or `None`. It is all that there
-/// is to ask of a homography, which planes and turns determine; [`find_degeneracy`] asks it first.
+/// Whether nearly all inliers of a model are where they were: [`Degeneracy::Unmoved`], or `None`.
+/// It is all that there is to ask of a homography, which planes and turns determine;
+/// [`find_degeneracy`] asks it first.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] if the lists differ in length, and as [`TwoViewOptions::check`].

@@ -40,8 +40,8 @@ impl ExplainingTurn {
         Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
     }
 
-    /// A turn that explains so many of the inliers, if these are nearly all: the one place where that is decided,
-    /// whatever the lens.
+    /// A turn that explains so many of the inliers, if these are nearly all: the one place where
+    /// that is decided, whatever the lens.
     pub(super) fn if_nearly_all(
         rotation: &Matrix3<f64>,
         num_explained: usize,

@@ -60,8 +60,8 @@ pub(super) fn planar_motions(
     best_and_rival(&scores, pose).map(|place| place.map(|i| motions[i]))
 }
 
-/// Rotations and directions of the motions that put most of a plane's points in front of camera 1: n · x < 0 for the
-/// rays of its inliers, of which some may be wrong.
+/// Rotations and directions of the motions that put most of a plane's points in front of camera 1:
+/// n · x < 0 for the rays of its inliers, of which some may be wrong.
 pub(super) fn in_front_of_plane(
     motions: &[PlaneMotion],
     rays1: impl Iterator<Item = Vector3<f64>> + Clone,
@@ -82,7 +82,8 @@ pub(super) fn in_front_of_plane(
     kept
 }
 
-/// The motion with the most support, the first of equals, and another one with nearly as much, if there is one.
+/// The motion with the most support, the first of equals, and another one with nearly as much, if
+/// there is one.
 ///
 /// * `pose`: rotation and direction of each motion, by its place in `scores`
 pub(super) fn best_and_rival(

@@ -7,8 +7,8 @@ use derive_setters::Setters;
 use nalgebra::{Matrix3, Point2};
 
 /// The largest error of a match of two photographs, pixels, that the commands on photographs and
-/// [`SfmOptions`](crate::sfm::SfmOptions) begin with. Features of photographs are less exact, and their lenses
-/// less straight, than the one pixel of [`RansacOptions`] would have it.
+/// [`SfmOptions`](crate::sfm::SfmOptions) begin with. Features of photographs are less exact, and
+/// their lenses less straight, than the one pixel of [`RansacOptions`] would have it.
 pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 
 /// Options of the choice among models of two views.
@@ -21,11 +21,13 @@ pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct TwoViewOptions {
-    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
-    /// 1.25 times its threshold, by the Sampson error. [`ThresholdKind::Noise`](crate::robust::ThresholdKind)
-    /// is that of F, which needs no intrinsics, for all of them.
+    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are
+    /// given 1.25 times its threshold, by the Sampson error.
+    /// [`ThresholdKind::Noise`](crate::robust::ThresholdKind) is that of F, which needs no
+    /// intrinsics, for all of them.
     pub ransac: RansacOptions,
-    /// Fewer different inliers than this mean [`Configuration::Degenerate`](super::Configuration::Degenerate). 15.
+    /// Fewer different inliers than this mean
+    /// [`Configuration::Degenerate`](super::Configuration::Degenerate). 15.
     pub min_num_inliers: usize,
     /// A homography that explains at least this share of the epipolar inliers means a plane or a
     /// turn. Above 1 nothing does. 0.8.

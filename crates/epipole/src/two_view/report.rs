@@ -16,7 +16,8 @@ pub enum Configuration {
     /// A moving camera and a plane: H says all; F is open, and the motion may be twofold.
     Planar,
     /// A camera that only turned, or hardly moved: H says all; depth cannot be told. Without
-    /// intrinsics this cannot be told from a plane and is reported as [`Planar`](Configuration::Planar).
+    /// intrinsics this cannot be told from a plane and is reported as
+    /// [`Planar`](Configuration::Planar).
     Panoramic,
     /// No more matches agree on anything than wrong matches might by chance.
     Degenerate,
@@ -40,7 +41,8 @@ pub struct TwoViewReport {
     pub configuration: Configuration,
     /// The matrix chosen.
     pub model: TwoViewModel,
-    /// Whether `model` and `homography` are of rays, not of pixels: through lenses other than pinholes.
+    /// Whether `model` and `homography` are of rays, not of pixels: through lenses other than
+    /// pinholes.
     pub is_of_rays: bool,
     /// F, where the pair has one: that of the motion for calibrated views of a plane, `None` for
     /// uncalibrated ones and for turns.
@@ -50,11 +52,11 @@ pub struct TwoViewReport {
     /// The motion, for calibrated views; |t| = 1, or 0 for [`Configuration::Panoramic`]. `None` for
     /// [`Configuration::Degenerate`].
     pub cam2_from_cam1: Option<RigidTransform>,
-    /// Of a plane: another motion that explains the matches as well, if there is one. Which of the two
-    /// is right, a plane alone does not tell.
+    /// Of a plane: another motion that explains the matches as well, if there is one. Which of the
+    /// two is right, a plane alone does not tell.
     pub other_cam2_from_cam1: Option<RigidTransform>,
-    /// For each match given, whether it fits `model`: within `max_error_px` of F or E, by the Sampson error,
-    /// and within 1.25 times as much of H, which has to fit in two dimensions.
+    /// For each match given, whether it fits `model`: within `max_error_px` of F or E, by the
+    /// Sampson error, and within 1.25 times as much of H, which has to fit in two dimensions.
     pub inliers: Vec<bool>,
     /// Number of `inliers` that are true.
     pub num_inliers: usize,
@@ -68,7 +70,8 @@ pub struct TwoViewReport {
     pub required_iterations: u64,
     /// Why the search for `model` ended.
     pub stop: StopReason,
-    /// The median angle at which the inliers' rays meet, radians, for a calibrated pair with motion.
+    /// The median angle at which the inliers' rays meet, radians, for a calibrated pair with
+    /// motion.
     pub median_triangulation_angle_rad: Option<f64>,
 }
 

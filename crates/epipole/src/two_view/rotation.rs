@@ -15,8 +15,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is two matches; the error is the distance in image 2 from `K2 R K1⁻¹ x1`, pixels;
-/// refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a pixel have
-/// few votes together, as for homographies.
+/// refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a
+/// pixel have few votes together, as for homographies.
 ///
 /// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
 #[derive(Debug, Clone)]
@@ -72,8 +72,8 @@ impl RotationEstimator {
     }
 }
 
-/// The rotation that aligns the first ray of each pair, of length 1, with the second best. `None` if they leave it
-/// open.
+/// The rotation that aligns the first ray of each pair, of length 1, with the second best. `None`
+/// if they leave it open.
 pub(super) fn align_rays<'a>(
     pairs: impl Iterator<Item = &'a [Vector3<f64>; 2]>,
 ) -> Option<Matrix3<f64>> {

@@ -30,9 +30,9 @@ impl<'a> Searches<'a> {
         }
     }
 
-    /// The options with a threshold that is given: where it is to be found, that of F, which all pairs
-    /// have, whatever the scene and the intrinsics; else that of H. Where neither is found, that of the
-    /// options.
+    /// The options with a threshold that is given: where it is to be found, that of F, which all
+    /// pairs have, whatever the scene and the intrinsics; else that of H. Where neither is found,
+    /// that of the options.
     pub(super) fn with_threshold(
         &mut self,
         options: &TwoViewOptions,

@@ -13,11 +13,12 @@ use crate::progress::Monitor;
 use crate::robust::{RansacOptions, RansacReport};
 use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 
-/// Maximum number of samples of four matches: where a homography explains nearly all, a tenth is plenty.
+/// Maximum number of samples of four matches: where a homography explains nearly all, a tenth is
+/// plenty.
 const MAX_SAMPLES: usize = 500;
 
-/// The homography of rays that explains nearly all inliers of a motion, if there is one: they show a plane, or the
-/// camera only turned.
+/// The homography of rays that explains nearly all inliers of a motion, if there is one: they show
+/// a plane, or the camera only turned.
 pub(crate) fn find_plane_through_lenses(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -34,8 +35,8 @@ pub(crate) fn find_plane_through_lenses(
     (found.num_inliers as f64 >= needed).then_some(found)
 }
 
-/// Body of [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) for cameras of any lens: E, or H of rays
-/// for a plane or a turn. Errors of H are in image 2.
+/// Body of [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) for cameras of any
+/// lens: E, or H of rays for a plane or a turn. Errors of H are in image 2.
 ///
 /// # Errors
 /// As [`estimate_relative_pose`].

@@ -14,8 +14,8 @@ use nalgebra::Point2;
 /// Samples of two matches. Where a turn explains as much as is asked for, a tenth is plenty.
 const MAX_SAMPLES: usize = 300;
 
-/// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in which
-/// direction the camera moved cannot be told, whatever the model says.
+/// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in
+/// which direction the camera moved cannot be told, whatever the model says.
 ///
 /// * `pixels1`, `pixels2`: the matches that the model was found from
 /// * `cameras`: the two cameras, of any lens

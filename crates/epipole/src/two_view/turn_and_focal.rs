@@ -13,8 +13,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Focal lengths are looked for from the given one over this to the given one times this.
 const WIDEST: f64 = 4.0;
-/// Factors tried over that range, evenly by their logarithms. The cost has one valley, far wider than their steps of
-/// 9 %.
+/// Factors tried over that range, evenly by their logarithms. The cost has one valley, far wider
+/// than their steps of 9 %.
 const NUM_TRIED: usize = 33;
 /// Steps of golden sections from there: the factor is then good to six digits.
 const NUM_NARROWED: usize = 26;
@@ -59,11 +59,12 @@ struct Search<'a> {
 /// given are off by a common factor, and that factor: then the matches are not of a plane, and
 /// there is no depth.
 ///
-/// `x2 ∝ K2 R K1⁻¹ x1`, where the focal lengths in K1 and K2 are `focal_factor` times those given. The factor is
-/// looked for from ¼ to 4; for each the rotation that aligns the rays best is taken.
+/// `x2 ∝ K2 R K1⁻¹ x1`, where the focal lengths in K1 and K2 are `focal_factor` times those given.
+/// The factor is looked for from ¼ to 4; for each the rotation that aligns the rays best is taken.
 ///
 /// * `pixels1`, `pixels2`: the matches that H was found from
-/// * `k1`, `k2`: intrinsics of the two cameras, pixels; the principal points are believed, the focal lengths are not
+/// * `k1`, `k2`: intrinsics of the two cameras, pixels; the principal points are believed, the
+///   focal lengths are not
 /// * `inliers`: for each match, whether it is an inlier of H
 /// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of
@@ -76,8 +77,8 @@ struct Search<'a> {
 /// aside, cannot be distinguished from a rotation.
 ///
 /// # Errors
-/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) if the lists differ in length, and as [`TwoViewOptions::check`] and
-/// [`MatchSet::new`].
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) if the lists differ in length, and as
+/// [`TwoViewOptions::check`] and [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §8.4 (rotations in pixels); Szeliski 2022, §8.2 (focal lengths
 /// from the homographies of panoramas; the search replaces it, as it needs no good H).

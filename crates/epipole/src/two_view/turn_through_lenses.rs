@@ -9,11 +9,13 @@ use nalgebra::{Matrix3, Vector3};
 /// Number of concentration steps on the half of the matches that fits best.
 const ROUNDS: usize = 10;
 
-/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras of any lens; errors are in image 2.
+/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras of any lens; errors
+/// are in image 2.
 ///
 /// * `inliers`: observations of both cameras, of which few are wrong
 ///
-/// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets" (concentration steps).
+/// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets"
+/// (concentration steps).
 pub(super) fn find_turn_through_lenses(
     inliers: &[[Observation; 2]],
     options: &TwoViewOptions,

@@ -23,7 +23,8 @@ fn placed(rotation: &UnitQuaternion<f64>, center: &Vector3<f64>) -> RigidTransfo
     RigidTransform::from_parts((-(rotation * center)).into(), *rotation)
 }
 
-/// 60 points from 4 to 10 units in front of a camera near the origin, seen with half a pixel of noise.
+/// 60 points from 4 to 10 units in front of a camera near the origin, seen with half a pixel of
+/// noise.
 struct Scene {
     intrinsics: Intrinsics,
     rotation: UnitQuaternion<f64>,
@@ -102,7 +103,8 @@ fn refinement_does_not_depend_on_where_the_origin_is() {
                 loss,
             )
             .unwrap();
-            // A least squares estimate fits better than the truth, by six squares of the noise on average.
+            // A least squares estimate fits better than the truth, by six squares of the noise on
+            // average.
             let cost = scene.cost(&found, &points);
             assert!(cost < scene.cost(&truth, &points), "{shift}: {cost}");
             found

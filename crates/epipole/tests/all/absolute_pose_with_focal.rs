@@ -1,4 +1,5 @@
-//! The pose and the focal length of a camera from points in space and on planes, with wrong ones among them.
+//! The pose and the focal length of a camera from points in space and on planes, with wrong ones
+//! among them.
 
 use epipole::Error;
 use epipole::absolute_pose::{estimate_absolute_pose, estimate_absolute_pose_and_focal};

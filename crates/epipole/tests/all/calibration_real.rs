@@ -9,10 +9,11 @@ use epipole::camera::LensKind;
 use epipole::imaging::{DecodeOptions, decode_gray};
 use std::path::PathBuf;
 
-/// OpenCV 5.0 on the same photographs, corners by its own search: `findChessboardCorners`, `cornerSubPix` in windows of
-/// 11 × 11 pixels (half of that is what it is given), `calibrateCamera` and `stereoCalibrate` with fixed intrinsics. With
-/// windows of 23 × 23 pixels, as its samples have them, corners are less exact: 0.408, 0.458 and 0.447 px, and a
-/// baseline of 83.6 mm.
+/// OpenCV 5.0 on the same photographs, corners by its own search: `findChessboardCorners`,
+/// `cornerSubPix` in windows of 11 × 11 pixels (half of that is what it is given),
+/// `calibrateCamera` and `stereoCalibrate` with fixed intrinsics. With windows of 23 × 23 pixels,
+/// as its samples have them, corners are less exact: 0.408, 0.458 and 0.447 px, and a baseline of
+/// 83.6 mm.
 const OPENCV: [f64; 3] = [0.1954, 0.2070, 0.2168];
 const OPENCV_BASELINE_M: f64 = 0.083206;
 

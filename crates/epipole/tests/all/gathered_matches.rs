@@ -14,8 +14,8 @@ struct Scene {
     p2: Vec<Point2<f64>>,
 }
 
-/// The first 180 of 300 matches lead to one place, up to `reach_px` of it along u and v; the others follow `truth`, with
-/// noise of .3 px.
+/// The first 180 of 300 matches lead to one place, up to `reach_px` of it along u and v; the others
+/// follow `truth`, with noise of .3 px.
 fn scene(
     seed: u64,
     reach_px: f64,
@@ -120,7 +120,8 @@ fn maps_to_meters_and_from_them_are_as_good() {
             let meters = options(seed).with_max_error_px(unit);
             let found = estimate_similarity(&p1, &plan, &meters, &mut ());
             assert!(is_true(&found), "{size_m} m {found:?}");
-            // Only the honest ones back: in an area of millimeters each is far from the others by the pixel.
+            // Only the honest ones back: in an area of millimeters each is far from the others by
+            // the pixel.
             let (from, to) = (&plan[NUM_GATHERED..], &p1[NUM_GATHERED..]);
             let back = estimate_similarity(from, to, &options(seed), &mut ()).unwrap();
             assert!(back.num_inliers > 110, "{size_m} m {back:?}");

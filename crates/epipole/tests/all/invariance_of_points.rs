@@ -181,8 +181,8 @@ proptest! {
             cameras.iter().map(|c| seen(&mut random, c, &truth, 1.0)).collect();
         let (other_cameras, other_pixels) = (rotated(&cameras, places), rotated(&pixels, places));
 
-        // One pixel of noise moves the point by 0.01 and more. Beside the bend of a loss the search ends a
-        // little before the optimum, elsewhere for another order of the sums.
+        // One pixel of noise moves the point by 0.01 and more. Beside the bend of a loss the search
+        // ends a little before the optimum, elsewhere for another order of the sums.
         for (loss, tolerance) in [(TRIVIAL, 1e-5), (RobustLoss::Huber { width: 1.0 }, 1e-3)] {
             let one = triangulate_nview(&cameras, &pixels, loss).unwrap();
             let other = triangulate_nview(&other_cameras, &other_pixels, loss).unwrap();
@@ -291,8 +291,9 @@ proptest! {
         let order = essential_8point(&rotated(&rays1, places), &rotated(&rays2, places)).unwrap();
         prop_assert!(apart(&order, &e) < 1e-9);
 
-        // Five of the noisy pairs have several solutions, rarely none, and rounding decides on those
-        // that have nearly merged with another. The one nearest to the truth is found every time.
+        // Five of the noisy pairs have several solutions, rarely none, and rounding decides on
+        // those that have nearly merged with another. The one nearest to the truth is found every
+        // time.
         let truth = essential_from_motion(&motion).unwrap();
         let five = |rays: &[Vector3<f64>]| -> [Vector3<f64>; 5] {
             core::array::from_fn(|i| rays[i])

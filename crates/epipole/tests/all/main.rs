@@ -1,4 +1,5 @@
-//! Integration tests of the library as one program, so that the generic code under test is compiled once.
+//! Integration tests of the library as one program, so that the generic code under test is compiled
+//! once.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

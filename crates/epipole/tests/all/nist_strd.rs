@@ -54,7 +54,8 @@ fn misra_y() -> Vec<f64> {
     ]
 }
 
-/// The Lanczos sets are sums of three exponentials, printed with 14 digits, 6 digits and 4 decimals.
+/// The Lanczos sets are sums of three exponentials, printed with 14 digits, 6 digits and 4
+/// decimals.
 fn lanczos_x() -> Vec<f64> {
     (0..24).map(|i| f64::from(i) * 0.05).collect()
 }

@@ -99,7 +99,8 @@ fn kitti_turn_is_followed() {
         assert!(with_true_lengths.rmse <= 0.0131, "{with_true_lengths:?}");
         assert!(own.rmse <= 0.065, "{own:?}");
     }
-    // Nobody knows the focal length: from a quarter too long or too short it is found, as far as 20 frames tell it.
+    // Nobody knows the focal length: from a quarter too long or too short it is found, as far as 20
+    // frames tell it.
     for share in [0.75, 1.25] {
         let guess = Intrinsics::new(share * k[0], share * k[5], k[2], k[6]).expect("intrinsics");
         let unknown = SfmInput {

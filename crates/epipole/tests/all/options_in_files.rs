@@ -16,7 +16,8 @@ use epipole::two_view::TwoViewOptions;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
-/// No text is the defaults, a text of the defaults gives them back, and a field that does not exist is named.
+/// No text is the defaults, a text of the defaults gives them back, and a field that does not exist
+/// is named.
 fn check<T: Default + Debug + PartialEq + Serialize + DeserializeOwned>() {
     let default = T::default();
     assert_eq!(serde_json::from_str::<T>("{}").unwrap(), default);

@@ -28,7 +28,8 @@ fn intel_reaches_the_known_optimum() {
     let again = PoseGraph::parse_g2o(&graph.to_g2o()).expect("what was written");
     assert!((again.chi2() - report.final_chi2).abs() < 1e-6);
 
-    // From the measurements alone the start is nearer than the file's by three orders, and leads to the same.
+    // From the measurements alone the start is nearer than the file's by three orders, and leads to
+    // the same.
     let mut anew = PoseGraph::parse_g2o(&text).expect("a pose graph");
     anew.initialize().expect("a start");
     let report = anew

@@ -14,8 +14,8 @@ struct Scene {
     p2: Vec<Point2<f64>>,
 }
 
-/// 200 matches in photographs of 1000 × 800 pixels, the first ones wrong. The cameras turn by some ten degrees
-/// about any axis and step in any direction, so that their axes do not meet.
+/// 200 matches in photographs of 1000 × 800 pixels, the first ones wrong. The cameras turn by some
+/// ten degrees about any axis and step in any direction, so that their axes do not meet.
 fn scene(seed: u64, num_wrong: usize, noise_px: f64) -> Scene {
     let mut random = Random::new(seed);
     let f = 800.0 * libm::exp(random.uniform(-0.4, 0.7));
@@ -86,8 +86,8 @@ fn exact_matches_give_the_exact_focal_length() {
     }
 }
 
-/// With half a pixel of noise and a third of the matches wrong, the pose is nearly as good as with the true focal
-/// length, and far better than with one that is a third too long.
+/// With half a pixel of noise and a third of the matches wrong, the pose is nearly as good as with
+/// the true focal length, and far better than with one that is a third too long.
 #[test]
 fn a_found_focal_length_is_better_than_a_guess() {
     let (mut ours, mut known, mut guessed, mut ratios) = (vec![], vec![], vec![], vec![]);

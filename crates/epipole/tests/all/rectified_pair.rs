@@ -1,4 +1,5 @@
-//! Depth in photographs that are redrawn for a rectified rig, against the truth of a rendered scene.
+//! Depth in photographs that are redrawn for a rectified rig, against the truth of a rendered
+//! scene.
 
 use epipole::Result;
 use epipole::camera::{Camera, PosedCamera, look_at, relative_motion};

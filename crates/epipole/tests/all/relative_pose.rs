@@ -17,7 +17,8 @@ struct Scene {
     is_true: Vec<bool>,
 }
 
-/// Points two to eight units away, some of them on a plane five units away, and wrong matches anywhere.
+/// Points two to eight units away, some of them on a plane five units away, and wrong matches
+/// anywhere.
 fn scene(
     random: &mut Random,
     t: Vector3<f64>,
@@ -107,8 +108,8 @@ impl Scene {
     }
 }
 
-/// Half of the matches are wrong. Where the camera drives forward, many of the wrong ones near to their
-/// lines move towards the epipole, which nothing in front of the cameras does.
+/// Half of the matches are wrong. Where the camera drives forward, many of the wrong ones near to
+/// their lines move towards the epipole, which nothing in front of the cameras does.
 #[test]
 fn what_is_behind_a_camera_supports_no_pose() {
     let (mut ours, mut best, mut wrong) = (0.0, 0.0, 0);

@@ -42,7 +42,8 @@ fn lens(kind: LensKind) -> Lens {
     Lens::from_coefficients(kind, numbers).unwrap()
 }
 
-/// Cameras go through a hall whose walls, floor and ceiling are full of points, and look ahead, more or less.
+/// Cameras go through a hall whose walls, floor and ceiling are full of points, and look ahead,
+/// more or less.
 fn hall(count: usize, making: Making, seed: u64) -> World {
     let mut random = Random::new(seed);
     let points: Vec<Point3<f64>> = (0..900)

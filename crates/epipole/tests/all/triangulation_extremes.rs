@@ -150,7 +150,8 @@ fn points_do_not_depend_on_the_unit_of_length() {
                 let off = (found / scale - expected).norm();
                 assert!(off < tolerance, "{scale}: off by {off}");
             };
-            // The search ends where steps are negligible. One pixel of noise moves a point by 0.01 and more.
+            // The search ends where steps are negligible. One pixel of noise moves a point by 0.01
+            // and more.
             for loss in [RobustLoss::Trivial, RobustLoss::Cauchy { width: 1.0 }] {
                 let expected = triangulate_nview(&cameras, &seen, loss).unwrap();
                 let found = triangulate_nview(&other, &seen, loss).unwrap();

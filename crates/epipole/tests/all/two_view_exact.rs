@@ -83,8 +83,8 @@ impl Pair {
     }
 }
 
-/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc: a hundred seeds, 50 exact matches; rotation, direction and the
-/// median angle of triangulation within 1e-6.
+/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc: a hundred seeds, 50 exact matches;
+/// rotation, direction and the median angle of triangulation within 1e-6.
 #[test]
 fn a_hundred_pairs_with_known_intrinsics() {
     for seed in 0..100 {
@@ -168,7 +168,8 @@ fn rays(
     (motion, rays1, rays2)
 }
 
-/// COLMAP's src/colmap/estimators/solvers/essential_matrix_test.cc: a hundred motions, 5, 20 and 1000 rays.
+/// COLMAP's src/colmap/estimators/solvers/essential_matrix_test.cc: a hundred motions, 5, 20 and
+/// 1000 rays.
 #[test]
 fn essential_matrices_of_few_and_of_many_rays() {
     let mut random = Random::new(1);
@@ -243,7 +244,8 @@ fn repeated_matches_do_not_change_what_is_seen() {
     let k = Intrinsics::centered(700.0, 800, 600).unwrap();
     let motion = RigidTransform::new(Vector3::new(-0.8, 0.1, 0.1), Vector3::new(0.02, 0.1, -0.03));
     let mut random = Random::new(8);
-    // 70 matches of a scene with depth, then 30 of a wall in it; and a wall with six matches beside it.
+    // 70 matches of a scene with depth, then 30 of a wall in it; and a wall with six matches beside
+    // it.
     for (num_elsewhere, num_on_wall) in [(70, 30), (6, 94)] {
         let (mut p1, mut p2) = (Vec::new(), Vec::new());
         while p1.len() < num_elsewhere + num_on_wall {

@@ -18,8 +18,8 @@ struct Written {
     /// Permanent: the reader's progress is stored under it.
     id: String,
     prompt: String,
-    /// Multiple choice: one right answer makes radio buttons, several make check boxes. A choice can be a picture:
-    /// `{{#small figure … | words}}`.
+    /// Multiple choice: one right answer makes radio buttons, several make check boxes. A choice
+    /// can be a picture: `{{#small figure … | words}}`.
     #[serde(default)]
     choices: Vec<WrittenChoice>,
     /// Put in order: what comes first stands first; readers see them shuffled.
@@ -155,7 +155,8 @@ fn kind<T>(written: &Written, place: &Place, text: &mut MakeText<T>) -> Result<K
 }
 
 impl<T> Question<T> {
-    /// The question with its texts and its number resolved; none if there is a problem, which is reported.
+    /// The question with its texts and its number resolved; none if there is a problem, which is
+    /// reported.
     pub(super) fn resolve<U>(
         self,
         mut text: impl FnMut(T) -> U,

@@ -76,7 +76,8 @@ fn multiple_choice<T>(
     (fields, answers.join("; "))
 }
 
-/// Steps to put in order: a list of places beside each, which needs neither a mouse nor a steady hand.
+/// Steps to put in order: a list of places beside each, which needs neither a mouse nor a steady
+/// hand.
 fn ordering<T>(key: &str, steps: Vec<T>, inline: &mut Inline<T>) -> (String, String) {
     let steps: Vec<String> = steps.into_iter().map(inline).collect();
     let places: String = (1..=steps.len())
@@ -120,8 +121,8 @@ fn numeric(group: &str, answer: &Answer) -> (String, String) {
     (fields, format!("{printed}{unit}"))
 }
 
-/// The order in which the choices of a question stand, the same in every build: authors write the right
-/// one first, and a reader must not find it there.
+/// The order in which the choices of a question stand, the same in every build: authors write the
+/// right one first, and a reader must not find it there.
 fn order(question: &str, count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     let mut random = Random::new(fnv(question.as_bytes()));

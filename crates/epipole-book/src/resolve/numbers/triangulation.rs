@@ -70,8 +70,9 @@ fn point(a: &Arguments) -> Result<Number, String> {
     Ok(Real(point[a.index("axis", 3)?], 3))
 }
 
-/// The match that the chapter works with, by one method: camera 2 is 0.1 m to the right and 2 m ahead,
-/// the pixels are (320, 242) and (220, 238). The point, and how far it lands from each pixel.
+/// The match that the chapter works with, by one method: camera 2 is 0.1 m to the right and 2 m
+/// ahead, the pixels are (320, 242) and (220, 238). The point, and how far it lands from each
+/// pixel.
 fn ahead(a: &Arguments) -> Result<(Point3<f64>, [f64; 2]), String> {
     let cameras = looking_ahead(500.0, 0.1, 2.0)?;
     let pixels = [Point2::new(320.0, 242.0), Point2::new(220.0, 238.0)];

@@ -1,5 +1,6 @@
-//! `embed/`: what other sites load. `epipole.js` is always the newest; `<version>/epipole.js` is that of one version,
-//! with the hashes of all that it loads; `widget.js` holds everything, for pages that show anywidgets.
+//! `embed/`: what other sites load. `epipole.js` is always the newest; `<version>/epipole.js` is
+//! that of one version, with the hashes of all that it loads; `widget.js` holds everything, for
+//! pages that show anywidgets.
 
 use super::files::Assets;
 use crate::tools::{Tools, read};

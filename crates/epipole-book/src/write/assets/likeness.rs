@@ -16,7 +16,8 @@ const COMMON: usize = 200;
 /// Distance in bytes over which functions are compared: somewhat less than gzip's window.
 const WINDOW: usize = 30_000;
 
-/// The same module with its functions in an order that compresses well. The order depends on the bytes alone.
+/// The same module with its functions in an order that compresses well. The order depends on the
+/// bytes alone.
 ///
 /// # Errors
 /// If the bytes are no WebAssembly module.

@@ -27,7 +27,8 @@ pub(super) fn read(
     Ok((photos, cameras, right_from_left))
 }
 
-/// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a camera that stands otherwise.
+/// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a
+/// camera that stands otherwise.
 fn photograph(
     path: &Path,
     camera: &Camera,

@@ -60,8 +60,9 @@ impl AcceptArguments {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
-    /// Which photographs share a lens, and with it what is refined: all ("one"), those of equal size and focal length
-    /// ("alike"), or none ("each"). Those of --camera share none with others, nor with those that were turned otherwise.
+    /// Which photographs share a lens, and with it what is refined: all ("one"), those of equal
+    /// size and focal length ("alike"), or none ("each"). Those of --camera share none with others,
+    /// nor with those that were turned otherwise.
     #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
     lenses: Lenses,
     #[command(flatten)]

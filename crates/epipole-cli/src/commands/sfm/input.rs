@@ -22,16 +22,16 @@ pub(super) struct InputArguments {
     photos: Vec<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for one that is to be told
-    /// by --camera, by its EXIF data, or to be guessed.
+    /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for
+    /// one that is to be told by --camera, by its EXIF data, or to be guessed.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
-    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images stay distorted, and
-    /// cameras.txt has the lens.
+    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images
+    /// stay distorted, and cameras.txt has the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
-    /// Undistort the images of --camera first: cameras.txt then has pinhole cameras, for programs that know no others.
-    /// The border of a fisheye is lost.
+    /// Undistort the images of --camera first: cameras.txt then has pinhole cameras, for programs
+    /// that know no others. The border of a fisheye is lost.
     #[arg(long, requires = "camera_file")]
     undistort: bool,
     #[command(flatten)]

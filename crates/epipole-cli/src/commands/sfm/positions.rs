@@ -15,13 +15,13 @@ use std::path::Path;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Positions")]
 pub(super) struct PositionArguments {
-    /// Positions of the photos: a file of lines NAME X Y Z in meters, with a standard deviation behind if it is
-    /// another than --position-sigma-m; or "exif" for what the photographs say. Three that are not on one line give the
-    /// result their frame and meters; some may be wrong.
+    /// Positions of the photos: a file of lines NAME X Y Z in meters, with a standard deviation
+    /// behind if it is another than --position-sigma-m; or "exif" for what the photographs say.
+    /// Three that are not on one line give the result their frame and meters; some may be wrong.
     #[arg(long, value_name = "FILE|exif")]
     positions: Option<String>,
-    /// The file has NAME LATITUDE LONGITUDE HEIGHT, in degrees and meters (WGS 84). Results are in meters to the east, to
-    /// the north and up from the first photograph whose place is known.
+    /// The file has NAME LATITUDE LONGITUDE HEIGHT, in degrees and meters (WGS 84). Results are in
+    /// meters to the east, to the north and up from the first photograph whose place is known.
     #[arg(long, requires = "positions")]
     geodetic: bool,
     /// Standard deviation of positions that do not say it, meters.
@@ -56,7 +56,8 @@ impl PositionArguments {
     /// * `places`: what the files of the photographs say, in their order
     ///
     /// # Errors
-    /// A sentence, for a file that cannot be read or says what no place is, and where no photograph has a position.
+    /// A sentence, for a file that cannot be read or says what no place is, and where no photograph
+    /// has a position.
     pub(super) fn give(
         &self,
         photos: &mut [Photo],
@@ -116,7 +117,8 @@ impl PositionArguments {
         Ok(Positions { origin, num_known })
     }
 
-    /// Positions that lie nearer to each other than they are known say nothing; degrees taken for meters do so.
+    /// Positions that lie nearer to each other than they are known say nothing; degrees taken for
+    /// meters do so.
     fn check(&self, photos: &[Photo]) -> Result<(), Failure> {
         let known: Vec<&PositionPrior> =
             photos.iter().filter_map(|p| p.position.as_ref()).collect();

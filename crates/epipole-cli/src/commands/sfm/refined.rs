@@ -18,11 +18,12 @@ pub(crate) struct RefinedArguments {
     /// Refine where the principal points are, one shift for each lens.
     #[arg(long)]
     refine_principal_point: bool,
-    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye four, of the division
-    /// model its one.
+    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye
+    /// four, of the division model its one.
     #[arg(long)]
     refine_distortion: bool,
-    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model have none.
+    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model
+    /// have none.
     #[arg(long)]
     refine_tangential: bool,
 }

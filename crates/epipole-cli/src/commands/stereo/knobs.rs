@@ -29,10 +29,12 @@ enum Prefilter {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Answers that are kept")]
 pub(super) struct KeepArguments {
-    /// Percent by which other disparities must be worse, 0 to 99; 0: no such test [default: 3 for SGM, 10 for BM].
+    /// Percent by which other disparities must be worse, 0 to 99; 0: no such test [default: 3 for
+    /// SGM, 10 for BM].
     #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(..100))]
     uniqueness_percent: Option<u32>,
-    /// The largest difference between the disparities seen from the left and from the right, pixels; "any": no such test.
+    /// The largest difference between the disparities seen from the left and from the right,
+    /// pixels; "any": no such test.
     #[arg(long, default_value = "1", value_name = "PX|any", value_parser = left_right)]
     left_right_max_px: LeftRight,
     /// Answers that hang together in fewer pixels than this are removed.
@@ -41,7 +43,8 @@ pub(super) struct KeepArguments {
     /// Neighbors whose disparities differ by no more than this hang together, pixels.
     #[arg(long, default_value_t = f64::from(DisparityFilter::default().speckle_range_px), value_name = "PX", value_parser = not_negative)]
     speckle_range_px: f64,
-    /// The longest gap that is closed where the answers at its ends hang together, pixels [default: 16 for SGM, 0 for BM].
+    /// The longest gap that is closed where the answers at its ends hang together, pixels [default:
+    /// 16 for SGM, 0 for BM].
     #[arg(long, value_name = "PX")]
     max_gap_px: Option<u32>,
 }
@@ -89,7 +92,8 @@ pub(super) struct SgmArguments {
     /// The penalty for a larger change: at least the small one, at most 150 [default: 100].
     #[arg(long, value_name = "P2")]
     large_step_penalty: Option<u8>,
-    /// The difference of gray values between neighbors that halves the penalty of a large change; 0: none does [default: 10].
+    /// The difference of gray values between neighbors that halves the penalty of a large change;
+    /// 0: none does [default: 10].
     #[arg(long, value_name = "GRAY")]
     edge_gray: Option<u8>,
 }
@@ -116,7 +120,8 @@ pub(super) struct BmArguments {
     /// Limit of the prefiltered values, 1 to 63 [default: 31].
     #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
     prefilter_cap: Option<u8>,
-    /// The smallest mean over a window of what is compared in the left picture; 0: no such test [default: 0.5].
+    /// The smallest mean over a window of what is compared in the left picture; 0: no such test
+    /// [default: 0.5].
     #[arg(long, value_name = "GRAY", value_parser = not_negative)]
     min_texture: Option<f64>,
 }

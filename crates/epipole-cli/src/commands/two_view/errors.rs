@@ -47,7 +47,8 @@ impl SeenPixels {
         self.each(|a, b| tangent_sampson_px(motion, a, b))
     }
 
-    /// Of that motion of E which a match agrees with best: where the configuration is degenerate none is chosen.
+    /// Of that motion of E which a match agrees with best: where the configuration is degenerate
+    /// none is chosen.
     pub(super) fn of_essential(&self, essential: &Matrix3<f64>) -> epipole::Result<Vec<f64>> {
         let motions = decompose_essential(essential)?;
         Ok(self.each(|a, b| {

@@ -15,8 +15,8 @@ use std::ops::ControlFlow;
 /// Samples of six matches, at most: each takes as long as ten of five.
 const MAX_SAMPLES: usize = 2000;
 
-/// The intrinsics given; or else a focal length of both photographs that the matches tell, if neither command
-/// line nor EXIF data do; or else a guess. A sentence says which.
+/// The intrinsics given; or else a focal length of both photographs that the matches tell, if
+/// neither command line nor EXIF data do; or else a guess. A sentence says which.
 ///
 /// # Errors
 /// As [`PairArguments::or_guess`](crate::camera::PairArguments::or_guess).

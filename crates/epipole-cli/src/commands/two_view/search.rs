@@ -316,7 +316,8 @@ fn planar(
     Ok(found)
 }
 
-/// Of a plane that did not move, or may be a turn by another focal length than the one given, read or guessed.
+/// Of a plane that did not move, or may be a turn by another focal length than the one given, read
+/// or guessed.
 fn warn_of_turn(
     arguments: &Arguments,
     context: &Context,

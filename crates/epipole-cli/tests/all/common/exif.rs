@@ -9,7 +9,8 @@ const SHORT: u16 = 3;
 const LONG: u16 = 4;
 const RATIONAL: u16 = 5;
 
-/// The beginning of a block of little-endian numbers with its first directory, of one entry that is a number.
+/// The beginning of a block of little-endian numbers with its first directory, of one entry that is
+/// a number.
 fn block(tag: u16, kind: u16, value: u32) -> Vec<u8> {
     let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
     directory(&mut data, &[(tag, kind, 1, value)]);

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Noise of 0.4 pixels in both images: 99 of 100 Sampson errors are below 2.58 times that. In an image, H has the
-/// noise of both, in two dimensions: 3.03 √2 times that.
+/// Noise of 0.4 pixels in both images: 99 of 100 Sampson errors are below 2.58 times that. In an
+/// image, H has the noise of both, in two dimensions: 3.03 √2 times that.
 #[test]
 fn fit_finds_the_threshold_from_the_noise() {
     let folder = Folder::new("fit-auto");
@@ -172,7 +172,8 @@ fn fits_tell_whether_they_are_confident() {
     let (_, told) = fit(&["--max-iterations", "30", "--quiet"]);
     assert!(told.is_empty(), "{told}");
 
-    // A line through 2 of 2 000 points: more samples than can be counted in seconds, still a number.
+    // A line through 2 of 2 000 points: more samples than can be counted in seconds, still a
+    // number.
     let mut random = Random::new(1);
     let rows = (0..2000).map(|_| {
         format!(

@@ -14,7 +14,8 @@ enum Way {
 }
 
 impl Way {
-    /// Presses the first thing of this name that is no mere word, and draws frames until that has done all it does.
+    /// Presses the first thing of this name that is no mere word, and draws frames until that has
+    /// done all it does.
     fn press(self, bench: &mut Bench<'_>, name: &str) {
         let is_word = |node: &Node<'_>| node.accesskit_node().role() == Role::Label;
         let named: Vec<Node<'_>> = bench.get_all_by_label(name).collect();

@@ -1,4 +1,5 @@
-//! Uncertainty of a point: its region, and its growth along the rays over the angle and over the distance.
+//! Uncertainty of a point: its region, and its growth along the rays over the angle and over the
+//! distance.
 
 use epipole::camera::{PosedCamera, look_at};
 use epipole::math::{Svd3, svd3};

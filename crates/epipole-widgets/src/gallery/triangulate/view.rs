@@ -1,5 +1,5 @@
-//! Cameras and point from above; around the point, enlarged, the rays and all estimates; and beside it
-//! either how far each estimate misses the pixels, or how the uncertainty grows.
+//! Cameras and point from above; around the point, enlarged, the rays and all estimates; and beside
+//! it either how far each estimate misses the pixels, or how the uncertainty grows.
 
 mod beside;
 mod region;

@@ -16,7 +16,8 @@ type Quadric = SMatrix<f64, 4, 4>;
 /// Coefficients of y, w and 1 in an equation.
 type Row = [Polynomial; 3];
 
-/// An extremum of the polynomial this near to zero is taken for a root: noise makes pairs of roots complex.
+/// An extremum of the polynomial this near to zero is taken for a root: noise makes pairs of roots
+/// complex.
 const NEARLY_TOUCHING: f64 = 1e-6;
 
 /// Steps of the Gauss–Newton iteration.

@@ -46,9 +46,10 @@ const FAR_OFF: f64 = 0.25;
 /// plane on a line, input that is not finite, and a plane parallel to the image, which looks the
 /// same at every distance with its focal length.
 ///
-/// Source: the equations of Bujnak, Kukelova & Pajdla 2008, "A general solution to the P4P problem for camera with
-/// unknown focal length"; their elimination as in Kukelova, Heller & Fitzgibbon 2016, "Efficient intersection of three
-/// quadrics and applications in computer vision", with the fourth equation in place of an identity.
+/// Source: the equations of Bujnak, Kukelova & Pajdla 2008, "A general solution to the P4P problem
+/// for camera with unknown focal length"; their elimination as in Kukelova, Heller & Fitzgibbon
+/// 2016, "Efficient intersection of three quadrics and applications in computer vision", with the
+/// fourth equation in place of an identity.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -228,7 +229,8 @@ impl Sample {
         Some(((rotation, t, focal), mirrored))
     }
 
-    /// The root of the mean square distance of a point's image from its pixel; infinite behind the camera.
+    /// The root of the mean square distance of a point's image from its pixel; infinite behind the
+    /// camera.
     fn error(&self, (rotation, t, focal): &PoseFocal) -> f64 {
         let mut sum = 0.0;
         for (x, pixel) in self.points().iter().zip(&self.pixels) {

@@ -5,11 +5,11 @@ use nalgebra::{Vector2, Vector3, Vector4};
 /// Points on a line have no such share in what the others say.
 const NO_SHARE: f64 = 1e-9;
 
-/// The depths of four points on a plane, the first of which is 1; `None` if three of them lie on a line,
-/// or one would be behind the camera.
+/// The depths of four points on a plane, the first of which is 1; `None` if three of them lie on a
+/// line, or one would be behind the camera.
 ///
-/// From `Σ bᵢ Xᵢ = 0` with `Σ bᵢ = 0` follows `Σ bᵢ zᵢ (uᵢ, vᵢ, 1) = 0`: three equations for the ratios of four
-/// depths, whatever the focal length.
+/// From `Σ bᵢ Xᵢ = 0` with `Σ bᵢ = 0` follows `Σ bᵢ zᵢ (uᵢ, vᵢ, 1) = 0`: three equations for the
+/// ratios of four depths, whatever the focal length.
 ///
 /// * `pixels`: about the principal point
 /// * `relation`: the multiples of the sides from the first point to the others that vanish together

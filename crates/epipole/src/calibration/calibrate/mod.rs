@@ -66,20 +66,22 @@ pub struct Calibration {
     pub warnings: Vec<CalibrationWarning>,
 }
 
-/// Intrinsics, distortion and the board's poses that minimize the sum of squared reprojection errors.
+/// Intrinsics, distortion and the board's poses that minimize the sum of squared reprojection
+/// errors.
 ///
-/// * `views`: where the marks are seen, from [`find_board`](super::find_board) for instance; `None` for a
-///   photograph without a board, so that results keep the order of the photographs
+/// * `views`: where the marks are seen, from [`find_board`](super::find_board) for instance; `None`
+///   for a photograph without a board, so that results keep the order of the photographs
 /// * `width`, `height`: of all photographs, pixels
 ///
-/// The start is Zhang's closed form, or one with the principal point in the middle, whichever leads to smaller
-/// errors; for a fisheye, equidistant lenses of several focal lengths.
+/// The start is Zhang's closed form, or one with the principal point in the middle, whichever leads
+/// to smaller errors; for a fisheye, equidistant lenses of several focal lengths.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two views, and for a view with fewer than four marks; [`Error::Degenerate`] if a
-/// view's marks are on one line, and if all boards are parallel or fit no camera; [`Error::SizeMismatch`] for views of another board,
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`] for an image without pixels,
-/// [`Error::Canceled`]. The one stage is [`Stage::Calibration`].
+/// [`Error::TooFew`] for fewer than two views, and for a view with fewer than four marks;
+/// [`Error::Degenerate`] if a view's marks are on one line, and if all boards are parallel or fit
+/// no camera; [`Error::SizeMismatch`] for views of another board, [`Error::NotFinite`] for NaN and
+/// infinities, [`Error::OutOfRange`] for an image without pixels, [`Error::Canceled`]. The one
+/// stage is [`Stage::Calibration`].
 ///
 /// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.
 ///

@@ -142,13 +142,15 @@ impl Estimator for FocalEstimator {
 /// The relative pose and the focal length of two cameras that share it, as most matches have it.
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `principal1`, `principal2`: the principal points, pixels: the middles of the images, for most cameras
+/// * `principal1`, `principal2`: the principal points, pixels: the middles of the images, for most
+///   cameras
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier
 ///
-/// Of the four motions that the essential matrix allows, the one that puts the most inliers in front of both
-/// cameras is returned. Where the axes of the cameras are nearly parallel, or meet at the same distance from both
-/// cameras, as when both look at one thing from the same distance, any focal length fits nearly as well:
-/// [`PoseWithFocal::tells_focal`] says no, and rotation and direction are the poorer for it, too.
+/// Of the four motions that the essential matrix allows, the one that puts the most inliers in
+/// front of both cameras is returned. Where the axes of the cameras are nearly parallel, or meet at
+/// the same distance from both cameras, as when both look at one thing from the same distance, any
+/// focal length fits nearly as well: [`PoseWithFocal::tells_focal`] says no, and rotation and
+/// direction are the poorer for it, too.
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`FocalEstimator::new`] and [`ransac`].

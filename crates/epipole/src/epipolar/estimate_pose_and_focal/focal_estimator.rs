@@ -12,11 +12,13 @@ use nalgebra::Point2;
 /// Relative poses of two cameras with one unknown focal length from matches, for
 /// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is six matches, and of its solutions only those are looked at that put the six points in front of both
-/// cameras, and whose focal length is plausible: at least a fifth of the distance from the principal points within which
-/// three of four matches are, and at most twenty times that of the farthest. The error is the Sampson error in pixels;
-/// refinement minimizes it over rotation, direction and focal length. In the end the best motions for focal lengths over the plausible range are compared with the model,
-/// since samples may all lead to the valley of a wrong one. Equal matches count once.
+/// A sample is six matches, and of its solutions only those are looked at that put the six points
+/// in front of both cameras, and whose focal length is plausible: at least a fifth of the distance
+/// from the principal points within which three of four matches are, and at most twenty times that
+/// of the farthest. The error is the Sampson error in pixels; refinement minimizes it over
+/// rotation, direction and focal length. In the end the best motions for focal lengths over the
+/// plausible range are compared with the model, since samples may all lead to the valley of a wrong
+/// one. Equal matches count once.
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point).
 #[derive(Debug, Clone)]
@@ -38,8 +40,9 @@ impl FocalEstimator {
     /// * `principal1`, `principal2`: the principal points of the two images, pixels
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of an image lie
-    /// on one line, or are equal, [`Error::NotFinite`] for principal points that are not.
+    /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of
+    /// an image lie on one line, or are equal, [`Error::NotFinite`] for principal points that are
+    /// not.
     pub fn new(
         matches: MatchSet,
         principal1: &Point2<f64>,

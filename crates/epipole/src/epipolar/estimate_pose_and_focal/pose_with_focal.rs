@@ -13,9 +13,9 @@ pub struct PoseWithFocal {
     pub fundamental: Matrix3<f64>,
     /// The focal length of both cameras, pixels.
     pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it, there and at other
-    /// focal lengths that explain the matches nearly as well. `None` for a candidate that is yet to be judged, and
-    /// where the focal length makes no difference at all.
+    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it,
+    /// there and at other focal lengths that explain the matches nearly as well. `None` for a
+    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
     pub focal_std_px: Option<f64>,
 }
 

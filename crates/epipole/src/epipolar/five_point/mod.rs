@@ -12,7 +12,8 @@ use crate::math::real_roots::real_roots;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Vector3};
 
-/// The essential matrices, at most ten, that five pairs of rays satisfy exactly; unit Frobenius norm.
+/// The essential matrices, at most ten, that five pairs of rays satisfy exactly; unit Frobenius
+/// norm.
 ///
 /// The rays leave `E = x E1 + y E2 + z E3 + E4`; the ten cubic equations `det E = 0` and
 /// `2 E Eᵀ E − tr(E Eᵀ) E = 0` are reduced to one polynomial of degree 10 in z.
@@ -24,8 +25,9 @@ use nalgebra::{Matrix3, Vector3};
 /// no real solution. Degenerate rays, such as those of a camera that only rotated, have a whole
 /// family of solutions: some of these are returned, or none.
 ///
-/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem"; another basis of
-/// the null space where this one hides solutions at infinity, and Gauss–Newton at the end, are ours.
+/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem"; another
+/// basis of the null space where this one hides solutions at infinity, and Gauss–Newton at the end,
+/// are ours.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -305,7 +307,8 @@ pub(crate) mod tests {
         assert!(found_pose >= 9999, "{found_pose}");
     }
 
-    /// A motion and points of small whole numbers, four digits at most, as exercises and figures have them.
+    /// A motion and points of small whole numbers, four digits at most, as exercises and figures
+    /// have them.
     fn whole_problem(
         random: &mut Random,
     ) -> (RigidTransform, [Vector3<f64>; 5], [Vector3<f64>; 5]) {

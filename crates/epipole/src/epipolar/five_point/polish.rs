@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix4, Vector4};
 
-/// Matrices that miss `E Eᵀ E = ½ tr(E Eᵀ) E` by more are polished, and dropped if that does not help.
+/// Matrices that miss `E Eᵀ E = ½ tr(E Eᵀ) E` by more are polished, and dropped if that does not
+/// help.
 const GOOD: f64 = 5e-9;
 
 /// Nothing is left to polish.
@@ -15,8 +16,8 @@ const MAX_STEPS: usize = 10;
 /// Along a family of solutions the equations are singular, and any member will do.
 const DAMPING: f64 = 1e-15;
 
-/// The matrix in the span of the basis that is essential, where `near` nearly is; both of unit norm. `None`
-/// if there is none near.
+/// The matrix in the span of the basis that is essential, where `near` nearly is; both of unit
+/// norm. `None` if there is none near.
 #[inline]
 pub(super) fn polished(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
     if missing_sq(near) < GOOD * GOOD {

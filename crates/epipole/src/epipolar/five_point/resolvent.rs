@@ -3,19 +3,21 @@
 use super::cubics::{Cubic, constraints};
 use nalgebra::Vector3;
 
-/// A smaller pivot means dependent equations. Of rays anywhere not one problem in 100 000 has one below
-/// 1e-6; after a roll of 90° and a step along the rows all have.
+/// A smaller pivot means dependent equations. Of rays anywhere not one problem in 100 000 has one
+/// below 1e-6; after a roll of 90° and a step along the rows all have.
 const SMALL_PIVOT: f64 = 1e-8;
 
-/// A smaller leading coefficient, relative to the largest, means that a root has gone to infinity. Of rays
-/// anywhere one problem in 10 000 has one below 1e-10; after a step along the rows nearly all have.
+/// A smaller leading coefficient, relative to the largest, means that a root has gone to infinity.
+/// Of rays anywhere one problem in 10 000 has one below 1e-10; after a step along the rows nearly
+/// all have.
 const SMALL_LEAD: f64 = 1e-10;
 
-/// With pivots or leading coefficients so many times the smallest ones, rounding may have taken two roots.
+/// With pivots or leading coefficients so many times the smallest ones, rounding may have taken two
+/// roots.
 const ROUGH: f64 = 1e3;
 
-/// Gauss–Jordan elimination of the first ten columns; only the last six rows are needed, and how small the
-/// smallest pivot is. `None` if the columns are nearly dependent.
+/// Gauss–Jordan elimination of the first ten columns; only the last six rows are needed, and how
+/// small the smallest pivot is. `None` if the columns are nearly dependent.
 fn eliminate(rows: &mut [Cubic; 10]) -> Option<([[f64; 10]; 6], f64)> {
     let mut smallest = f64::INFINITY;
     for column in 0..10 {
@@ -128,7 +130,8 @@ impl Resolvent {
         })
     }
 
-    /// Whether no root has gone to infinity, with a solution that lacks the last vector of the basis.
+    /// Whether no root has gone to infinity, with a solution that lacks the last vector of the
+    /// basis.
     pub(super) fn has_all_degrees(&self) -> bool {
         lead(&self.polynomial) >= SMALL_LEAD
     }

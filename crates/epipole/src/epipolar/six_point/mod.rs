@@ -22,13 +22,13 @@ pub struct EssentialWithFocal {
 /// Maximum number of solutions.
 pub(crate) const MAX_SOLUTIONS: usize = 15;
 
-/// The essential matrices, each with its focal length, that six matches of two cameras with one focal length
-/// satisfy exactly; at most fifteen.
+/// The essential matrices, each with its focal length, that six matches of two cameras with one
+/// focal length satisfy exactly; at most fifteen.
 ///
 /// Pixels are square, without skew. The matches leave `F = x F1 + y F2 + z F3`, and with
 /// `P = diag(1, 1, f⁻²)` this is an essential matrix's if `det F = 0` and
-/// `2 F P Fᵀ P F = tr(F P Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose determinant
-/// is a polynomial of degree 15 in f⁻².
+/// `2 F P Fᵀ P F = tr(F P Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose
+/// determinant is a polynomial of degree 15 in f⁻².
 ///
 /// * `pixels1`, `pixels2`: matching pixels
 /// * `principal1`, `principal2`: the principal points of the two images, pixels
@@ -38,9 +38,9 @@ pub(crate) const MAX_SOLUTIONS: usize = 15;
 /// parallel, or meet at the same distance from both, every focal length fits: then some solutions
 /// are returned, or none. A camera that only rotated is degenerate, too.
 ///
-/// Source: Stewénius, Nistér, Kahl & Schaffalitzky 2005, "A minimal solution for relative pose with unknown focal
-/// length" (the equations); Kukelova, Bujnak & Pajdla 2012, "Polynomial eigenvalue solutions to minimal
-/// problems in computer vision" (the pencil in f⁻²).
+/// Source: Stewénius, Nistér, Kahl & Schaffalitzky 2005, "A minimal solution for relative pose with
+/// unknown focal length" (the equations); Kukelova, Bujnak & Pajdla 2012, "Polynomial eigenvalue
+/// solutions to minimal problems in computer vision" (the pencil in f⁻²).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -81,8 +81,8 @@ pub(crate) fn solve(
     about2: &[Point2<f64>; 6],
     solutions: &mut ArrayVec<EssentialWithFocal, MAX_SOLUTIONS>,
 ) {
-    // A unit in which focal lengths are about 1, and all entries of rows alike. In a larger one the determinant is below
-    // its own rounding where the roots are.
+    // A unit in which focal lengths are about 1, and all entries of rows alike. In a larger one the
+    // determinant is below its own rounding where the roots are.
     let size_sq =
         |points: &[Point2<f64>; 6]| -> f64 { points.iter().map(|p| p.coords.norm_squared()).sum() };
     let unit_px = UNIT_RMS * ((size_sq(about1) + size_sq(about2)) / 12.0).sqrt();
@@ -131,9 +131,9 @@ pub(crate) fn solve(
     }
 }
 
-/// The unit, in root mean squares of the distances from the principal points. Of 30 000 random problems with lenses of .5 to
-/// 3.3 image widths .7 lost 8, .85 and 1 lost 1, 1.15 lost 2, and 2 lost 104; of 20 000 with lenses of .3 to 12
-/// widths, .85 lost 7, 1 lost 12, and 2 lost 341.
+/// The unit, in root mean squares of the distances from the principal points. Of 30 000 random
+/// problems with lenses of .5 to 3.3 image widths .7 lost 8, .85 and 1 lost 1, 1.15 lost 2, and 2
+/// lost 104; of 20 000 with lenses of .3 to 12 widths, .85 lost 7, 1 lost 12, and 2 lost 341.
 const UNIT_RMS: f64 = 0.85;
 
 /// Solutions that differ by less are one.
@@ -244,7 +244,8 @@ mod tests {
         }
     }
 
-    /// Ten thousand problems: the truth is among the solutions of all but two. In twice the unit 35 were lost.
+    /// Ten thousand problems: the truth is among the solutions of all but two. In twice the unit 35
+    /// were lost.
     #[test]
     fn the_truth_is_among_the_solutions() {
         let mut random = Random::new(1);

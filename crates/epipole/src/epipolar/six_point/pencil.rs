@@ -168,8 +168,8 @@ impl Pencil {
         sum
     }
 
-    /// The determinant as Chebyshev coefficients in s, where `w = (1 + s)/(1 − s)`: all positive w are
-    /// in (−1, 1). Three roots at infinite w are divided out.
+    /// The determinant as Chebyshev coefficients in s, where `w = (1 + s)/(1 − s)`: all positive w
+    /// are in (−1, 1). Three roots at infinite w are divided out.
     pub(super) fn polynomial(&self) -> [f64; DEGREE + 1] {
         let count = (DEGREE + 1) as f64;
         let angle = |i: usize| core::f64::consts::PI * (i as f64 + 0.5) / count;

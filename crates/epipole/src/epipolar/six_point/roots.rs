@@ -5,13 +5,15 @@ use super::pencil::DEGREE;
 /// Steps that halve an interval until nothing is left of it.
 const HALVINGS: usize = 60;
 
-/// The value of an extremum, as a share of the largest coefficient, below which it counts as a double root.
+/// The value of an extremum, as a share of the largest coefficient, below which it counts as a
+/// double root.
 const TOUCHES: f64 = 1e-9;
 
 /// Coefficients of degree up to [`DEGREE`], from the constant term upwards.
 type Series = [f64; DEGREE + 1];
 
-/// All roots in (−1, 1), in ascending order: between roots of the derivative a polynomial is monotone.
+/// All roots in (−1, 1), in ascending order: between roots of the derivative a polynomial is
+/// monotone.
 pub(super) fn roots_within(series: &Series) -> Vec<f64> {
     if !series.iter().all(|c| c.is_finite()) {
         return Vec::new();
@@ -94,7 +96,8 @@ mod tests {
             let angle = core::f64::consts::PI * (2 * i + 1) as f64 / 30.0;
             assert!((root - libm::cos(angle)).abs() < 1e-14);
         }
-        // x² + 1 has none; T₂ = 2 x² − 1 with a constant of 2 more is twice that, and NaN has none either.
+        // x² + 1 has none; T₂ = 2 x² − 1 with a constant of 2 more is twice that, and NaN has none
+        // either.
         let mut none = [0.0; DEGREE + 1];
         (none[0], none[2]) = (3.0, 1.0);
         assert!(roots_within(&none).is_empty());

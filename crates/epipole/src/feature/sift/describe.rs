@@ -190,8 +190,8 @@ mod tests {
         }
     }
 
-    /// OpenCV and scikit-image weigh and share the gradients of the same layers in the same way, but OpenCV cuts the
-    /// window at a rounded radius, and scikit-image rounds to whole numbers.
+    /// OpenCV and scikit-image weigh and share the gradients of the same layers in the same way,
+    /// but OpenCV cuts the window at a rounded radius, and scikit-image rounds to whole numbers.
     #[test]
     fn descriptors_equal_those_of_opencv_and_scikit_image() {
         let image = gray_to_f32(&fixture::gray8("sift_image.npy"));

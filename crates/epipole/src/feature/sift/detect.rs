@@ -34,8 +34,9 @@ pub struct Features {
 /// [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel, [`Error::OutOfRange`](crate::Error::OutOfRange) for an
-/// option outside its range, [`Error::Canceled`](crate::Error::Canceled).
+/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
+/// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: Lowe 2004, "Distinctive image features from scale-invariant keypoints".
 ///

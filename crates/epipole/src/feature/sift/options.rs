@@ -22,9 +22,9 @@ pub enum SiftNormalization {
     Root,
 }
 
-/// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as OpenCV takes them, but for the blur that
-/// the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more,
-/// and fewer of the features are too small to be seen from further away.
+/// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as OpenCV takes them,
+/// but for the blur that the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave
+/// is then blurred more, and fewer of the features are too small to be seen from further away.
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",

@@ -116,7 +116,8 @@ impl Octave {
         while self.advance_towards(layer) {}
     }
 
-    /// Makes one of the layers that extrema of `layer` still need; false where none was left to make.
+    /// Makes one of the layers that extrema of `layer` still need; false where none was left to
+    /// make.
     pub(super) fn advance_towards(&mut self, layer: usize) -> bool {
         if self.newest == layer + 2 {
             return false;
@@ -235,8 +236,8 @@ fn halved(image: &GrayImage32) -> GrayImage32 {
     })
 }
 
-/// An image whose rows are made by `fill(y, memory, row)`, each from its number alone; `memory` holds
-/// `memory_len` numbers that other rows left.
+/// An image whose rows are made by `fill(y, memory, row)`, each from its number alone; `memory`
+/// holds `memory_len` numbers that other rows left.
 fn row_by_row(
     width: usize,
     height: usize,

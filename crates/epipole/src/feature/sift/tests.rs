@@ -306,9 +306,9 @@ fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
 
-/// The bars and the protocol of OpenCV's modules/features2d/test/test_descriptors_invariance.cpp and
-/// test_detectors_invariance.cpp: keypoints found again (overlap above
-/// one half), of these the angles within 15°; nearest descriptors that lie where they should.
+/// The bars and the protocol of OpenCV's modules/features2d/test/test_descriptors_invariance.cpp
+/// and test_detectors_invariance.cpp: keypoints found again (overlap above one half), of these the
+/// angles within 15°; nearest descriptors that lie where they should.
 #[test]
 fn keypoints_and_descriptors_survive_rotation() {
     use crate::imaging::{Interpolation, WarpOptions, warp_affine};

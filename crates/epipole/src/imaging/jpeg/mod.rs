@@ -8,7 +8,8 @@
 //!
 //! Damage that leaves as many codes that make sense is not noticed. In fourteen encodings of a
 //! photograph, a part that was cut out or overwritten (500 bytes) was found in 99 of 100 cases, a
-//! single changed byte in every other one; `libjpeg`, which goes on with a warning, notices as many.
+//! single changed byte in every other one; `libjpeg`, which goes on with a warning, notices as
+//! many.
 
 mod bits;
 mod blocks;

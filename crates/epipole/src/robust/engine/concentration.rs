@@ -1,7 +1,8 @@
 //! Rejection of models that a single image region supports.
 //!
-//! Many wrong matches may lead to nearly one pixel. A map that takes the whole image there, or an F with its epipole
-//! there, fits all of them. Scale alone does not tell: a map from pixels to meters has a small one, too.
+//! Many wrong matches may lead to nearly one pixel. A map that takes the whole image there, or an F
+//! with its epipole there, fits all of them. Scale alone does not tell: a map from pixels to meters
+//! has a small one, too.
 
 use super::Ransac;
 use crate::math::order::at_rank;
@@ -9,8 +10,9 @@ use crate::robust::Estimator;
 
 /// Constants of the test.
 struct Tuning {
-    /// Minimum distance of the inliers from their center, in units of their errors (medians). Concentrated matches have
-    /// about 1, and somewhat more for F, whose errors have one dimension; honest models about 100.
+    /// Minimum distance of the inliers from their center, in units of their errors (medians).
+    /// Concentrated matches have about 1, and somewhat more for F, whose errors have one dimension;
+    /// honest models about 100.
     min_spread: f64,
     /// Number of matches, evenly chosen, in the first and cheap test.
     subset_size: usize,
@@ -28,10 +30,12 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Whether the inliers of a model lie in one region, which explains them as well as the model does.
+    /// Whether the inliers of a model lie in one region, which explains them as well as the model
+    /// does.
     ///
-    /// The spread is that in the image where errors are measured, in the same unit, so maps to meters are judged as those
-    /// to pixels are. Errors of one dimension are measured in both images.
+    /// The spread is that in the image where errors are measured, in the same unit, so maps to
+    /// meters are judged as those to pixels are. Errors of one dimension are measured in both
+    /// images.
     pub(super) fn is_concentrated(&mut self, model: &E::Model) -> bool {
         let problem = self.estimator.problem();
         let Some(matches) = problem.data.matches() else {
@@ -69,7 +73,8 @@ impl<E: Estimator> Ransac<E> {
     }
 }
 
-/// The median square of the inliers' distances from their middle: in image 2, or in the image where it is less.
+/// The median square of the inliers' distances from their middle: in image 2, or in the image where
+/// it is less.
 fn spread_sq(
     inliers: &[usize],
     [u1, v1, u2, v2]: [&[f64]; 4],

@@ -5,15 +5,16 @@ use crate::robust::{Estimator, Evidence};
 
 /// Constants of local optimization.
 struct Tuning {
-    /// A model whose first fits bring it to the cost of the best one, up to this share, is not improved further where
-    /// there are several ways to do so: most samples without outliers lead there.
+    /// A model whose first fits bring it to the cost of the best one, up to this share, is not
+    /// improved further where there are several ways to do so: most samples without outliers lead
+    /// there.
     ///
-    /// On photographs with known cameras, ten orders of the matches each: F takes 1 to 6 % less time, E the same; AUC@10°
-    /// changes by +.21 to −.23 for F, by .01 at most for E.
+    /// On photographs with known cameras, ten orders of the matches each: F takes 1 to 6 % less
+    /// time, E the same; AUC@10° changes by +.21 to −.23 for F, by .01 at most for E.
     known: f64,
-    /// Reaches of the first fits in thresholds, way by way, for errors of one dimension and of two. Errors of two are
-    /// small by chance so seldom that nearly all within four thresholds belong to a model that is right in a part of the
-    /// image.
+    /// Reaches of the first fits in thresholds, way by way, for errors of one dimension and of two.
+    /// Errors of two are small by chance so seldom that nearly all within four thresholds belong to
+    /// a model that is right in a part of the image.
     first_reaches: [&'static [&'static [f64]]; 2],
     /// An improvement below this cost is not worth another round.
     least_gain: f64,
@@ -93,8 +94,8 @@ impl<E: Estimator> Ransac<E> {
         changed
     }
 
-    /// Whether a model costs nearly what the best one does: then it leads to the same optimum, around which the end of
-    /// the run looks anyway.
+    /// Whether a model costs nearly what the best one does: then it leads to the same optimum,
+    /// around which the end of the run looks anyway.
     fn is_known(&self, candidate: &Candidate<E::Model>) -> bool {
         self.best.as_ref().is_some_and(|best| {
             let known = best.support.cost;

@@ -1,9 +1,9 @@
 //! The one loop: draw, fit, score, improve, until enough samples were drawn.
 //!
-//! Its stages are files: `local_optimization` improves a sample's model, `concentration` rejects models of one image
-//! region, `stopping` says when enough samples were drawn; at the end `neighborhood` looks for a better optimum nearby,
-//! `degeneracy` asks for an alternative, `polish` fits all inliers once more, `report` sums up. Each keeps its constants
-//! in a `Tuning`.
+//! Its stages are files: `local_optimization` improves a sample's model, `concentration` rejects
+//! models of one image region, `stopping` says when enough samples were drawn; at the end
+//! `neighborhood` looks for a better optimum nearby, `degeneracy` asks for an alternative, `polish`
+//! fits all inliers once more, `report` sums up. Each keeps its constants in a `Tuning`.
 
 mod concentration;
 mod degeneracy;
@@ -19,20 +19,22 @@ use super::{Estimator, Problem, RansacOptions, RansacReport, ScoreKind, StopReas
 use crate::math::random::Random;
 use crate::{Error, Result};
 
-/// A sample's model is improved if it beats those of this block of so many samples and of the block before: a
-/// sample that is better than all others may still lead to an optimum that is worse than a later one's.
+/// A sample's model is improved if it beats those of this block of so many samples and of the block
+/// before: a sample that is better than all others may still lead to an optimum that is worse than
+/// a later one's.
 const BLOCK: usize = 100;
 
 /// RANSAC, one sample at a time.
 ///
-/// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) yourself to show what happens.
+/// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) yourself to show what
+/// happens.
 ///
 /// Each step draws a sample, fits up to a few models to it and scores them against all data. A
 /// model that beats those of the last hundred samples or more is improved from its inliers (local
-/// optimization). Of matches, a model whose inliers are gathered at one place of an image, and fit the place as well as
-/// the model, is left off: many wrong matches may lead there. The loop ends once enough samples were drawn for the share of inliers that the
-/// best model has. Nothing is allocated between [`new`](Ransac::new) and
-/// [`finish`](Ransac::finish).
+/// optimization). Of matches, a model whose inliers are gathered at one place of an image, and fit
+/// the place as well as the model, is left off: many wrong matches may lead there. The loop ends
+/// once enough samples were drawn for the share of inliers that the best model has. Nothing is
+/// allocated between [`new`](Ransac::new) and [`finish`](Ransac::finish).
 ///
 /// Source: Fischler & Bolles 1981; Chum, Matas & Kittler 2003, "Locally optimized RANSAC".
 ///
@@ -63,7 +65,8 @@ pub struct Ransac<E: Estimator> {
     /// Room for one number a datum.
     values: Vec<f64>,
     best: Option<Candidate<E::Model>>,
-    /// The lowest cost of a model straight from a sample, in this block of samples and in the one before.
+    /// The lowest cost of a model straight from a sample, in this block of samples and in the one
+    /// before.
     block_costs: [f64; 2],
     iterations: usize,
     refinements: usize,
@@ -123,7 +126,8 @@ impl<E: Estimator> Ransac<E> {
         })
     }
 
-    /// Starts from an initial model, improved from its inliers; samples can still find a better one.
+    /// Starts from an initial model, improved from its inliers; samples can still find a better
+    /// one.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -248,7 +252,8 @@ impl<E: Estimator> Ransac<E> {
     /// [`StopReason::Interrupted`].
     ///
     /// # Errors
-    /// [`Error::NoConsensus`] if no sample gave a model that at least the data of one sample support.
+    /// [`Error::NoConsensus`] if no sample gave a model that at least the data of one sample
+    /// support.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
         self.conclude()
     }

@@ -22,8 +22,8 @@ struct Tuning {
     far_off: f64,
     /// Costs equal up to this share, or this much of one datum, mean the same optimum.
     same: f64,
-    /// Models are compared within this many medians of the inliers' errors: two standard deviations, if errors of one
-    /// dimension are Gaussian.
+    /// Models are compared within this many medians of the inliers' errors: two standard
+    /// deviations, if errors of one dimension are Gaussian.
     sharp_medians: f64,
     /// Upper bounds of `sharp_medians`, in thresholds, look by look, for errors of one dimension
     /// and of two. Two homographies whose errors fill the threshold differ only beyond it, but a

@@ -6,14 +6,17 @@ use crate::robust::{Estimator, ScoreKind};
 
 /// Constants of the refinement.
 struct Tuning {
-    /// Width of Welsch's loss in medians of the errors, of one dimension (three standard deviations) and of two. Set on
-    /// classes of image pairs, nearly every one of which gains where it is left out of the choice.
+    /// Width of Welsch's loss in medians of the errors, of one dimension (three standard
+    /// deviations) and of two. Set on classes of image pairs, nearly every one of which gains where
+    /// it is left out of the choice.
     width_medians: [f64; 2],
     /// Maximum width in thresholds: errors that fill the threshold reach beyond it.
     width_thresholds: f64,
-    /// Number of reweightings. More of them would discard the few data that say what the many leave open.
+    /// Number of reweightings. More of them would discard the few data that say what the many leave
+    /// open.
     reweightings: usize,
-    /// Number of reweightings that measure the width anew. Then it is fixed: weights and width would narrow each other.
+    /// Number of reweightings that measure the width anew. Then it is fixed: weights and width
+    /// would narrow each other.
     width_updates: usize,
     /// Minimum share of inliers that the refined model keeps, under the MSAC score.
     kept: [usize; 2],
@@ -28,9 +31,9 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Refines the best model by least squares over all data within a few times the errors of the inliers, with Welsch's
-    /// weights. They differ from the score, so the result is kept unless it loses inliers: one in twenty at most, and
-    /// none where inliers are counted.
+    /// Refines the best model by least squares over all data within a few times the errors of the
+    /// inliers, with Welsch's weights. They differ from the score, so the result is kept unless it
+    /// loses inliers: one in twenty at most, and none where inliers are counted.
     ///
     /// Source: Holland & Welsch 1977, "Robust regression using iteratively reweighted
     /// least-squares" (Welsch's weights).
@@ -92,8 +95,9 @@ impl<E: Estimator> Ransac<E> {
         errors_sq.extend(self.inliers.iter().map(error_sq));
     }
 
-    /// Scale of the inliers' errors: a multiple of their median, between a quarter of the threshold and `most_px`. The
-    /// threshold is a guess; errors a tenth as large deserve a sharper weight, and those that fill it a wider one.
+    /// Scale of the inliers' errors: a multiple of their median, between a quarter of the threshold
+    /// and `most_px`. The threshold is a guess; errors a tenth as large deserve a sharper weight,
+    /// and those that fill it a wider one.
     ///
     /// * `errors_sq`: squared errors, at least one; reordered
     pub(super) fn medians_px(&self, errors_sq: &mut [f64], medians: f64, most_px: f64) -> f64 {

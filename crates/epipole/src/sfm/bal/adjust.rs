@@ -10,16 +10,17 @@ use crate::{Error, Result};
 /// Refines all cameras and points of a problem, in place.
 ///
 /// * `loss`: its width is in pixels
-/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::BundleAdjustment`]
+/// * `monitor`: hears before the first step and after each one, in the one stage
+///   [`Stage::BundleAdjustment`]
 ///
 /// Every observation counts, those of points behind their camera too, so that costs can be
 /// compared.
 ///
 /// # Errors
-/// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange) if
-/// an observation refers to a camera or point that is not there, or for a loss that
-/// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start is
-/// not finite, [`Canceled`](crate::Error::Canceled); the problem is then the best found so far.
+/// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange)
+/// if an observation refers to a camera or point that is not there, or for a loss that
+/// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start
+/// is not finite, [`Canceled`](crate::Error::Canceled); the problem is then the best found so far.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis".
 pub fn adjust_bal(

@@ -15,8 +15,8 @@ impl BalProblem {
     /// three a point.
     ///
     /// # Errors
-    /// [`Error::Malformed`](crate::Error::Malformed) with the line, if words are missing, left over, not finite, or index
-    /// what is not there.
+    /// [`Error::Malformed`](crate::Error::Malformed) with the line, if words are missing, left
+    /// over, not finite, or index what is not there.
     pub fn parse(text: &str) -> Result<Self> {
         let mut tokens = Tokens::new(WHAT, text);
         let limit = u32::MAX as usize;

@@ -122,7 +122,8 @@ impl Builder {
         adjusted
     }
 
-    /// The number that the lens of an image has in a bundle, into which it comes if it is new there.
+    /// The number that the lens of an image has in a bundle, into which it comes if it is new
+    /// there.
     fn lens_in(&self, bundle: &mut Bundle, lenses: &mut Lenses, image: usize) -> usize {
         let lens = lenses.number_of(self.images[image].lens);
         if lens == bundle.lenses.len() {

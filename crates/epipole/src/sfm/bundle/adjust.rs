@@ -13,19 +13,22 @@ use crate::{Error, Result};
 use nalgebra::Translation3;
 
 /// Refines cameras, points and, if wanted, what [`BundleOptions`] names of their lenses, in place:
-/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, and what is known of positions beside it, each
-/// difference in its standard deviations: a pixel weighs as much as one of them. Positions that are far from where the
-/// cameras are want [`align_points`](crate::sfm::align_points) first.
+/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, and what is known of positions
+/// beside it, each difference in its standard deviations: a pixel weighs as much as one of them.
+/// Positions that are far from where the cameras are want
+/// [`align_points`](crate::sfm::align_points) first.
 ///
-/// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::BundleAdjustment`]
+/// * `monitor`: hears before the first step and after each one, in the one stage
+///   [`Stage::BundleAdjustment`]
 ///
 /// Cameras and points without observations stay where they are.
 ///
 /// # Errors
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, for a lens beyond the number of cameras and sensors, a standard deviation that is not positive, or
-/// for a loss that [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses,
-/// [`Error::NotFinite`] if a pixel, a coefficient of a lens, a known position or the cost at the start is not finite,
+/// camera or point that is not there, for a lens beyond the number of cameras and sensors, a
+/// standard deviation that is not positive, or for a loss that
+/// [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses, [`Error::NotFinite`] if a pixel,
+/// a coefficient of a lens, a known position or the cost at the start is not finite,
 /// [`Error::Canceled`]; the bundle is then the best found so far.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras

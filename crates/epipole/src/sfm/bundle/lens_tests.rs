@@ -18,8 +18,8 @@ fn lens(kind: LensKind) -> Lens {
     Lens::from_coefficients(kind, numbers).unwrap()
 }
 
-/// Cameras amid points that are all around them, each point seen by those whose lens sees it within so many degrees of
-/// its axis.
+/// Cameras amid points that are all around them, each point seen by those whose lens sees it within
+/// so many degrees of its axis.
 fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: f64) -> Bundle {
     let mut random = Random::new(31);
     let mut bundle = Bundle {

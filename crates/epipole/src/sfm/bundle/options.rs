@@ -46,10 +46,11 @@ pub struct BundleOptions {
     pub refine_focal: bool,
     /// Refine where the principal points are: one shift for each lens, pixels.
     pub refine_principal_point: bool,
-    /// Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational one, k1 to k4 of a
-    /// fisheye, k of the division model.
+    /// Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational
+    /// one, k1 to k4 of a fisheye, k of the division model.
     pub refine_distortion: bool,
-    /// Refine the tangential terms p1 and p2 of each lens; fisheyes and the division model have none.
+    /// Refine the tangential terms p1 and p2 of each lens; fisheyes and the division model have
+    /// none.
     pub refine_tangential: bool,
     /// Priors of camera positions, by index; missing entries are unknown. With any prior, no camera
     /// is held by the gauge.

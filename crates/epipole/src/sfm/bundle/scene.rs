@@ -69,9 +69,10 @@ impl Bundle {
         used.max().map_or(1, |last| last.saturating_add(1))
     }
 
-    /// Predicted minus observed pixel of an observation, given by its index; not finite if the lens does not see the
-    /// point, or it is in the camera's center plane. Points behind the camera are mirrored through its
-    /// center, as in [`adjust_bundle`](super::adjust_bundle), except by a fisheye, which may see them.
+    /// Predicted minus observed pixel of an observation, given by its index; not finite if the lens
+    /// does not see the point, or it is in the camera's center plane. Points behind the camera are
+    /// mirrored through its center, as in [`adjust_bundle`](super::adjust_bundle), except by a
+    /// fisheye, which may see them.
     pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
         let o = &self.observations[observation];
         let eye = self.eye(observation);

@@ -116,7 +116,8 @@ fn jacobians_are_those_of_central_differences() {
     check_derivatives::<OF_BROWN>(&bundle, &options);
 }
 
-/// The derivatives of every residual are those of differences; the second camera's position is known.
+/// The derivatives of every residual are those of differences; the second camera's position is
+/// known.
 pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &BundleOptions) {
     let (num_cameras, num_points) = (bundle.cameras.len(), bundle.points.len());
     let problem = Problem::<S> {

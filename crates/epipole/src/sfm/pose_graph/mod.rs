@@ -134,12 +134,13 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// options say: damping would hold back the slow bends of long trajectories.
     ///
     /// * `loss`: robust to wrong loop closures; its width is in standard deviations
-    /// * `monitor`: hears before the first step and after each one, in the one stage [`Stage::PoseGraph`]
+    /// * `monitor`: hears before the first step and after each one, in the one stage
+    ///   [`Stage::PoseGraph`]
     ///
     /// # Errors
-    /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there
-    /// or a vertex with itself, or for a loss that [`RobustLoss::check`] refuses,
-    /// [`Error::NotFinite`] for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
+    /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there or
+    /// a vertex with itself, or for a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`]
+    /// for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
     pub fn optimize(

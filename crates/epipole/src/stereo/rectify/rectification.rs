@@ -39,8 +39,9 @@ impl Rectification {
     /// Position in the rectified image of `pixel` of photograph 0 or 1.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1, [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the
-    /// rectified camera looks away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1,
+    /// [`Error::PointBehindCamera`](crate::Error::PointBehindCamera) if the rectified camera looks
+    /// away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
     pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         let i = checked_index(index)?;
         let turned = self.rect_from_cam[i] * self.cameras[i].ray(pixel)?;

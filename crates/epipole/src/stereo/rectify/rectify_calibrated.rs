@@ -54,13 +54,16 @@ impl Default for RectifyOptions {
 /// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
 ///
 /// # Errors
-/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the baseline is more than 60° off the image plane
-/// halfway between the cameras, whichever way it slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline
-/// θ off that plane it does as soon as the photographs reach 90° − θ from their middle: no common image plane
-/// sees all of it. A fisheye may: of what it sees farther than 80° from the results' middle, nothing is shown.
-/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an
-/// empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds less than half-way to the photograph's border; what lies
-/// beyond a fold nearer to it is not shown.
+/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the
+/// baseline is more than 60° off the image plane halfway between the cameras, whichever way it
+/// slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline θ
+/// off that plane it does as soon as the photographs reach 90° − θ from their middle: no common
+/// image plane sees all of it. A fisheye may: of what it sees farther than 80° from the results'
+/// middle, nothing is shown. [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs
+/// that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1
+/// or an empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds
+/// less than half-way to the photograph's border; what lies beyond a fold nearer to it is not
+/// shown.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
 /// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
@@ -114,7 +117,8 @@ pub fn rectify_calibrated(
     let axis = usize::from(turned.is_vertical);
     let shared = [0, 1].map(|a| options.zero_disparity_at_infinity || a != axis);
     let seen = around_what_is_seen(&outlines, shared, &new_size, options.alpha)?;
-    // The principal points stay where they are, as is usual, unless that costs too much of the view.
+    // The principal points stay where they are, as is usual, unless that costs too much of the
+    // view.
     let (focal_px, centers) =
         around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
             .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.framing.0)

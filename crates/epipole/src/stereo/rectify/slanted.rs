@@ -1,4 +1,5 @@
-//! Photographs that stand slanted once they are rectified, as those of a baseline that runs askew through the picture.
+//! Photographs that stand slanted once they are rectified, as those of a baseline that runs askew
+//! through the picture.
 
 use super::outline::Outline;
 use super::rect::PixelRect;
@@ -7,10 +8,12 @@ use nalgebra::Vector2;
 /// Lines across the photographs that are tried as ends of what is shown.
 const NUM_LEVELS: usize = 97;
 
-/// The rectangles inside both photographs that have to be enlarged least to fill the results. `None` if there are none.
+/// The rectangles inside both photographs that have to be enlarged least to fill the results.
+/// `None` if there are none.
 ///
-/// The rectangle between the innermost points of the four sides, [`Outline::inner`], shrinks to nothing as a picture
-/// of 4 : 3 is turned by 37°. One that may leave parts of the sides out stays some 40 % as large.
+/// The rectangle between the innermost points of the four sides, [`Outline::inner`], shrinks to
+/// nothing as a picture of 4 : 3 is turned by 37°. One that may leave parts of the sides out stays
+/// some 40 % as large.
 ///
 /// * `is_shared`: whether both have the same range along x, and along y; one of them at least
 /// * `new_size`: of the results, pixels
@@ -71,8 +74,8 @@ fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 impl Outline {
-    /// The part of the line at a level of one axis that is inside, as a range along the other. Its end lies before its
-    /// begin if the line misses the photograph.
+    /// The part of the line at a level of one axis that is inside, as a range along the other. Its
+    /// end lies before its begin if the line misses the photograph.
     fn crossed(&self, along: usize, level: f64) -> [f64; 2] {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for (k, from) in self.border.iter().enumerate() {

@@ -115,8 +115,8 @@ fn matches_share_a_line_and_q_gives_them_back() {
     }
 }
 
-/// The second camera stands to the side and ahead: up to 60° off the image plane there is a region that both
-/// saw, or the error says what the limit is.
+/// The second camera stands to the side and ahead: up to 60° off the image plane there is a region
+/// that both saw, or the error says what the limit is.
 #[test]
 fn a_baseline_far_off_the_image_plane_is_rectified() {
     for off_deg in [30.0_f64, 37.0, 45.0, 55.0] {
@@ -206,8 +206,8 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
     }
 }
 
-/// A model that was fitted to marks in the middle often folds before the corners: the rest of the photograph is
-/// rectified, and what lies beyond the fold is not shown.
+/// A model that was fitted to marks in the middle often folds before the corners: the rest of the
+/// photograph is rectified, and what lies beyond the fold is not shown.
 #[test]
 fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
     let folding = |k1: f64| Camera {
@@ -260,8 +260,8 @@ fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
     );
 }
 
-/// A second camera above and beside the first, or one of two that is held askew: the photographs stand slanted
-/// after it, and still a good part of them is shown, at any angle.
+/// A second camera above and beside the first, or one of two that is held askew: the photographs
+/// stand slanted after it, and still a good part of them is shown, at any angle.
 #[test]
 fn photographs_that_stand_slanted_are_rectified() {
     let lens = camera(800.0, 800.0, 399.5, 299.5, [-0.1, 0.02, 0.0, 0.0, 0.0]);
@@ -281,8 +281,8 @@ fn photographs_that_stand_slanted_are_rectified() {
                     rectify_calibrated(&[sized(lens, 800, 600); 2], &cam2_from_cam1, &options);
                 let rig = rig.unwrap_or_else(|error| panic!("{slant_deg}°: {error}"));
                 let focal_px = rig.intrinsics[0].fu_px();
-                // Photographs turned by 45° leave a rectangle that fills the results at 1340 px. To hold the
-                // principal points in the middle may cost twice that, and no more.
+                // Photographs turned by 45° leave a rectangle that fills the results at 1340 px. To
+                // hold the principal points in the middle may cost twice that, and no more.
                 assert!(
                     focal_px < LARGEST_CROP * 1340.0,
                     "{slant_deg}°: {focal_px} px"
@@ -384,8 +384,9 @@ fn hopeless_rigs_are_refused() {
     assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
 }
 
-/// Through each model of a lens, also a fisheye of 190° whose circle leaves the corners black: what both see is in one
-/// row, at the disparity of its depth, and each result is read where its photograph shows it.
+/// Through each model of a lens, also a fisheye of 190° whose circle leaves the corners black: what
+/// both see is in one row, at the disparity of its depth, and each result is read where its
+/// photograph shows it.
 #[test]
 fn rigs_of_any_lens_are_rectified() {
     let mut random = Random::new(8);

@@ -31,7 +31,8 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     // x2 = R x1 + t seen in the frame halfway: R^½ x1 and R^−½ x2 differ by R^−½ t alone.
     let halfway = half.inverse() * t;
     let is_vertical = halfway.y.abs() > halfway.x.abs();
-    // Beyond 60° from the image plane, whichever way the baseline slants in it, the epipole comes into the picture.
+    // Beyond 60° from the image plane, whichever way the baseline slants in it, the epipole comes
+    // into the picture.
     if halfway.z.abs() > 3.0_f64.sqrt() * halfway.xy().norm() {
         return Err(Error::Degenerate {
             what,

@@ -1,7 +1,8 @@
 //! Any file gives an answer or an error, never a panic, and every number in the answer is finite.
 //!
-//! Each format starts from files that are right and damages them. A thousand cases a format run with the tests;
-//! `EPIPOLE_FUZZ_CASES=1000000 cargo test --release -p epipole --test all fuzz_formats` runs a million.
+//! Each format starts from files that are right and damages them. A thousand cases a format run
+//! with the tests; `EPIPOLE_FUZZ_CASES=1000000 cargo test --release -p epipole --test all
+//! fuzz_formats` runs a million.
 
 mod damage;
 mod pictures;

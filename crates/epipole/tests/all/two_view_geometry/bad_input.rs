@@ -194,8 +194,8 @@ fn bad_input_is_an_error_for_everyone() {
     assert!(errors[0].is_some() && errors[2].is_some());
 }
 
-/// One match at infinity, or where no image reaches, is no reason to refuse the others; every room finds what it
-/// finds without it, and says that it was left out.
+/// One match at infinity, or where no image reaches, is no reason to refuse the others; every room
+/// finds what it finds without it, and says that it was left out.
 #[test]
 fn a_match_beyond_all_images_is_left_out() {
     let mut random = Random::new(21);

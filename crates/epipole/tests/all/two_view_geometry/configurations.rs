@@ -24,8 +24,8 @@ use nalgebra::{Point2, Point3, Vector3};
 fn configurations_are_recognized() {
     // A plane alone leaves two motions.
     let (mut planes, mut one_of_two) = (0, 0);
-    // Sixty true matches of 200 with .7 px of noise leave the motion of one pair in forty farther off than that: seven
-    // of 300 seeds.
+    // Sixty true matches of 200 with .7 px of noise leave the motion of one pair in forty farther
+    // off than that: seven of 300 seeds.
     let mut generals = 0;
     for (max_error_px, noise_px, share_true) in [
         (1.0, 0.3, 0.7),

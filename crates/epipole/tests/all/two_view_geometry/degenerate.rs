@@ -244,8 +244,8 @@ fn a_good_order_saves_samples() {
     assert!(10 * prosac < uniform, "{prosac} of {uniform}");
 }
 
-/// Matches that lead to one pixel by the dozen, as of a nearest neighbor for everything, do not draw
-/// the epipole there.
+/// Matches that lead to one pixel by the dozen, as of a nearest neighbor for everything, do not
+/// draw the epipole there.
 #[test]
 fn a_crowded_pixel_has_few_votes() {
     for (share_crowded, seed) in (0..10).flat_map(|seed| [(0.3, seed), (0.5, seed), (0.6, seed)]) {

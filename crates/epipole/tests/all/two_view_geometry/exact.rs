@@ -15,8 +15,8 @@ use epipole::{estimate_fundamental, estimate_homography, estimate_relative_pose}
 use nalgebra::{Matrix3, Point2, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
-/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc, calibrated and uncalibrated: a hundred seeds, 50 exact
-/// matches, rotation and direction within 1e-6.
+/// COLMAP's src/colmap/estimators/two_view_geometry_test.cc, calibrated and uncalibrated: a hundred
+/// seeds, 50 exact matches, rotation and direction within 1e-6.
 #[test]
 fn a_hundred_exact_pairs() {
     for seed in 0..100 {

@@ -1,5 +1,5 @@
-//! The rig from above: rays, image planes with the similar triangles of Z = f B / d, and what a pixel
-//! of error leaves open.
+//! The rig from above: rays, image planes with the similar triangles of Z = f B / d, and what a
+//! pixel of error leaves open.
 
 use super::super::model::DEPTH_RANGE_M;
 use super::super::rig::{Measured, Rig};
@@ -165,8 +165,8 @@ fn plane_m(rig: &Rig) -> f64 {
     (PLANE_M * rig.focal_px / 1000.0).min(NEARER * rig.z_m)
 }
 
-/// The large triangle on the baseline with the ball at its top, and the small one on the image plane:
-/// the left ray, moved to the right camera, opens there just as far.
+/// The large triangle on the baseline with the ball at its top, and the small one on the image
+/// plane: the left ray, moved to the right camera, opens there just as far.
 fn draw_triangles(
     canvas: &mut Canvas,
     panel: &Panel,

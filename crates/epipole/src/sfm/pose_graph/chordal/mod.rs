@@ -1,5 +1,5 @@
-//! A start for a pose graph from its measurements alone: rotations first, then scales, then places, each by linear
-//! least squares.
+//! A start for a pose graph from its measurements alone: rotations first, then scales, then places,
+//! each by linear least squares.
 
 use super::{Graph, GraphPose};
 use crate::math::{Svd3, svd3};
@@ -95,16 +95,17 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// previous values, and is near enough to the optimum for [`optimize`](Graph::optimize), unless
     /// measurements contradict each other wildly.
     ///
-    /// Rotations come first, as the nine entries of matrices, for which `R_to = R_from R` is linear, each brought to the
-    /// nearest rotation; then, of similarities, logarithms of scales; then places. Fixed vertices stay, and where a
-    /// connected part has none, its first one.
+    /// Rotations come first, as the nine entries of matrices, for which `R_to = R_from R` is
+    /// linear, each brought to the nearest rotation; then, of similarities, logarithms of scales;
+    /// then places. Fixed vertices stay, and where a connected part has none, its first one.
     ///
     /// # Errors
-    /// As [`optimize`](Graph::optimize), and [`Error::Degenerate`] if some vertex hangs on measurements without
-    /// weight.
+    /// As [`optimize`](Graph::optimize), and [`Error::Degenerate`] if some vertex hangs on
+    /// measurements without weight.
     ///
-    /// Source: Carlone, Tron, Daniilidis & Dellaert 2015, "Initialization techniques for 3D SLAM: a survey on
-    /// rotation estimation and its use in pose graph optimization", §IV.A (chordal relaxation).
+    /// Source: Carlone, Tron, Daniilidis & Dellaert 2015, "Initialization techniques for 3D SLAM: a
+    /// survey on rotation estimation and its use in pose graph optimization", §IV.A (chordal
+    /// relaxation).
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -220,7 +221,8 @@ fn matrix(pose: &Similarity3<f64>) -> Matrix3<f64> {
     *pose.isometry.rotation.to_rotation_matrix().matrix()
 }
 
-/// A rotation measured between two views, such as that of [`cam2_from_cam1`](crate::epipolar::RelativePose).
+/// A rotation measured between two views, such as that of
+/// [`cam2_from_cam1`](crate::epipolar::RelativePose).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeRotation {
     /// Index of the first view.
@@ -231,8 +233,8 @@ pub struct RelativeRotation {
     pub to_from_from: UnitQuaternion<f64>,
 }
 
-/// The rotations of views that agree best with those measured between pairs of them: `view_from_world` of each,
-/// and how far each measurement is off, radians.
+/// The rotations of views that agree best with those measured between pairs of them:
+/// `view_from_world` of each, and how far each measurement is off, radians.
 ///
 /// Minimizes `Σ ρ(e²)` where `2 arcsin(e/2)` is the angle between `view_from_world` of `to` and its
 /// prediction from the measurement and `view_from_world` of `from`. The first view of each
@@ -246,7 +248,8 @@ pub struct RelativeRotation {
 /// joined with itself, or for a loss that [`RobustLoss::check`] refuses; [`Error::NotFinite`] for
 /// NaN.
 ///
-/// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; the start is that of [`Graph::initialize`].
+/// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; the start is that of
+/// [`Graph::initialize`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

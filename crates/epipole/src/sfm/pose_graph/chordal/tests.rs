@@ -17,8 +17,8 @@ fn anywhere(random: &mut Random, scale: f64) -> Similarity3<f64> {
     )
 }
 
-/// A path through these poses with a loop from every fifth to every later fifth, measured with noise, and every vertex
-/// but the first put anywhere.
+/// A path through these poses with a loop from every fifth to every later fifth, measured with
+/// noise, and every vertex but the first put anywhere.
 fn graph<T: GraphPose<D>, const D: usize>(
     truth: &[Similarity3<f64>],
     noise: f64,
@@ -103,7 +103,8 @@ fn exact_measurements_are_met_from_anywhere() {
     }
 }
 
-/// The least squares of the entries are not those of the angles, but their result is where the latter begin.
+/// The least squares of the entries are not those of the angles, but their result is where the
+/// latter begin.
 #[test]
 fn noise_is_shared_and_the_optimum_is_near() {
     let mut random = Random::new(2);
