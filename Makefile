@@ -12,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-licenses bless-listings new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -97,6 +97,18 @@ bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memo
 
 api: ## what of the library's public surface changed, and whether it breaks users: make api SINCE=v0.1.0
 	@tests/tools/api.sh $(SINCE)
+
+release-check: ## whether versions, changelog and packages agree with a tag: make release-check TAG=v0.1.0
+	@tests/tools/need.sh node
+	@node tests/tools/release.mjs "$$TAG"
+
+release-files: python ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheel
+	$(BOOK) lab
+	tests/tools/release.sh
+
+publish-crates: ## publishes the crates that are not yet on crates.io at this version; cannot be undone
+	@tests/tools/need.sh cargo
+	tests/tools/publish.sh
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
