@@ -90,23 +90,24 @@ pub(crate) fn open(bytes: &[u8]) -> Result<(Saved, Files, Computed), String> {
         ..Computed::default()
     };
     let results = format!("{RESULTS}{COMPUTED_BY}/");
-    let mut total = 0_u64;
+    let too_large = "this project is too large to open here";
+    let mut left = MAX_BYTES;
     for index in 0..archive.len() {
         let entry = archive.by_index(index).map_err(|_| damaged)?;
-        total = total.saturating_add(entry.size());
-        if total > MAX_BYTES {
-            return Err("this project is too large to open here".to_owned());
+        if entry.size() > left {
+            return Err(too_large.to_owned());
         }
         let name = entry.name().to_owned();
         if name.starts_with(RESULTS) && !name.starts_with(&results) {
             continue;
         }
         let mut content = Vec::new();
-        // The size in the header is a promise that the file need not keep.
+        // A damaged entry may be larger than its header says.
         entry
-            .take(MAX_BYTES)
+            .take(left + 1)
             .read_to_end(&mut content)
             .map_err(|_| damaged)?;
+        left = left.checked_sub(content.len() as u64).ok_or(too_large)?;
         if name == PROJECT {
             project = Some(read(&content)?);
         } else if let Some(name) = name.strip_prefix(PHOTOGRAPHS)

@@ -7,9 +7,13 @@ use crate::math::Geodetic;
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, RgbImage};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, RgbImage};
 use std::borrow::Cow;
 use std::io::Cursor;
+
+/// Maximum memory for data of a PNG file beside its pixels, bytes; larger color profiles are
+/// ignored.
+const MAX_METADATA_BYTES: u64 = 64 << 20;
 
 /// Options of [`decode_gray`] and [`decode_rgb`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Setters)]
@@ -147,8 +151,10 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
         .map_err(|error| Error::BadImage {
             why: error.to_string(),
         })?;
-    // Width times height is checked below, against the caller's own limit.
-    reader.no_limits();
+    // Pixels are checked below, against the caller's own limit.
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_METADATA_BYTES);
+    reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(|error| bad(&error))?;
     let (width, height) = decoder.dimensions();
     let got = u64::from(width) * u64::from(height);
@@ -183,6 +189,7 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
 mod tests {
     use super::*;
     use crate::imaging::fixture;
+    use image::codecs::png::PngEncoder;
     use image::{GrayImage, ImageEncoder, ImageFormat, Luma};
 
     fn png(image: &DynamicImage) -> Vec<u8> {
@@ -219,6 +226,25 @@ mod tests {
     }
 
     #[test]
+    fn a_color_profile_beyond_the_limit_is_ignored() {
+        let image = sample();
+        let profile = vec![0; 2 * MAX_METADATA_BYTES as usize];
+        let mut bytes = Vec::new();
+        let mut encoder = PngEncoder::new(&mut bytes);
+        encoder.set_icc_profile(profile).unwrap();
+        let kind = image::ExtendedColorType::L8;
+        encoder.write_image(&image, 40, 30, kind).unwrap();
+        assert!(bytes.len() < MAX_METADATA_BYTES as usize / 100);
+        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+        let mut unbounded = reader.unwrap();
+        unbounded.no_limits();
+        let profile = unbounded.into_decoder().unwrap().icc_profile().unwrap();
+        assert!(profile.is_some(), "the test has no profile");
+        let decoded = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
+        assert_eq!(decoded.image.dimensions(), (40, 30));
+    }
+
+    #[test]
     fn a_gray_png_comes_back_exactly() {
         let image = sample();
         let decoded = decode_gray(
@@ -243,7 +269,7 @@ mod tests {
     fn orientation_and_focal_length_are_read() {
         let image = sample();
         let mut bytes = Vec::new();
-        let mut encoder = image::codecs::png::PngEncoder::new(&mut bytes);
+        let mut encoder = PngEncoder::new(&mut bytes);
         // Orientation 6: the camera was rotated; a clockwise quarter turn makes it upright.
         encoder.set_exif_metadata(exif(6, 28)).unwrap();
         encoder
