@@ -7,8 +7,7 @@ use epipole::robust::{Data, Problem};
 struct Circles(Vec<Point2<f64>>);
 
 impl Circles {
-    /// Least squares of `x² + y² = 2 cx x + 2 cy y + r² − cx² − cy²`: linear in cx, cy and the rest
-    /// (Kåsa 1976).
+    /// Linear least squares of `x² + y² = 2 cx x + 2 cy y + r² − cx² − cy²` (Kåsa 1976).
     fn fit(&self, points: &[usize]) -> Option<(Point2<f64>, f64)> {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         for p in points.iter().map(|&i| self.0[i]) {
