@@ -231,7 +231,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
             assert_eq!(report.num_inliers, num_matches);
             let f = k2.inverse_matrix().transpose() * report.model * k1.inverse_matrix();
             for (a, b) in p1.iter().zip(p2) {
-                assert!(sampson_px(&f, a, b).powi(2) < 1e-5, "{seed}");
+                assert!(sampson_px(&f, a, b) < 3e-3, "{seed}");
             }
         }
         println!("{num_matches} matches: ‖E − E*‖ {worst:.1e} at most");
