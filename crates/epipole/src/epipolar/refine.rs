@@ -34,7 +34,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Intrinsics, RigidTransform};
-/// use epipole::epipolar::{fundamental_8point, refine_fundamental, sampson_sq};
+/// use epipole::epipolar::{fundamental_8point, refine_fundamental, sampson_px};
 /// use epipole::optim::RobustLoss;
 /// use nalgebra::{Matrix3, Point2, Point3, Vector3};
 /// let k = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
@@ -47,7 +47,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 /// }
 /// // Half a pixel of noise, up and down by turns.
 /// let p2: Vec<_> = p2.iter().enumerate().map(|(i, p)| Point2::new(p.x, p.y + if i % 3 == 0 { 0.5 } else { -0.5 })).collect();
-/// let cost = |f: &Matrix3<f64>| p1.iter().zip(&p2).map(|(a, b)| sampson_sq(f, a, b)).sum::<f64>();
+/// let cost = |f: &Matrix3<f64>| p1.iter().zip(&p2).map(|(a, b)| sampson_px(f, a, b)).map(|e| e * e).sum::<f64>();
 /// let linear = fundamental_8point(&p1, &p2)?;
 /// let refined = refine_fundamental(&linear, &p1, &p2, RobustLoss::Trivial)?;
 /// assert!(cost(&refined) < cost(&linear));
