@@ -18,13 +18,14 @@ pub struct ColmapModel {
 impl Reconstruction {
     /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
     ///
-    /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if it
-    /// has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the division
-    /// model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and more off the
-    /// axis of a fisheye to be behind the camera. Images with equal size, intrinsics and lens share a
-    /// camera. Principal points and keypoints are moved by half a pixel, from centers at integers to
-    /// COLMAP's convention, as by [`pixel_to_colmap`]. IDs of images, cameras and points start at 1; an
-    /// image has its index plus 1. A name takes the rest of its line, so line breaks in it become `_`.
+    /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
+    /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
+    /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
+    /// more off the axis of a fisheye to be behind the camera. Images with equal size, intrinsics
+    /// and lens share a camera. Principal points and keypoints are moved by half a pixel, from
+    /// centers at integers to COLMAP's convention, as by [`pixel_to_colmap`]. IDs of images,
+    /// cameras and points start at 1; an image has its index plus 1. A name takes the rest of its
+    /// line, so line breaks in it become `_`.
     ///
     /// * `images`: those that the reconstruction was made of
     pub fn to_colmap(&self, images: &[SfmImage]) -> ColmapModel {
