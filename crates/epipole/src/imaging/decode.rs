@@ -11,8 +11,8 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, RgbIma
 use std::borrow::Cow;
 use std::io::Cursor;
 
-/// Maximum memory for data of a PNG file beside its pixels, bytes; larger color profiles are
-/// ignored.
+/// Maximum memory for data of a PNG file beside its pixels, bytes. A color profile that unpacks to
+/// more is ignored; larger stored data are an error.
 const MAX_METADATA_BYTES: u64 = 64 << 20;
 
 /// Options of [`decode_gray`] and [`decode_rgb`].
@@ -125,11 +125,18 @@ fn bad(error: &image::ImageError) -> Error {
     use image::ImageError::{Limits, Unsupported};
     let why = match error {
         Unsupported(_) => "it is no PNG, JPEG or WebP file".to_owned(),
-        // A size beyond memory, even before a limit can be checked.
-        Limits(_) => "it promises more pixels than fit into memory".to_owned(),
+        // A size beyond memory, before the caller's limit can be checked, or MAX_METADATA_BYTES.
+        Limits(_) => "its pixels or the data beside them need too much memory".to_owned(),
         other => other.to_string(),
     };
     Error::BadImage { why }
+}
+
+/// Limits of the decoder: none for pixels, which are checked against the caller's own.
+fn limits() -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_METADATA_BYTES);
+    limits
 }
 
 fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>> {
@@ -151,10 +158,7 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
         .map_err(|error| Error::BadImage {
             why: error.to_string(),
         })?;
-    // Pixels are checked below, against the caller's own limit.
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_METADATA_BYTES);
-    reader.limits(limits);
+    reader.limits(limits());
     let mut decoder = reader.into_decoder().map_err(|error| bad(&error))?;
     let (width, height) = decoder.dimensions();
     let got = u64::from(width) * u64::from(height);
@@ -226,6 +230,20 @@ mod tests {
     }
 
     #[test]
+    fn metadata_beyond_the_limit_are_an_error() {
+        let mut bytes = Vec::new();
+        let mut encoder = PngEncoder::new(&mut bytes);
+        let stored = vec![0; MAX_METADATA_BYTES as usize + 1];
+        encoder.set_exif_metadata(stored).unwrap();
+        let kind = image::ExtendedColorType::L8;
+        encoder.write_image(&sample(), 40, 30, kind).unwrap();
+        let Err(Error::BadImage { why }) = decode_gray(&bytes, &DecodeOptions::default()) else {
+            panic!("the data fit");
+        };
+        assert!(why.contains("beside them"), "{why}");
+    }
+
+    #[test]
     fn a_color_profile_beyond_the_limit_is_ignored() {
         let image = sample();
         let profile = vec![0; 2 * MAX_METADATA_BYTES as usize];
@@ -235,11 +253,15 @@ mod tests {
         let kind = image::ExtendedColorType::L8;
         encoder.write_image(&image, 40, 30, kind).unwrap();
         assert!(bytes.len() < MAX_METADATA_BYTES as usize / 100);
-        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
-        let mut unbounded = reader.unwrap();
-        unbounded.no_limits();
-        let profile = unbounded.into_decoder().unwrap().icc_profile().unwrap();
-        assert!(profile.is_some(), "the test has no profile");
+        let has_profile = |limits| {
+            let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+            let mut reader = reader.unwrap();
+            reader.limits(limits);
+            let mut decoder = reader.into_decoder().unwrap();
+            decoder.icc_profile().unwrap().is_some()
+        };
+        assert!(has_profile(Limits::no_limits()));
+        assert!(!has_profile(limits()));
         let decoded = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
         assert_eq!(decoded.image.dimensions(), (40, 30));
     }
