@@ -9,7 +9,11 @@ pub fn root() -> PathBuf {
     manifest.parent().unwrap_or(manifest).to_owned()
 }
 
-/// All files below `folder` with one of the extensions, sorted.
+/// Folders that tools fill.
+const GENERATED: &[&str] = &["node_modules", "target", "dist", "static", "test-results"];
+
+/// All files below `folder` with one of the extensions, sorted; none of folders that tools fill, nor
+/// of hidden ones.
 ///
 /// # Panics
 /// If the folder cannot be read.
@@ -20,9 +24,12 @@ pub fn files_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
         let entries = fs::read_dir(&folder);
         let entries = entries.unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         for entry in entries.flatten() {
-            let path = entry.path();
+            let (path, name) = (entry.path(), entry.file_name());
             if path.is_dir() {
-                folders.push(path);
+                let name = name.to_string_lossy();
+                if !name.starts_with('.') && !GENERATED.contains(&&*name) {
+                    folders.push(path);
+                }
             } else if path
                 .extension()
                 .is_some_and(|e| extensions.iter().any(|x| e == *x))

@@ -5,9 +5,8 @@
 mod comments;
 
 use comments::{Language, Line, lines};
-use epipole_tests::root;
+use epipole_tests::{files_below, root};
 use std::fs;
-use std::path::{Path, PathBuf};
 
 /// Folders with the extensions of the sources to read below them.
 const SOURCES: &[(&str, &[&str])] = &[
@@ -16,9 +15,6 @@ const SOURCES: &[(&str, &[&str])] = &[
     ("tests", &["js", "mjs", "py", "rs", "ts"]),
     ("web", &["js", "mjs", "py", "ts"]),
 ];
-
-/// Folders that tools fill.
-const GENERATED: &[&str] = &["node_modules", "target", "dist", "static", "test-results"];
 
 /// Words that must not begin a comment: a noun says what an item is, a verb what it does.
 const OPENINGS: &[&str] = &[
@@ -43,8 +39,9 @@ const DOCUMENTS: &[(&str, usize)] = &[
     ("web/README.md", 110),
 ];
 
-/// Documents with lines of at most 110 characters.
-const NARROW: &[&str] = &["ARCHITECTURE.md", "CHANGELOG.md", "docs/decisions"];
+/// Documents with narrow lines, beside the decisions.
+const NARROW: &[&str] = &["ARCHITECTURE.md", "CHANGELOG.md"];
+/// Maximum length of their lines, characters.
 const NARROW_WIDTH: usize = 110;
 
 #[test]
@@ -53,7 +50,7 @@ fn comments_and_documents_are_plain() {
     findings.extend(wide_documents());
     for (folder, extensions) in SOURCES {
         let widest = WIDTHS.iter().find(|(name, _)| name == folder);
-        for file in sources_below(&root().join(folder), extensions) {
+        for file in files_below(&root().join(folder), extensions) {
             let path = file.strip_prefix(root()).unwrap().display().to_string();
             let code = fs::read_to_string(&file).unwrap();
             let language = Language::of(&file).unwrap();
@@ -101,23 +98,14 @@ fn long_documents() -> Vec<String> {
 }
 
 fn wide_documents() -> Vec<String> {
-    let mut files = Vec::new();
-    for name in NARROW {
-        let path = root().join(name);
-        if path.is_dir() {
-            files.extend(sources_below(&path, &["md"]));
-        } else {
-            files.push(path);
-        }
-    }
     let mut findings = Vec::new();
-    for file in files {
+    let decisions = files_below(&root().join("docs/decisions"), &["md"]);
+    let named = NARROW.iter().map(|name| root().join(name));
+    for file in decisions.into_iter().chain(named) {
         let path = file.strip_prefix(root()).unwrap().display().to_string();
-        let text = fs::read_to_string(&file).unwrap();
-        for (index, line) in text.lines().enumerate() {
-            let width = line.chars().count();
+        for (index, line) in fs::read_to_string(&file).unwrap().lines().enumerate() {
+            let (number, width) = (index + 1, line.chars().count());
             if width > NARROW_WIDTH {
-                let number = index + 1;
                 findings.push(format!(
                     "{path}:{number}: {width} characters, at most {NARROW_WIDTH}"
                 ));
@@ -125,30 +113,6 @@ fn wide_documents() -> Vec<String> {
         }
     }
     findings
-}
-
-/// Every source below `folder` with one of the extensions that no tool has made, sorted.
-fn sources_below(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
-    let (mut found, mut folders) = (Vec::new(), vec![folder.to_owned()]);
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).unwrap() {
-            let entry = entry.unwrap();
-            let (path, name) = (entry.path(), entry.file_name());
-            let name = name.to_string_lossy();
-            let is_ours = !name.starts_with('.') && !GENERATED.contains(&&*name);
-            if entry.file_type().unwrap().is_dir() && is_ours {
-                folders.push(path);
-            } else if path
-                .extension()
-                .is_some_and(|e| extensions.iter().any(|x| e == *x))
-            {
-                found.push(path);
-            }
-        }
-    }
-    assert!(!found.is_empty(), "no sources in {}", folder.display());
-    found.sort();
-    found
 }
 
 #[test]
