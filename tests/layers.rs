@@ -41,7 +41,7 @@ const RESERVED: &[(&str, &[&str])] = &[
 ];
 
 /// The modules of the core: each may use those before it.
-const ROOMS: &[&str] = &[
+const MODULES: &[&str] = &[
     "progress",
     "math",
     "optim",
@@ -61,7 +61,7 @@ const ROOMS: &[&str] = &[
 ];
 
 /// The modules of the scenes, likewise.
-const ROOMS_OF_SCENES: &[&str] = &[
+const MODULES_OF_SCENES: &[&str] = &[
     "gradual",
     "detail",
     "shape",
@@ -138,7 +138,7 @@ fn reserved_dependencies_stay_in_their_crate() {
 }
 
 /// The modules of the core that a source file names.
-fn rooms_named(text: &str) -> BTreeSet<&str> {
+fn modules_named(text: &str) -> BTreeSet<&str> {
     let mut named = BTreeSet::new();
     for (place, _) in text.match_indices("crate::") {
         let rest = &text[place + "crate::".len()..];
@@ -181,23 +181,23 @@ fn before_tests(text: &str) -> String {
 }
 
 /// The files of a module: those of its folder, or its single file.
-fn files_of(source: &Path, room: &str) -> Vec<PathBuf> {
-    let folder = source.join(room);
+fn files_of(source: &Path, module: &str) -> Vec<PathBuf> {
+    let folder = source.join(module);
     match folder.is_dir() {
         true => files_below(&folder, &["rs"]),
-        false => vec![source.join(room).with_extension("rs")],
+        false => vec![source.join(module).with_extension("rs")],
     }
 }
 
 /// Asserts that no module names a later one, and that the list of modules is complete.
-fn check_rooms(name: &str, rooms: &[&str]) {
+fn check_modules(name: &str, modules: &[&str]) {
     let source = root().join("crates").join(name).join("src");
     let mut wrong = Vec::new();
-    for (rank, room) in rooms.iter().enumerate() {
-        for file in files_of(&source, room) {
+    for (rank, module) in modules.iter().enumerate() {
+        for file in files_of(&source, module) {
             let text = before_tests(&fs::read_to_string(&file).unwrap());
-            for named in rooms_named(&text) {
-                let later = rooms.iter().position(|other| *other == named);
+            for named in modules_named(&text) {
+                let later = modules.iter().position(|other| *other == named);
                 if later.is_some_and(|other| other > rank) {
                     let file = file.strip_prefix(&source).unwrap_or(&file);
                     wrong.push(format!("{} names {named}", file.display()));
@@ -207,24 +207,24 @@ fn check_rooms(name: &str, rooms: &[&str]) {
     }
     assert!(
         wrong.is_empty(),
-        "rooms of {name} that import a later one: {wrong:#?}"
+        "modules of {name} that import a later one: {wrong:#?}"
     );
     for entry in fs::read_dir(source).unwrap() {
         let entry = entry.unwrap();
         if entry.path().is_dir() && !files_below(&entry.path(), &["rs"]).is_empty() {
-            let room = entry.file_name().into_string().unwrap();
+            let module = entry.file_name().into_string().unwrap();
             assert!(
-                rooms.contains(&&*room),
-                "the room {room} of {name} is not on the map"
+                modules.contains(&&*module),
+                "the module {module} of {name} is not on the map"
             );
         }
     }
 }
 
 #[test]
-fn rooms_use_only_the_rooms_before_them() {
-    check_rooms("epipole", ROOMS);
-    check_rooms("epipole-scenes", ROOMS_OF_SCENES);
+fn modules_use_only_the_modules_before_them() {
+    check_modules("epipole", MODULES);
+    check_modules("epipole-scenes", MODULES_OF_SCENES);
 }
 
 /// The code without string literals, whose words are not imports.
@@ -292,7 +292,7 @@ fn only_views_draw_and_nothing_knows_the_time() {
 /// Dependencies of the Lab's modules: its state uses no screen and no clock, only `web/` the
 /// browser.
 #[test]
-fn the_rooms_of_the_lab_keep_apart() {
+fn the_modules_of_the_lab_keep_apart() {
     let source = root().join("crates/epipole-lab/src");
     let rules: &[(&str, &[&str])] = &[
         ("egui", &["panels", "native", "web"]),
@@ -305,11 +305,11 @@ fn the_rooms_of_the_lab_keep_apart() {
     assert!(files.len() > 20);
     for file in &files {
         let words = words_of(file);
-        let room = file.strip_prefix(&source).unwrap().components().next();
-        let room = room.unwrap().as_os_str().to_string_lossy();
-        for (word, rooms) in rules {
+        let module = file.strip_prefix(&source).unwrap().components().next();
+        let module = module.unwrap().as_os_str().to_string_lossy();
+        for (word, modules) in rules {
             assert!(
-                !words.contains(*word) || rooms.contains(&&*room),
+                !words.contains(*word) || modules.contains(&&*module),
                 "{} names {word}",
                 file.display()
             );

@@ -1,8 +1,8 @@
 //! Multi-view geometry: from two photographs to a three-dimensional reconstruction.
 //!
-//! The folders are rooms; a room may use the rooms listed before it, never one after it:
+//! Each module may use the modules listed before it:
 //!
-//! | room | what it holds |
+//! | module | content |
 //! |---|---|
 //! | [`progress`] | the monitor of long computations: stage, share, cancellation |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
