@@ -12,8 +12,8 @@ pub fn root() -> PathBuf {
 /// Folders that tools fill.
 const GENERATED: &[&str] = &["node_modules", "target", "dist", "static", "test-results"];
 
-/// All files below `folder` with one of the extensions, sorted; none of folders that tools fill, nor
-/// of hidden ones.
+/// All files below `folder` with one of the extensions, sorted. Skips hidden folders and those that
+/// tools fill.
 ///
 /// # Panics
 /// If the folder cannot be read.

@@ -194,7 +194,7 @@ impl Project {
             ),
         };
         format!(
-            "//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and nothing else.\n\n\
+            "//! The Lab's reconstruction, bit for bit. Needs the crates epipole and image 0.25.\n\n\
              use epipole::calibration::{{{imports}}};\nuse epipole::camera::{{{kinds}}};\n\
              use epipole::feature::FeatureKind;\n\
              use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\n\

@@ -1,5 +1,4 @@
-//! The reconstruction of the Lab once more, bit for bit. In Cargo.toml: epipole, image 0.25 and
-//! nothing else.
+//! The Lab's reconstruction, bit for bit. Needs the crates epipole and image 0.25.
 
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
