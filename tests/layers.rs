@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 const CRATES: &[(&str, &[&str])] = &[
     ("epipole", &[]),
     ("epipole-scenes", &["epipole"]),
+    ("epipole-io", &["epipole"]),
     ("epipole-canvas", &[]),
     (
         "epipole-widgets",
@@ -23,7 +24,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
     ("epipole-web", &["epipole", "epipole-widgets"]),
     ("epipole-book", &["epipole", "epipole-widgets"]),
-    ("epipole-cli", &["epipole", "epipole-widgets"]),
+    ("epipole-cli", &["epipole", "epipole-io", "epipole-widgets"]),
     (
         "epipole-lab",
         &["epipole", "epipole-scenes", "epipole-canvas"],

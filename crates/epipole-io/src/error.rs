@@ -1,0 +1,52 @@
+//! Errors of readers and writers.
+
+/// Reason why a file cannot be read or written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The content is not of the format.
+    #[error("{}{message}", .line.map_or_else(String::new, |line| format!("line {line}: ")))]
+    Malformed {
+        /// Line of the file, counted from 1, if the format has lines.
+        line: Option<usize>,
+        /// What is wrong with which value, and what is expected.
+        message: String,
+    },
+    /// The content is valid, but the library has no such model or the format cannot hold it.
+    #[error("{message}")]
+    Unsupported {
+        /// What is not supported, and what is.
+        message: String,
+    },
+    /// The values describe no valid camera or transform.
+    #[error(transparent)]
+    Invalid(#[from] epipole::Error),
+}
+
+impl Error {
+    /// A malformed line, counted from 1.
+    pub(crate) fn at(line: usize, message: impl Into<String>) -> Self {
+        Self::Malformed {
+            line: Some(line),
+            message: message.into(),
+        }
+    }
+
+    /// A malformed file, without a line.
+    pub(crate) fn malformed(message: impl Into<String>) -> Self {
+        Self::Malformed {
+            line: None,
+            message: message.into(),
+        }
+    }
+
+    /// Something that is not supported.
+    pub(crate) fn unsupported(message: impl Into<String>) -> Self {
+        Self::Unsupported {
+            message: message.into(),
+        }
+    }
+}
+
+/// Result of reading or writing a file.
+pub type Result<T> = std::result::Result<T, Error>;

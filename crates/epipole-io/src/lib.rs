@@ -1,0 +1,13 @@
+//! Readers and writers of the files that multi-view geometry is stored in.
+//!
+//! Every format is a file of this crate, with its reader, its writer and the source of its
+//! definition. Functions take and return bytes or text: opening files is the caller's part. Values
+//! are converted to the conventions of [`epipole`]: pixel centers at integers, `cam_from_world`,
+//! x right, y down, z forward.
+
+#![allow(dead_code, reason = "readers follow")]
+
+mod error;
+mod text;
+
+pub use error::{Error, Result};
