@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!(
         "{count} photographs of {width} × {height}, focal length {} px",
-        still_life_camera(width, height).intrinsics.fu_px()
+        still_life_camera(width, height).camera.intrinsics.fu_px()
     );
     Ok(())
 }

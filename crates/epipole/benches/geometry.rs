@@ -37,7 +37,7 @@ fn world(
 fn solvers(c: &mut Criterion) {
     let mut group = c.benchmark_group("solver");
     let s = world(1, 100, 0.0, CUBE);
-    let k = s.camera1.intrinsics;
+    let k = s.camera1.camera.intrinsics;
     let first = |p: &[Point2<f64>], i: usize| p[i];
     let (p7, q7) = (
         core::array::from_fn(|i| first(&s.pixels1, i)),
@@ -85,7 +85,7 @@ fn robust(c: &mut Criterion) {
         RansacOptions::default().with_seed(seed)
     };
     let s = world(2, 1000, 0.4, CUBE);
-    let k = s.camera1.intrinsics;
+    let k = s.camera1.camera.intrinsics;
     group.bench_function("F 1000, 40 % outliers", |b| {
         b.iter(|| estimate_fundamental(&s.pixels1, &s.pixels2, &options(), &mut ()))
     });

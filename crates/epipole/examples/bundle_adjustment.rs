@@ -13,7 +13,7 @@ pub(crate) fn run() -> Result<(), Error> {
     for i in 0..5 {
         let cam_from_world = RigidTransform::translation(0.4 - 0.2 * f64::from(i), 0.0, 4.0);
         bundle.cameras.push(PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world,
         });
     }

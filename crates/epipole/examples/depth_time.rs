@@ -52,7 +52,7 @@ fn scene(folder: &Path) -> Outcome {
     let right = still_life.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
     left.image.save(folder.join("left.png"))?;
     right.image.save(folder.join("right.png"))?;
-    let focal_px = camera.intrinsics.fu_px();
+    let focal_px = camera.camera.intrinsics.fu_px();
     let of_depth = |depth: &f32| (focal_px * BASELINE_M / f64::from(*depth)) as f32;
     let values = left.depth_m.iter().map(of_depth).collect();
     let truth = DisparityImage::from_raw(SIZE.0, SIZE.1, values)?;

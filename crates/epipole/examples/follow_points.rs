@@ -27,8 +27,8 @@ pub(crate) fn run() -> Result<(), Error> {
             .depth_m
             .get_pixel(corner.x.round() as u32, corner.y.round() as u32)
             .0[0];
-        let x_in_cam = Point3::from(camera.intrinsics.ray(corner) * f64::from(depth_m));
-        let seen = camera.intrinsics.project(&(step * x_in_cam))?;
+        let x_in_cam = Point3::from(camera.camera.intrinsics.ray(corner) * f64::from(depth_m));
+        let seen = camera.camera.intrinsics.project(&(step * x_in_cam))?;
         errors.push((track.point - seen).norm());
     }
     errors.sort_by(f64::total_cmp);

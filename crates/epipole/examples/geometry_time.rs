@@ -115,12 +115,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let clean = read(folder, "clean", 0)?.ok_or("no clean-0.f64")?;
     let left = PosedCamera {
-        intrinsics: k,
+        camera: Camera::pinhole(k, 640, 480),
         cam_from_world: RigidTransform::identity(),
     };
     let turn = Rotation3::new(Vector3::new(0.03, 0.12, -0.05));
     let right = PosedCamera {
-        intrinsics: k,
+        camera: Camera::pinhole(k, 640, 480),
         cam_from_world: RigidTransform::from_parts(
             Vector3::new(-0.6, 0.1, 0.1).into(),
             turn.into(),

@@ -18,8 +18,8 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     println!("{} of {} matches agree", found.num_inliers, pixels1.len());
 
     let (k, k_inverse) = (
-        camera.intrinsics.matrix(),
-        camera.intrinsics.inverse_matrix(),
+        camera.camera.intrinsics.matrix(),
+        camera.camera.intrinsics.inverse_matrix(),
     );
     let truth = k * turn.rotation.inverse().to_rotation_matrix().into_inner() * k_inverse;
     for corner in [

@@ -16,7 +16,7 @@ pub(crate) fn run() -> Result<(), Error> {
     );
     let (left, truth) = photograph(&RigidTransform::identity())?;
     let (_, other) = photograph(&right_from_left)?;
-    let camera = Camera::pinhole(left.intrinsics, SIZE.0, SIZE.1);
+    let camera = Camera::pinhole(left.camera.intrinsics, SIZE.0, SIZE.1);
     let options = RectifyOptions::default();
     let rig = rectify_calibrated(&[camera; 2], &right_from_left, &options)?;
     let rows1 = rig.map(0)?.warp_gray(&rgb_to_gray(&truth.image));

@@ -17,7 +17,11 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     } else {
         let step = RigidTransform::new(Vector3::new(-0.25, 0.02, 0.03), turn);
         let (camera, first) = photograph(&RigidTransform::identity())?;
-        (gray(&first), gray(&photograph(&step)?.1), camera.intrinsics)
+        (
+            gray(&first),
+            gray(&photograph(&step)?.1),
+            camera.camera.intrinsics,
+        )
     };
     let camera = Camera::pinhole(k, left.width(), left.height());
     let sift = SiftOptions::default();

@@ -10,7 +10,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let intrinsics = Intrinsics::centered(700.0, 640, 480)?;
     let truth = Point3::new(0.1, -0.05, 3.0);
     let cameras = [-0.2, 0.0, 0.3].map(|x| PosedCamera {
-        intrinsics,
+        camera: Camera::pinhole(intrinsics, 640, 480),
         cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
     });
     let mut pixels = Vec::new();

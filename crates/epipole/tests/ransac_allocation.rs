@@ -98,7 +98,7 @@ fn check_run<E: Estimator>(name: &str, estimator: E, options: RansacOptions) {
 #[test]
 fn no_step_allocates() {
     let world = matches(0);
-    let (p1, k) = (&world.pixels1, world.camera1.intrinsics);
+    let (p1, k) = (&world.pixels1, world.camera1.camera.intrinsics);
     let camera = Camera::pinhole(k, 640, 480);
     let set = || MatchSet::new(p1, &world.pixels2).unwrap();
     check("line", || LineEstimator::new(p1).unwrap());

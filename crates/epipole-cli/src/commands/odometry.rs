@@ -342,15 +342,15 @@ fn report(
     };
     // Of the left camera, whose frames come first.
     let cameras = result.reconstruction.cameras.iter().take(paths.len());
-    let placed_camera = (cameras.enumerate()).find_map(|(frame, camera)| Some((frame, (*camera)?)));
+    let placed_camera = cameras.flatten().next();
     let mut report = Report::default()
         .field("frames", frames)
         .field("keyframes", &result.keyframes)
         .field("lost", &result.lost)
         .field("focal_refined", refined_from_px.is_some());
-    if let Some((frame, camera)) = placed_camera {
-        let lens = result.reconstruction.lens(frame);
-        let focal_px = camera.intrinsics.fu_px();
+    if let Some(placed) = placed_camera {
+        let lens = placed.camera.lens;
+        let focal_px = placed.camera.intrinsics.fu_px();
         report = report
             .field("focal_px", focal_px)
             .field("lens", lens.kind().name())

@@ -135,14 +135,14 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .sum();
     let mean_px = errors / largest.num_observations().max(1) as f64;
     let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
-        let images = input.images.iter().zip(&component.cameras).enumerate();
+        let images = input.images.iter().zip(&component.cameras);
         images
-            .filter_map(|(index, (image, camera))| {
+            .filter_map(|(image, camera)| {
                 let camera = camera.as_ref()?;
-                let lens = component.lens(index);
+                let lens = camera.camera.lens;
                 Some(json!({
                     "name": image.name,
-                    "focal_px": camera.intrinsics.fu_px(),
+                    "focal_px": camera.camera.intrinsics.fu_px(),
                     "lens": lens.kind().name(),
                     "distortion": lens.coefficients(),
                     "cam_from_world": Motion::from(&camera.cam_from_world),
@@ -169,7 +169,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .collect();
     let registered_count = largest.num_registered();
     let focals: Vec<(f64, f64)> = (intrinsics.iter().zip(&largest.cameras))
-        .filter_map(|(k, camera)| Some((k.fu_px(), camera.as_ref()?.intrinsics.fu_px())))
+        .filter_map(|(k, camera)| Some((k.fu_px(), camera.as_ref()?.camera.intrinsics.fu_px())))
         .collect();
     let mut report = Report::default();
     if positions.num_known > 0 && !largest.is_placed {

@@ -14,7 +14,7 @@ fn pair(folder: &Folder) -> (f64, Vec<f32>) {
     let photograph = folder.photograph("left.png", &left, SIZE);
     let right = moved(SIZE, &RigidTransform::translation(-BASELINE_M, 0.0, 0.0));
     folder.photograph("right.png", &right, SIZE);
-    let focal_px = left.intrinsics.fu_px();
+    let focal_px = left.camera.intrinsics.fu_px();
     let of_depth = |depth: &f32| (focal_px * BASELINE_M / f64::from(*depth)) as f32;
     (focal_px, photograph.depth_m.iter().map(of_depth).collect())
 }

@@ -247,7 +247,7 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
         let focal_px = result["focal_px"].as_f64().unwrap();
         (focal_px, result["focal_refined"].as_bool().unwrap())
     };
-    let (truth_px, guess_px) = (cameras[0].intrinsics.fu_px(), 480.0);
+    let (truth_px, guess_px) = (cameras[0].camera.intrinsics.fu_px(), 480.0);
     for kept in [&["--keep-focal"][..], &["--final-adjustment=false"]] {
         let (focal_px, is_refined) = run(kept);
         assert!(

@@ -23,13 +23,13 @@ fn problem(options: &MultiViewProblemOptions) -> BalProblem {
                 .translation
                 .vector
                 .component_mul(&flip),
-            focal_px: camera.intrinsics.fu_px(),
+            focal_px: camera.camera.intrinsics.fu_px(),
             k1: 0.0,
             k2: 0.0,
         }
     });
     let observations = world.observations.iter().map(|o| {
-        let center = world.cameras[o.camera].intrinsics.principal_point();
+        let center = world.cameras[o.camera].camera.intrinsics.principal_point();
         BundleObservation {
             camera: o.camera,
             point: o.point,

@@ -53,7 +53,7 @@ fn each_photograph_has_its_own_middle() {
     let upright = folder.file("upright.png");
     let turned = image::imageops::rotate90(&image::open(&b).unwrap().to_rgb8());
     turned.save(&upright).unwrap();
-    let focal = cameras[0].intrinsics.fu_px().to_string();
+    let focal = cameras[0].camera.intrinsics.fu_px().to_string();
     // Clockwise in the picture: x goes down, y goes left.
     let roll = RigidTransform::rotation(Vector3::z() * core::f64::consts::FRAC_PI_2);
     let truth = roll * step();

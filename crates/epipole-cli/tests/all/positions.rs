@@ -54,7 +54,7 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     let cameras = cameras();
     let photos = photographs(&folder, &cameras);
     let truth: Vec<Point3<f64>> = cameras.iter().map(PosedCamera::center_in_world).collect();
-    let focal_px = cameras[0].intrinsics.fu_px().to_string();
+    let focal_px = cameras[0].camera.intrinsics.fu_px().to_string();
     let out = folder.file("out");
     let mut text = "# name, meters\n\n".to_owned();
     for (n, center) in truth.iter().enumerate() {
@@ -222,7 +222,7 @@ fn photographs_say_where_they_were_taken() {
     let truth: Vec<Point3<f64>> = (places.iter())
         .map(|place| local_from_geodetic(place, &places[0]).unwrap())
         .collect();
-    let focal_px = cameras[0].intrinsics.fu_px().to_string();
+    let focal_px = cameras[0].camera.intrinsics.fu_px().to_string();
     let file = folder.write("places.txt", &text);
     for source in [&["exif"][..], &[path(&file), "--geodetic"]] {
         let arguments = [
@@ -257,7 +257,7 @@ fn lenses_that_are_not_alike_are_refined_by_themselves() {
         let part = image.crop_imm(20, 15, SIZE.0 - 40, SIZE.1 - 30);
         part.save(&file).unwrap();
     }
-    let truth = cameras[0].intrinsics.fu_px();
+    let truth = cameras[0].camera.intrinsics.fu_px();
     let out = folder.file("out");
     // Both guesses are off, into different directions.
     let guesses: Vec<String> = (0..6)

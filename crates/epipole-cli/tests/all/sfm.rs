@@ -35,7 +35,7 @@ fn an_unknown_focal_length_is_refined() {
     let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
     folder.photographs("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
-    let truth = cameras[0].intrinsics.fu_px();
+    let truth = cameras[0].camera.intrinsics.fu_px();
     let run = |more: &[&str]| {
         let result = json(&[&["sfm", path(&photos), "-o", path(&out)], more].concat());
         let found = result["images"][0]["focal_px"].as_f64().unwrap();
@@ -185,7 +185,7 @@ fn photographs_become_cameras_and_points() {
         .iter()
         .map(|w| w.parse().unwrap())
         .collect();
-    let ours = cameras[0].intrinsics.principal_point();
+    let ours = cameras[0].camera.intrinsics.principal_point();
     let names: Vec<String> = lines(&read("images.txt"))
         .step_by(2)
         .map(|line| line.split(' ').nth(9).unwrap().to_owned())

@@ -47,7 +47,7 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
         archive.add(&format!("images/{name}"), &bytes)?;
         image.name = name;
     }
-    let mut model = core_reconstruction(found)?;
+    let mut model = core_reconstruction(found, order.images)?;
     if let Some(meters) = order.meters_per_unit {
         scale(&mut model, meters);
     }

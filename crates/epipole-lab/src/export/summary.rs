@@ -15,14 +15,14 @@ pub(super) fn json(order: &Order<'_>, images: &[SfmImage], model: &Reconstructio
             "translation": transform.translation.vector.as_slice(),
         })
     };
-    let registered: Vec<Value> = (images.iter().zip(&model.cameras).enumerate())
-        .filter_map(|(index, (image, camera))| {
+    let registered: Vec<Value> = (images.iter().zip(&model.cameras))
+        .filter_map(|(image, camera)| {
             let camera = camera.as_ref()?;
             Some(json!({
                 "name": image.name,
-                "focal_px": camera.intrinsics.fu_px(),
-                "lens": model.lens(index).kind().name(),
-                "distortion": model.lens(index).coefficients(),
+                "focal_px": camera.camera.intrinsics.fu_px(),
+                "lens": camera.camera.lens.kind().name(),
+                "distortion": camera.camera.lens.coefficients(),
                 "cam_from_world": motion(&camera.cam_from_world),
             }))
         })

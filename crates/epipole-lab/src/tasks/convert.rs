@@ -110,12 +110,21 @@ pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
 ///
 /// # Errors
 /// A sentence, if its numbers are no camera's.
-pub(crate) fn core_camera(camera: &CameraFound) -> Result<PosedCamera, String> {
+pub(crate) fn core_camera(
+    camera: &CameraFound,
+    (width, height): (u32, u32),
+    lens: Lens,
+) -> Result<PosedCamera, String> {
     let [fu, fv, cu, cv] = camera.intrinsics;
     let [i, j, k, w] = camera.rotation;
     let [x, y, z] = camera.translation;
     Ok(PosedCamera {
-        intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
+        camera: Camera {
+            width,
+            height,
+            intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
+            lens,
+        },
         cam_from_world: RigidTransform::from_parts(
             Translation3::new(x, y, z),
             UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
@@ -126,10 +135,20 @@ pub(crate) fn core_camera(camera: &CameraFound) -> Result<PosedCamera, String> {
 #[cfg(feature = "files")]
 /// A component as the core has it.
 ///
+/// * `images`: those that it was made of
+///
 /// # Errors
 /// As [`core_camera`].
-pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstruction, String> {
-    let camera = |camera: &Option<CameraFound>| camera.as_ref().map(core_camera).transpose();
+pub(crate) fn core_reconstruction(
+    component: &Component,
+    images: &[ImagePoints],
+) -> Result<Reconstruction, String> {
+    let camera = |(camera, image): (&Option<CameraFound>, &ImagePoints)| {
+        let size = (image.camera.width, image.camera.height);
+        // One lens took them all.
+        let camera = (camera.as_ref()).map(|camera| core_camera(camera, size, component.lens));
+        camera.transpose()
+    };
     let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
     let point = |point: &PointFound| ScenePoint {
         position: Point3::from(point.position),
@@ -141,10 +160,9 @@ pub(crate) fn core_reconstruction(component: &Component) -> Result<Reconstructio
         cameras: component
             .cameras
             .iter()
+            .zip(images)
             .map(camera)
             .collect::<Result<_, _>>()?,
-        // One lens took them all.
-        lenses: vec![component.lens; component.cameras.len()],
         points: component.points.iter().map(point).collect(),
         is_placed: false,
     })

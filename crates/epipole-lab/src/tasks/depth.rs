@@ -36,14 +36,17 @@ pub(super) fn depth(
     progress: Progress<'_>,
 ) -> Result<Dense, String> {
     tell(progress, 0.02, "rectifying")?;
-    let cameras = [
-        core_camera(&pair.cameras[0])?,
-        core_camera(&pair.cameras[1])?,
-    ];
     let sizes = (pair.photographs.each_ref()).map(|photo| [photo.width, photo.height]);
+    let camera = |n: usize| {
+        let [width, height] = sizes[n];
+        core_camera(&pair.cameras[n], (width, height), Lens::NONE)
+    };
+    let cameras = [camera(0)?, camera(1)?];
     let size = common_size(
         sizes,
-        cameras.each_ref().map(|camera| camera.intrinsics.fu_px()),
+        cameras
+            .each_ref()
+            .map(|camera| camera.camera.intrinsics.fu_px()),
     );
     // Disparities are positive where the second photograph is the one from the right, or from
     // below.
@@ -126,7 +129,7 @@ fn rectify(
             f64::from(width) / f64::from(photograph.width),
             f64::from(height) / f64::from(photograph.height),
         ];
-        let k = cameras[index].intrinsics;
+        let k = cameras[index].camera.intrinsics;
         let center = k.principal_point();
         // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
         let moved = |at: f64, share: f64| (at + 0.5) * share - 0.5;

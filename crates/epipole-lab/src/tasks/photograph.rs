@@ -5,7 +5,7 @@ use super::board_sample;
 use super::convert::{core_lens_camera, unreadable};
 use super::{LensCamera, Photograph, Progress, Sample, Source, Thumbnail, ask};
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
-use epipole::camera::{Intrinsics, PosedCamera, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::stereo::PixelMap;
 use epipole_scenes::{Sampling, Scene, still_life_camera};
@@ -92,7 +92,7 @@ fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
         Sample::Upright => held(index)?,
         _ => around_table(index)?,
     };
-    let focal_px = camera.intrinsics.fu_px();
+    let focal_px = camera.camera.intrinsics.fu_px();
     let image = match sample {
         Sample::Plane => {
             let print = still_life_camera(PRINTED.0, PRINTED.1);
@@ -165,9 +165,13 @@ fn held(index: u8) -> Result<PosedCamera, String> {
         true => (RENDERED.1, RENDERED.0),
         false => RENDERED,
     };
-    let intrinsics = Intrinsics::centered(camera.intrinsics.fu_px(), width, height);
+    let intrinsics = Intrinsics::centered(camera.camera.intrinsics.fu_px(), width, height);
     Ok(PosedCamera {
-        intrinsics: intrinsics.map_err(|error| error.to_string())?,
+        camera: Camera::pinhole(
+            intrinsics.map_err(|error| error.to_string())?,
+            width,
+            height,
+        ),
         ..camera
     })
 }
@@ -179,14 +183,16 @@ const PRINTED: (u32, u32) = (960, 720);
 /// the picture's: a camera at the origin sees exactly the picture at a distance of 1.
 fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
     let print = still_life_camera(PRINTED.0, PRINTED.1);
-    let k = still_life_camera(RENDERED.0, RENDERED.1).intrinsics;
+    let k = still_life_camera(RENDERED.0, RENDERED.1).camera.intrinsics;
     let angle = (f64::from(index) - 1.5) * 13.0_f64.to_radians();
     let center = Vector3::new(0.7 * libm::sin(angle), 0.0, 1.0 - 0.7 * libm::cos(angle));
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
     // A point p of the poster has the depth 1 there, so p - c = (I - c nᵀ) p.
     let seen = Matrix3::identity() - center * Vector3::z().transpose();
-    let view_from_print =
-        k.matrix() * turn.to_rotation_matrix().matrix() * seen * print.intrinsics.inverse_matrix();
+    let view_from_print = k.matrix()
+        * turn.to_rotation_matrix().matrix()
+        * seen
+        * print.camera.intrinsics.inverse_matrix();
     let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print)?;
     Ok(map.warp_rgb(picture))
 }

@@ -5,7 +5,7 @@ use super::{
     Answer, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed,
     SfmOptions, Told,
 };
-use epipole::camera::PosedCamera;
+use epipole::camera::{Lens, PosedCamera};
 use epipole::progress::Status;
 use epipole::sfm::{
     IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
@@ -88,7 +88,10 @@ pub(super) fn reconstruct(
 
 fn component(found: &Reconstruction) -> Component {
     let camera = |camera: &PosedCamera| {
-        let (k, center) = (camera.intrinsics, camera.intrinsics.principal_point());
+        let (k, center) = (
+            camera.camera.intrinsics,
+            camera.camera.intrinsics.principal_point(),
+        );
         CameraFound {
             intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],
             rotation: camera.cam_from_world.rotation.coords.into(),
@@ -102,7 +105,7 @@ fn component(found: &Reconstruction) -> Component {
         error_px: point.error_px,
     };
     // One lens took them all.
-    let lens = found.lens(0);
+    let lens = (found.cameras.iter().flatten().next()).map_or(Lens::NONE, |c| c.camera.lens);
     Component {
         cameras: (found.cameras.iter())
             .map(|c| c.as_ref().map(camera))

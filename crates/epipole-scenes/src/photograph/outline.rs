@@ -43,7 +43,7 @@ fn outline_of_box(
     let nearest = corners.iter().fold(f64::INFINITY, |z, x| z.min(x.z)) - 1e-9;
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |x_in_cam: &Point3<f64>| {
-        if let Ok(pixel) = camera.intrinsics.project(x_in_cam) {
+        if let Ok(pixel) = camera.camera.intrinsics.project(x_in_cam) {
             for i in 0..2 {
                 low[i] = low[i].min(pixel[i]);
                 high[i] = high[i].max(pixel[i]);

@@ -301,7 +301,7 @@ fn is_edge(samples: &[Sample], width: usize, offset: usize, column: usize) -> bo
 mod tests {
     use super::*;
     use crate::sets::still_life_camera;
-    use epipole::camera::Intrinsics;
+    use epipole::camera::{Camera, Intrinsics};
     use image::ImageBuffer;
     use nalgebra::{Point2, Vector3};
 
@@ -364,7 +364,7 @@ mod tests {
         for (dx, dz, yaw) in [(0.0, 0.0, 0.0), (0.5, 0.3, -0.35), (-0.5, 0.5, 0.35)] {
             let turn = nalgebra::Isometry3::rotation(Vector3::new(0.0, yaw, 0.0));
             let camera = PosedCamera {
-                intrinsics: front.intrinsics,
+                camera: front.camera,
                 cam_from_world: turn
                     * front.cam_from_world
                     * nalgebra::Translation3::new(-dx, 0.0, -dz),
@@ -392,7 +392,7 @@ mod tests {
             ));
         }
         let at = |x: f64, y: f64, z: f64| PosedCamera {
-            intrinsics: Intrinsics::centered(60.0, 64, 48).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(60.0, 64, 48).unwrap(), 64, 48),
             cam_from_world: nalgebra::Isometry3::translation(-x, -y, -z),
         };
         // In the table top, and far outside of the room.

@@ -77,7 +77,7 @@ impl<'a> View<'a> {
         sampling: Sampling,
     ) -> Self {
         let center = camera.center_in_world().coords;
-        let k = &camera.intrinsics;
+        let k = &camera.camera.intrinsics;
         let inverse_focal = Vector2::new(1.0 / k.fu_px(), 1.0 / k.fv_px());
         let cam_from_world = camera.cam_from_world.rotation.to_rotation_matrix();
         let world_from_cam = cam_from_world.matrix().transpose();

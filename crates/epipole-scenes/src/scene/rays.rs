@@ -202,9 +202,9 @@ mod tests {
         let motion = relative_motion(&camera1.cam_from_world, &camera2.cam_from_world);
         let essential = cross_matrix(&motion.translation.vector)
             * motion.rotation.to_rotation_matrix().into_inner();
-        let f = camera2.intrinsics.inverse_matrix().transpose()
+        let f = camera2.camera.intrinsics.inverse_matrix().transpose()
             * essential
-            * camera1.intrinsics.inverse_matrix();
+            * camera1.camera.intrinsics.inverse_matrix();
         let (mut num_visible, mut num_occluded) = (0, 0);
         for v in (3..480).step_by(17) {
             for u in (2..640).step_by(13) {

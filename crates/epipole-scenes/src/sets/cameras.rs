@@ -1,6 +1,6 @@
 //! The viewpoints for which the scenes were composed.
 
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole::{Error, Result};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
@@ -19,11 +19,11 @@ fn intrinsics(focal_px: f64, width: u32, height: u32) -> Intrinsics {
 ///
 /// ```
 /// use epipole_scenes::still_life_camera;
-/// assert_eq!(still_life_camera(640, 480).intrinsics.fu_px(), 800.0);
+/// assert_eq!(still_life_camera(640, 480).camera.intrinsics.fu_px(), 800.0);
 /// ```
 pub fn still_life_camera(width: u32, height: u32) -> PosedCamera {
     PosedCamera {
-        intrinsics: intrinsics(800.0, width, height),
+        camera: Camera::pinhole(intrinsics(800.0, width, height), width, height),
         cam_from_world: look_at(
             &Point3::new(0.035, -0.43, -1.30),
             &Point3::new(0.035, -0.165, 0.05),
@@ -58,7 +58,7 @@ pub fn long_table_camera(x_m: f64, width: u32, height: u32) -> Result<PosedCamer
         });
     }
     Ok(PosedCamera {
-        intrinsics: intrinsics(700.0, width, height),
+        camera: Camera::pinhole(intrinsics(700.0, width, height), width, height),
         cam_from_world: RigidTransform::from_parts(
             Translation3::new(-x_m, 0.0, 0.0),
             UnitQuaternion::identity(),

@@ -210,11 +210,15 @@ fn walls() -> Vec<Body> {
 mod tests {
     use super::*;
     use crate::Sampling;
-    use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+    use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 
     fn camera1(width: u32, height: u32) -> PosedCamera {
         PosedCamera {
-            intrinsics: Intrinsics::centered(1.25 * f64::from(width), width, height).unwrap(),
+            camera: Camera::pinhole(
+                Intrinsics::centered(1.25 * f64::from(width), width, height).unwrap(),
+                width,
+                height,
+            ),
             cam_from_world: RigidTransform::identity(),
         }
     }

@@ -139,8 +139,8 @@ mod tests {
                 assert!(line1.signed_distance(&point).abs() < 1e-6);
                 // Check with E, which constrains rays as F constrains pixels.
                 let [ray1, ray2] = [
-                    cameras[0].intrinsics.ray(&point),
-                    cameras[1].intrinsics.ray(&pixel2),
+                    cameras[0].camera.intrinsics.ray(&point),
+                    cameras[1].camera.intrinsics.ray(&pixel2),
                 ];
                 assert!(ray2.dot(&(geometry.essential * ray1)).abs() < 1e-9);
             }

@@ -1,7 +1,7 @@
 //! A wireframe house and the cameras around it: the ground truth.
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Width and height of the photographs, pixels.
@@ -96,7 +96,11 @@ impl House {
             let center = Point3::new(DISTANCE * sin, y, -DISTANCE * cos);
             let up = Vector3::new(0.0, -1.0, 0.0);
             Ok(PosedCamera {
-                intrinsics: Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
+                camera: Camera::pinhole(
+                    Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
+                    SIZE.0,
+                    SIZE.1,
+                ),
                 cam_from_world: look_at(&center, &Point3::from(TARGET), &up)?,
             })
         };

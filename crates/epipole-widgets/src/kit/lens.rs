@@ -2,7 +2,7 @@
 //! whose objects are dragged in the space.
 
 use crate::kit::orbit::{HALF_RISE_DEG, HALF_TURN_DEG, Orbit};
-use epipole::camera::{Intrinsics, PosedCamera, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Distance of the eye at zoom 1, in radii of the scene.
@@ -57,8 +57,11 @@ impl Lens {
         let at = subject.middle + distance * towards_eye;
         Some(Self {
             eye: PosedCamera {
-                intrinsics: Intrinsics::new(focal * units.0, focal * units.1, middle.0, middle.1)
-                    .ok()?,
+                camera: Camera::pinhole(
+                    Intrinsics::new(focal * units.0, focal * units.1, middle.0, middle.1).ok()?,
+                    640,
+                    480,
+                ),
                 cam_from_world: look_at(&at, &subject.middle, &up).ok()?,
             },
             distance,
@@ -79,7 +82,7 @@ impl Lens {
         if in_eye.z.is_nan() || in_eye.z < self.nearest {
             return None;
         }
-        let place = self.eye.intrinsics.project(in_eye).ok()?;
+        let place = self.eye.camera.intrinsics.project(in_eye).ok()?;
         let finite = place.x.is_finite() && place.y.is_finite();
         finite.then_some(((place.x, place.y), in_eye.z))
     }

@@ -8,7 +8,7 @@
 //! pictures are reproducible.
 
 use epipole::Error;
-use epipole::camera::PosedCamera;
+use epipole::camera::{Camera, PosedCamera};
 use epipole_scenes::{Moved, Photograph, Reprojected, Sampling, Scene};
 use image::RgbImage;
 use std::ops::Range;
@@ -116,7 +116,11 @@ impl Photo {
             let small_size = (small(size.0), small(size.1));
             let mut draft = blank(self.draft.take(), small_size);
             let small_camera = PosedCamera {
-                intrinsics: camera.intrinsics.scaled(DRAFT_FACTOR)?,
+                camera: Camera::pinhole(
+                    camera.camera.intrinsics.scaled(DRAFT_FACTOR)?,
+                    small_size.0,
+                    small_size.1,
+                ),
                 ..*camera
             };
             let mut wanted = self.meanwhile.wanted(small_size);
@@ -255,7 +259,11 @@ mod tests {
     #[test]
     fn a_ball_that_moves_is_at_its_new_place_at_once() {
         let camera = PosedCamera {
-            intrinsics: Intrinsics::centered(175.0, SIZE.0, SIZE.1).unwrap(),
+            camera: Camera::pinhole(
+                Intrinsics::centered(175.0, SIZE.0, SIZE.1).unwrap(),
+                SIZE.0,
+                SIZE.1,
+            ),
             cam_from_world: Isometry3::identity(),
         };
         let at = |x_m: f64, z_m: f64| (long_table((x_m, z_m)).unwrap(), [x_m, 0.14, z_m]);

@@ -80,8 +80,8 @@ impl<'a> Standing<'a> {
                 &cam_from_eye,
                 &plane.normal,
                 plane.distance,
-                &lens.eye.intrinsics,
-                &camera.intrinsics,
+                &lens.eye.camera.intrinsics,
+                &camera.camera.intrinsics,
             ),
             plane,
             depth: middle.z,
@@ -175,14 +175,14 @@ mod tests {
     use super::*;
     use crate::kit::lens::Subject;
     use crate::kit::orbit::Orbit;
-    use epipole::camera::Intrinsics;
+    use epipole::camera::{Camera, Intrinsics};
     use epipole::homography::transfer;
     use nalgebra::Isometry3;
 
     #[test]
     fn pixels_are_where_the_scene_shows_them_and_hide_what_is_behind() {
         let camera = PosedCamera {
-            intrinsics: Intrinsics::centered(50.0, 40, 30).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(50.0, 40, 30).unwrap(), 40, 30),
             cam_from_world: Isometry3::translation(0.3, 0.1, 0.0),
         };
         let image = RgbImage::new(40, 30);

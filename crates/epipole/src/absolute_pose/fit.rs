@@ -201,7 +201,7 @@ mod tests {
 
     fn cost(pose: &RigidTransform, scene: &Scene) -> f64 {
         let camera = PosedCamera {
-            intrinsics: camera().intrinsics,
+            camera: Camera::pinhole(camera().intrinsics, 640, 480),
             cam_from_world: *pose,
         };
         (scene.points.iter().zip(&scene.pixels))

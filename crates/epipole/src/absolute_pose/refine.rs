@@ -14,10 +14,10 @@ use nalgebra::{Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vect
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::absolute_pose::reprojection_error_px;
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let camera = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
+/// let camera = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::identity() };
 /// // The point is seen at (460, 170), (3, 4) away.
 /// let pixel = Point2::new(463.0, 174.0);
 /// assert!((reprojection_error_px(&camera, &Point3::new(0.4, -0.2, 2.0), &pixel) - 5.0).abs() < 1e-12);

@@ -2,7 +2,7 @@
 
 use super::{Intrinsics, Lens, Observation};
 use crate::{Error, Result};
-use nalgebra::{Point2, Point3, Vector3};
+use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
 
 /// A calibrated camera of any lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,8 +72,30 @@ impl Camera {
     /// # Ok(()) }
     /// ```
     pub fn project(&self, x_in_cam: &Point3<f64>) -> Result<Point2<f64>> {
+        if self.is_pinhole() {
+            return self.intrinsics.project(x_in_cam);
+        }
         let pixel = self.lens.pixel(&self.intrinsics, &x_in_cam.coords);
         pixel.ok_or(Error::PointBehindCamera)
+    }
+
+    /// The derivatives of [`project`](Self::project) by the point; those of a pinhole for a point
+    /// behind it.
+    pub(crate) fn jacobian(&self, x_in_cam: &Point3<f64>) -> Matrix2x3<f64> {
+        let (fu, fv) = (self.intrinsics.fu_px(), self.intrinsics.fv_px());
+        if self.is_pinhole() {
+            let (x, per_z) = (x_in_cam, 1.0 / x_in_cam.z);
+            return Matrix2x3::new(
+                fu * per_z,
+                0.0,
+                -fu * x.x * per_z * per_z,
+                0.0,
+                fv * per_z,
+                -fv * x.y * per_z * per_z,
+            );
+        }
+        let (by_point, _) = self.lens.derivatives(&x_in_cam.coords);
+        Matrix2x3::from_rows(&[by_point.row(0) * fu, by_point.row(1) * fv])
     }
 
     /// The unit ray through a pixel, in the camera frame.
@@ -86,6 +108,9 @@ impl Camera {
 
     /// The ray through a pixel, in the camera frame, of any length.
     pub(crate) fn ray(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
+        if self.is_pinhole() {
+            return Ok(self.intrinsics.ray(pixel));
+        }
         self.lens.ray(&self.intrinsics.ray(pixel).xy().into())
     }
 
@@ -111,11 +136,7 @@ impl Camera {
     /// ```
     pub fn observe(&self, pixel: &Point2<f64>) -> Result<Observation> {
         let ray = self.unproject(pixel)?;
-        let (mut by_ray, _) = self.lens.derivatives(&ray);
-        let focals_px = [self.intrinsics.fu_px(), self.intrinsics.fv_px()];
-        for (mut row, focal_px) in by_ray.row_iter_mut().zip(focals_px) {
-            row *= focal_px;
-        }
+        let by_ray = self.jacobian(&ray.into());
         Observation::new(*pixel, ray, by_ray).ok_or(Error::Degenerate {
             what: "the ray of a distorted pixel",
             why: "the lens model folds there",
@@ -150,6 +171,9 @@ impl Camera {
     /// ```
     #[doc(alias = "undistortPoints")]
     pub fn pinhole_pixel(&self, pixel: &Point2<f64>) -> Result<Point2<f64>> {
+        if self.is_pinhole() {
+            return Ok(*pixel);
+        }
         self.intrinsics.project(&self.ray(pixel)?.into())
     }
 }

@@ -1,14 +1,14 @@
-//! A camera: intrinsics and where it stands.
+//! A camera and its pose.
 
-use super::{Intrinsics, RigidTransform};
+use super::{Camera, RigidTransform};
 use crate::Result;
 use nalgebra::{Matrix3x4, Point2, Point3, Vector3};
 
-/// A pinhole camera in the world.
+/// A camera in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosedCamera {
-    /// K.
-    pub intrinsics: Intrinsics,
+    /// Image size, intrinsics and lens.
+    pub camera: Camera,
     /// `x_in_cam = cam_from_world * x_in_world`.
     pub cam_from_world: RigidTransform,
 }
@@ -20,37 +20,39 @@ impl PosedCamera {
             .inverse_transform_point(&Point3::origin())
     }
 
-    /// The 3×4 matrix `P = K [R t]`.
+    /// The 3×4 matrix `P = K [R t]`, for pixels without distortion such as those of
+    /// [`Camera::pinhole_pixel`].
     pub fn projection_matrix(&self) -> Matrix3x4<f64> {
-        self.intrinsics.matrix() * self.cam_from_world.to_matrix().fixed_view::<3, 4>(0, 0)
+        self.camera.intrinsics.matrix() * self.cam_from_world.to_matrix().fixed_view::<3, 4>(0, 0)
     }
 
     /// The pixel where a point of the world is seen.
     ///
     /// # Errors
-    /// [`PointBehindCamera`](crate::Error::PointBehindCamera) unless it lies in front.
+    /// [`PointBehindCamera`](crate::Error::PointBehindCamera) if the lens does not see it.
     pub fn project(&self, x_in_world: &Point3<f64>) -> Result<Point2<f64>> {
-        self.intrinsics.project(&(self.cam_from_world * x_in_world))
+        self.camera.project(&(self.cam_from_world * x_in_world))
     }
 
     /// The direction of the ray through a pixel, in the world; it advances one unit of depth
     /// (camera z) per unit of its length parameter, so it is not a unit vector.
-    pub fn ray_in_world(&self, pixel: &Point2<f64>) -> Vector3<f64> {
-        self.cam_from_world
-            .rotation
-            .inverse_transform_vector(&self.intrinsics.ray(pixel))
+    ///
+    /// * `pinhole_pixel`: without distortion, such as that of [`Camera::pinhole_pixel`]
+    pub fn ray_in_world(&self, pinhole_pixel: &Point2<f64>) -> Vector3<f64> {
+        let ray = self.camera.intrinsics.ray(pinhole_pixel);
+        self.cam_from_world.rotation.inverse_transform_vector(&ray)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::look_at;
+    use crate::camera::{Intrinsics, look_at};
 
     #[test]
     fn a_ray_of_known_depth_ends_where_it_began() {
         let camera = PosedCamera {
-            intrinsics: Intrinsics::centered(600.0, 640, 480).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(600.0, 640, 480).unwrap(), 640, 480),
             cam_from_world: look_at(
                 &Point3::new(1.0, 2.0, 3.0),
                 &Point3::origin(),

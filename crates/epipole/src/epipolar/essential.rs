@@ -290,8 +290,14 @@ mod tests {
                 .map(|_| random_point(&mut random))
                 .map(|x| (cam1.project(&x).unwrap(), cam2.project(&x).unwrap()))
                 .unzip();
-            let chosen =
-                select_pose(&motions, &p1, &p2, &cam1.intrinsics, &cam2.intrinsics).unwrap();
+            let chosen = select_pose(
+                &motions,
+                &p1,
+                &p2,
+                &cam1.camera.intrinsics,
+                &cam2.camera.intrinsics,
+            )
+            .unwrap();
             assert!(off(&chosen.cam2_from_cam1) < 1e-10);
             assert_eq!(chosen.num_in_front, 10);
             assert_eq!(chosen.second_num_in_front, 0);

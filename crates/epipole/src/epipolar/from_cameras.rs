@@ -39,7 +39,8 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 }
 
 /// The fundamental matrix of two cameras, `F = K2⁻ᵀ [t]ₓ R K1⁻¹` with R and t of
-/// `cam2_from_cam1`, with unit Frobenius norm.
+/// `cam2_from_cam1`, with unit Frobenius norm. It relates pixels without distortion, such as those
+/// of [`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel).
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras' centers coincide, [`Error::NotFinite`] for NaN and
@@ -49,12 +50,12 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::epipolar::fundamental_from_cameras;
 /// use nalgebra::{Point3, Vector3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let left = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
-/// let right = PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-0.1, 0.0, 0.0) };
+/// let left = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::identity() };
+/// let right = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-0.1, 0.0, 0.0) };
 /// let f = fundamental_from_cameras(&left, &right)?;
 /// let x_in_world = Point3::new(0.3, 0.2, 2.0);
 /// let (x1, x2) = (left.project(&x_in_world)?, right.project(&x_in_world)?);
@@ -68,8 +69,8 @@ pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Resul
     let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
     fundamental_from_essential(
         &essential_from_motion(&motion)?,
-        &cam1.intrinsics,
-        &cam2.intrinsics,
+        &cam1.camera.intrinsics,
+        &cam2.camera.intrinsics,
     )
 }
 
@@ -177,7 +178,7 @@ pub(crate) fn unit_norm(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::camera::look_at;
+    use crate::camera::{Camera, look_at};
     use crate::math::random::Random;
     use nalgebra::{Point3, Vector3};
 
@@ -189,7 +190,11 @@ pub(crate) mod tests {
             let target = Point3::new(0.2 * coordinate(), 0.2 * coordinate(), 0.0);
             let up = Vector3::new(0.3 * coordinate(), -1.0, 0.0);
             PosedCamera {
-                intrinsics: Intrinsics::new(focal_px, focal_px * 1.1, 310.0, 250.0).unwrap(),
+                camera: Camera::pinhole(
+                    Intrinsics::new(focal_px, focal_px * 1.1, 310.0, 250.0).unwrap(),
+                    640,
+                    480,
+                ),
                 cam_from_world: look_at(&center, &target, &up).unwrap(),
             }
         };
@@ -221,8 +226,10 @@ pub(crate) mod tests {
         let (cam1, cam2) = random_cameras(&mut Random::new(8));
         let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
         let e = essential_from_motion(&motion).unwrap();
-        let f = fundamental_from_essential(&e, &cam1.intrinsics, &cam2.intrinsics).unwrap();
-        let back = essential_from_fundamental(&f, &cam1.intrinsics, &cam2.intrinsics).unwrap();
+        let f = fundamental_from_essential(&e, &cam1.camera.intrinsics, &cam2.camera.intrinsics)
+            .unwrap();
+        let back = essential_from_fundamental(&f, &cam1.camera.intrinsics, &cam2.camera.intrinsics)
+            .unwrap();
         assert!((e - back).norm() < 1e-12);
     }
 
@@ -242,7 +249,7 @@ pub(crate) mod tests {
     fn a_row_aligned_pair_has_zero_last_entry() {
         let intrinsics = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
         let camera = |x: f64| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: RigidTransform::translation(x, 0.0, 0.0),
         };
         let f = fundamental_from_cameras(&camera(0.0), &camera(-0.2)).unwrap();

@@ -38,8 +38,7 @@ impl Reconstruction {
             let kind = Camera {
                 width: image.width,
                 height: image.height,
-                intrinsics: camera.intrinsics,
-                lens: self.lens(index),
+                ..camera.camera
             };
             let id = kinds
                 .iter()
@@ -199,7 +198,7 @@ mod tests {
         let images = vec![image("a.png"), image("b.png"), image("c.png")];
         let camera = |x: f64| {
             Some(PosedCamera {
-                intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
+                camera: Camera::pinhole(Intrinsics::centered(700.0, 640, 480).unwrap(), 640, 480),
                 cam_from_world: RigidTransform::translation(x, 0.0, 0.0),
             })
         };
@@ -279,7 +278,9 @@ mod tests {
                 "1 FULL_OPENCV 640 480 700 700 320 240 0.5 0.25 0.001 -0.002 0.125 0.75 0.5 -0.25",
             ),
         ] {
-            reconstruction.lenses = vec![lens; 3];
+            for camera in reconstruction.cameras.iter_mut().flatten() {
+                camera.camera.lens = lens;
+            }
             assert_eq!(line(&reconstruction), expected);
         }
     }
@@ -293,7 +294,11 @@ mod tests {
             ..Distortion::NONE
         };
         let far = Distortion { k3: 0.5, ..bent };
-        reconstruction.lenses = vec![bent.into(), Lens::NONE, far.into()];
+        for (image, lens) in [(0, bent), (2, far)] {
+            if let Some(camera) = &mut reconstruction.cameras[image] {
+                camera.camera.lens = lens.into();
+            }
+        }
         let model = reconstruction.to_colmap(&images);
         let lines: Vec<&str> = model.cameras.lines().skip(1).collect();
         assert_eq!(

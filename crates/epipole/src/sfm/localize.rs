@@ -97,7 +97,7 @@ impl Reconstruction {
     /// let first = RigidTransform::identity();
     /// let track = |i: u32| vec![TrackElement { image: 0, keypoint: i }];
     /// let found = Reconstruction {
-    ///     cameras: vec![Some(PosedCamera { intrinsics: camera.intrinsics, cam_from_world: first })],
+    ///     cameras: vec![Some(PosedCamera { camera: Camera::pinhole(camera.intrinsics, 640, 480), cam_from_world: first })],
     ///     points: (0..30).zip(&points)
     ///         .map(|(i, x)| ScenePoint { position: *x, color: [128; 3], track: track(i), error_px: 0.0 })
     ///         .collect(),

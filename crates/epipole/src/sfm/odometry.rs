@@ -10,7 +10,7 @@ use super::options::{SfmInput, check};
 use super::reconstruction::SfmImage;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
-use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::camera::{Intrinsics, RigidTransform};
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use std::collections::VecDeque;
@@ -180,23 +180,18 @@ impl Odometry {
             });
         }
         check(OF_FRAMES, &input.images, &intrinsics, &options.sfm)?;
-        let rig = Sensor {
-            sensor_from_camera: *right_from_left,
-            intrinsics: *right_intrinsics,
-            lens: right.first().map_or(0, |image| image.lens),
-        };
-        Self::start(&input, intrinsics, Some(rig), options, monitor)
+        Self::start(&input, intrinsics, Some(right_from_left), options, monitor)
     }
 
     fn start(
         input: &SfmInput,
         intrinsics: Vec<Intrinsics>,
-        rig: Option<Sensor>,
+        right_from_left: Option<&RigidTransform>,
         options: &OdometryOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self> {
         let images = &input.images;
-        let num_frames = match rig {
+        let num_frames = match right_from_left {
             Some(_) => images.len() / 2,
             None => images.len(),
         };
@@ -208,9 +203,13 @@ impl Odometry {
         let verified = verify_pairs(&input.pairs, &builder.views, &options.sfm, &mut part)?;
         let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
         builder.join_tracks(&surviving)?;
-        builder.rig = rig;
+        builder.rig = (right_from_left.zip(images.get(num_frames))).map(|(motion, right)| Sensor {
+            sensor_from_camera: *motion,
+            camera: builder.camera(num_frames),
+            lens: right.lens,
+        });
         let mut part = Part::new(monitor, VERIFIED, VERIFIED);
-        let started = match rig {
+        let started = match builder.rig {
             Some(_) => start_with_rig(&mut builder, num_frames),
             None => start_early(&mut builder, verified, &mut part)?,
         };
@@ -358,10 +357,7 @@ fn start_early(
 /// Starts at the first frame whose two images share enough points.
 fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
     for frame in 0..num_frames {
-        let camera = PosedCamera {
-            intrinsics: builder.intrinsics[frame],
-            cam_from_world: RigidTransform::identity(),
-        };
+        let camera = builder.posed(frame, RigidTransform::identity());
         builder.place(frame, Some(camera));
         builder.triangulate();
         if builder.num_points() >= builder.options.min_num_inliers {

@@ -2,7 +2,7 @@
 
 use super::bundle::{Bundle, BundleObservation, PositionPrior};
 use super::tracks::TrackElement;
-use crate::camera::{Lens, PosedCamera, RigidTransform};
+use crate::camera::{PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
 /// A photograph, reduced to its keypoints.
@@ -44,8 +44,6 @@ pub struct ScenePoint {
 pub struct Reconstruction {
     /// The camera of each image, `None` if it could not be registered here.
     pub cameras: Vec<Option<PosedCamera>>,
-    /// The lens of each image; missing entries bend nothing.
-    pub lenses: Vec<Lens>,
     /// Whether it stands where the known positions of its photographs are, in their unit of length.
     pub is_placed: bool,
     /// The points.
@@ -56,11 +54,6 @@ impl Reconstruction {
     /// The number of images with a camera.
     pub fn num_registered(&self) -> usize {
         self.cameras.iter().flatten().count()
-    }
-
-    /// The lens of an image.
-    pub fn lens(&self, image: usize) -> Lens {
-        self.lenses.get(image).copied().unwrap_or_default()
     }
 
     /// The same in another world: places are where `to_from_world` moves them.
@@ -94,8 +87,7 @@ impl Reconstruction {
     /// fisheye.
     pub fn project(&self, image: usize, point: &Point3<f64>) -> Option<Point2<f64>> {
         let camera = self.cameras.get(image)?.as_ref()?;
-        let p = camera.cam_from_world * point;
-        self.lens(image).pixel(&camera.intrinsics, &p.coords)
+        camera.project(point).ok()
     }
 
     /// Mean length of all reprojection errors, pixels; 0 without observations.
@@ -126,9 +118,6 @@ impl Reconstruction {
                 bundle.cameras.push(*camera);
                 let lens = lenses.number_of(images[image].lens);
                 bundle.lens_of_camera.push(lens);
-                if lens == bundle.lenses.len() {
-                    bundle.lenses.push(self.lens(image));
-                }
             }
         }
         for (index, point) in self.points.iter().enumerate() {

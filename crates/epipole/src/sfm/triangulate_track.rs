@@ -41,7 +41,7 @@ impl Sight<'_> {
             View::Pixel(pixel) => pixel,
             View::Ray(seen) => return seen.offset_with_derivative(&p.coords),
         };
-        let k = &self.camera.intrinsics;
+        let k = &self.camera.camera.intrinsics;
         let (x, y) = (p.x / p.z, p.y / p.z);
         let center = k.principal_point();
         let residual = Vector2::new(
@@ -207,7 +207,7 @@ pub(super) fn triangulate_track(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, look_at};
+    use crate::camera::{Camera, Intrinsics, look_at};
 
     fn sights(point: &Point3<f64>, count: usize, spread: f64) -> Vec<Sight<'static>> {
         (0..count)
@@ -215,7 +215,11 @@ mod tests {
                 let center = Point3::new(spread * i as f64, 0.1 * (i % 2) as f64, -5.0);
                 let up = Vector3::new(0.0, -1.0, 0.0);
                 let camera = PosedCamera {
-                    intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
+                    camera: Camera::pinhole(
+                        Intrinsics::centered(700.0, 640, 480).unwrap(),
+                        640,
+                        480,
+                    ),
                     cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
                 };
                 Sight {
@@ -272,7 +276,7 @@ mod tests {
     fn cameras_that_face_each_other_do_not_place_a_point() {
         let up = Vector3::new(0.0, -1.0, 0.0);
         let camera = |center: Point3<f64>| PosedCamera {
-            intrinsics: Intrinsics::centered(700.0, 640, 480).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(700.0, 640, 480).unwrap(), 640, 480),
             cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
         };
         let truth = Point3::new(0.01, 0.0, 0.7);

@@ -1,7 +1,7 @@
 //! Reconstruction from two views with known motion: triangulation and refinement.
 
 use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
-use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
 use crate::optim::{LmReport, RobustLoss};
 use crate::progress::{Monitor, Part};
@@ -131,7 +131,7 @@ pub fn two_view_reconstruction(
 ) -> Result<TwoViewReconstruction> {
     check(pixels1, pixels2, cam2_from_cam1, options)?;
     let camera = |intrinsics: &Intrinsics, cam_from_world| PosedCamera {
-        intrinsics: *intrinsics,
+        camera: Camera::pinhole(*intrinsics, 640, 480),
         cam_from_world,
     };
     let mut start = Bundle {
@@ -192,14 +192,14 @@ pub fn two_view_reconstruction(
     let in_cam1 = |&point: &usize| {
         Point3::from((bundle.cameras[0].cam_from_world * bundle.points[point]).coords / unit)
     };
-    let lenses = [&bundle.cameras[0].intrinsics, &bundle.cameras[1].intrinsics];
+    let [k1, k2] = [0, 1].map(|n| &bundle.cameras[n].camera.intrinsics);
     let rms_before_px = rms_px(&start, &all);
     Ok(TwoViewReconstruction {
         cam2_from_cam1: motion,
         points: all.iter().map(in_cam1).collect(),
         triangulated: start.points,
         match_of_point: matches,
-        num_in_front: four_counts(&motion, pixels1, pixels2, lenses)?,
+        num_in_front: four_counts(&motion, pixels1, pixels2, [k1, k2])?,
         rms_before_px,
         rms_px: rms_px(&bundle, &all),
         report,

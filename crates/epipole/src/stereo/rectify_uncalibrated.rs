@@ -303,7 +303,7 @@ fn apply(h: &Matrix3<f64>, p: &Point2<f64>) -> Result<Point2<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, PosedCamera, look_at};
+    use crate::camera::{Camera, Intrinsics, PosedCamera, look_at};
     use crate::epipolar::fundamental_from_cameras;
     use crate::math::random::Random;
     use nalgebra::Point3;
@@ -315,7 +315,7 @@ mod tests {
     ) -> (Matrix3<f64>, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let up = Vector3::new(0.05, -1.0, 0.1);
         let camera = |center: [f64; 3], target: [f64; 3]| PosedCamera {
-            intrinsics: Intrinsics::centered(600.0, 640, 480).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(600.0, 640, 480).unwrap(), 640, 480),
             cam_from_world: look_at(&Point3::from(center), &Point3::from(target), &up).unwrap(),
         };
         let camera1 = camera([0.0; 3], [0.0, 0.0, 5.0]);

@@ -9,7 +9,7 @@ mod two_view;
 pub use multi_view::{MultiViewProblem, MultiViewProblemOptions, Path, Sighting};
 pub use two_view::{TwoViewProblem, TwoViewProblemOptions};
 
-use crate::camera::{Intrinsics, PosedCamera, look_at};
+use crate::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
@@ -96,7 +96,7 @@ fn intrinsics() -> Intrinsics {
 /// An upright camera at a place, looking at another.
 fn camera_at(center: &Point3<f64>, target: &Point3<f64>) -> Result<PosedCamera> {
     Ok(PosedCamera {
-        intrinsics: intrinsics(),
+        camera: Camera::pinhole(intrinsics(), 640, 480),
         cam_from_world: look_at(center, target, &Vector3::new(0.0, -1.0, 0.0))?,
     })
 }

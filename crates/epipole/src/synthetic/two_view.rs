@@ -165,7 +165,7 @@ mod tests {
         let motion = relative_motion(&camera1.cam_from_world, &camera2.cam_from_world);
         let essential = cross_matrix(&motion.translation.vector)
             * motion.rotation.to_rotation_matrix().into_inner();
-        let k_inverse = camera1.intrinsics.inverse_matrix();
+        let k_inverse = camera1.camera.intrinsics.inverse_matrix();
         let f = k_inverse.transpose() * essential * k_inverse;
         let mut num_off = 0;
         for i in 0..400 {

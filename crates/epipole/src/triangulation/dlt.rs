@@ -284,7 +284,7 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], baseline: f64, x: &Row) -> Result<Point3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
+    use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
     use crate::math::null_space::right_singular_vectors;
     use crate::math::random::Random;
     use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -411,7 +411,7 @@ mod tests {
                     let up = Vector3::new(0.3, -1.0, 0.0);
                     let target = center + Vector3::new(near(1.0), near(1.0), 5.0);
                     PosedCamera {
-                        intrinsics: k,
+                        camera: Camera::pinhole(k, 640, 480),
                         cam_from_world: look_at(center, &target, &up).unwrap(),
                     }
                 };

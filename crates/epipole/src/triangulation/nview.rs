@@ -23,18 +23,18 @@ use nalgebra::{Point2, Point3, Vector3};
 /// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if
 /// all cameras are at the same place, [`Error::NotFinite`] for NaN and infinities,
 /// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would
-/// have the point behind it.
+/// not see the point, and as [`Camera::unproject`](crate::camera::Camera::unproject).
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::triangulation::triangulate_nview_dlt;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// // Three cameras side by side, 0.1 apart.
-/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
 /// // A disparity of 35 for each step: Z = f B / d = 2.
 /// let pixels = [355.0, 320.0, 285.0].map(|u| Point2::new(u, 240.0));
 /// let point = triangulate_nview_dlt(&cameras, &pixels)?;
@@ -66,18 +66,21 @@ pub fn triangulate_nview_dlt(
     // of the baseline, so that the unit of length in the world does not matter.
     let origin = cameras[0].center_in_world().coords;
     let unit = baseline_unit(cameras);
+    let rays: Vec<Vector3<f64>> = (cameras.iter().zip(pixels))
+        .map(|(camera, pixel)| camera.camera.ray(pixel))
+        .collect::<Result<_>>()?;
     let (values, vectors) = right_singular_vectors(2 * cameras.len(), |row| {
         let camera = &cameras[row / 2];
-        let ray = camera.intrinsics.ray(&pixels[row / 2]);
+        let ray = &rays[row / 2];
         let r = camera.cam_from_world.rotation.to_rotation_matrix();
         let t = (camera.cam_from_world * Point3::from(origin)).coords / unit;
         let (axis, value) = if row % 2 == 0 { (0, ray.x) } else { (1, ray.y) };
         let m = r.matrix();
         [
-            value * m[(2, 0)] - m[(axis, 0)],
-            value * m[(2, 1)] - m[(axis, 1)],
-            value * m[(2, 2)] - m[(axis, 2)],
-            value * t.z - t[axis],
+            value * m[(2, 0)] - ray.z * m[(axis, 0)],
+            value * m[(2, 1)] - ray.z * m[(axis, 1)],
+            value * m[(2, 2)] - ray.z * m[(axis, 2)],
+            value * t.z - ray.z * t[axis],
         ]
     });
     if !values.iter().chain(&vectors[3]).all(|x| x.is_finite()) {
@@ -95,9 +98,7 @@ pub fn triangulate_nview_dlt(
         return Err(BEYOND_NUMBERS);
     }
     for camera in cameras {
-        if (camera.cam_from_world * point).z <= 0.0 {
-            return Err(Error::PointBehindCamera);
-        }
+        camera.project(&point)?;
     }
     Ok(point)
 }
@@ -132,13 +133,13 @@ pub struct NviewPoint {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::optim::RobustLoss;
 /// use epipole::triangulation::triangulate_nview;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// // Three cameras side by side, 0.1 apart.
-/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
+/// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
 /// // A disparity of 35 for each step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
 /// let pixels = [(355.0, 239.0), (320.0, 242.0), (285.0, 239.0)].map(|(u, v)| Point2::new(u, v));
 /// let found = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial)?;
@@ -195,7 +196,7 @@ pub fn triangulate_nview(
 mod tests {
     use super::super::quality::projection_jacobian;
     use super::*;
-    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::camera::{Camera, Intrinsics, RigidTransform, look_at};
     use crate::math::random::Random;
     use crate::optim::check_jacobian;
     use crate::triangulation::triangulate_optimal;
@@ -204,7 +205,11 @@ mod tests {
     fn ring(random: &mut Random, count: usize) -> Vec<PosedCamera> {
         (0..count)
             .map(|_| PosedCamera {
-                intrinsics: Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
+                camera: Camera::pinhole(
+                    Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
+                    640,
+                    480,
+                ),
                 cam_from_world: look_at(
                     &Point3::from(Vector3::from_fn(|_, _| random.uniform(-2.0, 2.0))),
                     &Point3::new(0.0, 0.0, 8.0),
@@ -268,7 +273,7 @@ mod tests {
     fn bad_views_are_refused() {
         let intrinsics = Intrinsics::new(600.0, 600.0, 0.0, 0.0).unwrap();
         let camera = |x: f64| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
         };
         let o = Point2::origin();

@@ -118,25 +118,26 @@ fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64
 /// * `cam1`, `cam2`: the cameras
 /// * `pixel1`, `pixel2`: where the point is seen
 ///
-/// The optimum if pixel errors are normal and equal in both images. The pixels are first moved onto
+/// The optimum if pixel errors are normal and equal in both images; distorted pixels are
+/// straightened first ([`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel)). The pixels are first moved onto
 /// epipolar lines by [`correct_matches`]; then their rays meet.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras are at the same place, or both pixels are epipoles, so that
 /// both rays run along the baseline; [`Error::PointAtInfinity`] for parallel rays,
 /// [`Error::PointBehindCamera`] if they diverge, or meet in the center of a camera because one
-/// pixel is an epipole; [`Error::NotFinite`] for NaN and infinities.
+/// pixel is an epipole; [`Error::NotFinite`] for NaN and infinities; as `Camera::pinhole_pixel`.
 ///
 /// Source: Lindström 2010, "Triangulation made easy"; Hartley & Sturm 1997, "Triangulation".
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::triangulation::triangulate_optimal;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let left = PosedCamera { intrinsics, cam_from_world: RigidTransform::identity() };
-/// let right = PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-0.12, 0.0, 0.0) };
+/// let left = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::identity() };
+/// let right = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-0.12, 0.0, 0.0) };
 /// // Disparity 30, but rows that differ by 2: the true row is between them.
 /// let point = triangulate_optimal(&left, &right, &Point2::new(350.0, 241.0), &Point2::new(320.0, 239.0))?;
 /// assert!((point - Point3::new(0.12, 0.0, 2.8)).norm() < 1e-9);
@@ -152,7 +153,11 @@ pub fn triangulate_optimal(
         return Err(NO_BASELINE);
     }
     let fundamental = fundamental_from_cameras(cam1, cam2)?;
-    let (x1, x2) = correct_matches(&fundamental, pixel1, pixel2)?;
+    let (pixel1, pixel2) = (
+        cam1.camera.pinhole_pixel(pixel1)?,
+        cam2.camera.pinhole_pixel(pixel2)?,
+    );
+    let (x1, x2) = correct_matches(&fundamental, &pixel1, &pixel2)?;
     triangulate_dlt(
         &cam1.projection_matrix(),
         &cam2.projection_matrix(),
@@ -164,7 +169,7 @@ pub fn triangulate_optimal(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::camera::{Camera, Intrinsics, RigidTransform, look_at};
     use crate::epipolar::{Epipole, enforce_rank2, epipoles, essential_from_motion, sampson_px};
     use crate::math::random::Random;
 
@@ -172,7 +177,11 @@ mod tests {
         let mut camera = || {
             let center = Point3::from(Vector3::from_fn(|_, _| random.uniform(-1.0, 1.0)));
             PosedCamera {
-                intrinsics: Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
+                camera: Camera::pinhole(
+                    Intrinsics::new(600.0, 620.0, 320.0, 240.0).unwrap(),
+                    640,
+                    480,
+                ),
                 cam_from_world: look_at(
                     &center,
                     &Point3::new(0.0, 0.0, 5.0),

@@ -53,11 +53,11 @@ pub fn triangulation_angle_rad(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::triangulation::point_covariance;
 /// use nalgebra::Point3;
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
-/// let camera = |x: f64| PosedCamera { intrinsics, cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) };
+/// let camera = |x: f64| PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) };
 /// let covariance = point_covariance(&[camera(-0.06), camera(0.06)], &Point3::new(0.0, 0.0, 2.8), 0.5)?;
 /// // Across, two views measure v: (Z/f) σ/√2 = 0.0014 m. Along, Z² σ√2/(f B) = 0.066 m.
 /// assert!((covariance[(1, 1)].sqrt() - 0.001414).abs() < 1e-6);
@@ -116,23 +116,13 @@ pub(super) fn projection_jacobian(
     point_in_world: &Point3<f64>,
 ) -> SMatrix<f64, 2, 3> {
     let x = camera.cam_from_world * point_in_world;
-    let (fu, fv) = (camera.intrinsics.fu_px(), camera.intrinsics.fv_px());
-    let per_z = 1.0 / x.z;
-    let by_cam = SMatrix::<f64, 2, 3>::new(
-        fu * per_z,
-        0.0,
-        -fu * x.x * per_z * per_z,
-        0.0,
-        fv * per_z,
-        -fv * x.y * per_z * per_z,
-    );
-    by_cam * camera.cam_from_world.rotation.to_rotation_matrix().matrix()
+    camera.camera.jacobian(&x) * camera.cam_from_world.rotation.to_rotation_matrix().matrix()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::{Intrinsics, RigidTransform, look_at};
+    use crate::camera::{Camera, Intrinsics, RigidTransform, look_at};
     use crate::math::random::Random;
     use crate::triangulation::triangulate_optimal;
     use nalgebra::{Point2, Vector3};
@@ -168,7 +158,7 @@ mod tests {
     fn depth_is_less_certain_than_width() {
         let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0).unwrap();
         let camera = |x: f64| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
         };
         let point = Point3::new(0.05, 0.0, 2.0);
@@ -192,7 +182,7 @@ mod tests {
     fn the_whole_matrix_agrees_with_many_noisy_triangulations() {
         let intrinsics = Intrinsics::new(650.0, 600.0, 320.0, 240.0).unwrap();
         let camera = |center: Point3<f64>| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: look_at(&center, &Point3::origin(), &Vector3::new(0.2, -1.0, 0.1))
                 .unwrap(),
         };
@@ -237,7 +227,7 @@ mod tests {
         let covariance = |focal_px: f64, sigma_px: f64| {
             let intrinsics = Intrinsics::new(focal_px, focal_px, 0.0, 0.0).unwrap();
             let camera = |x: f64| PosedCamera {
-                intrinsics,
+                camera: Camera::pinhole(intrinsics, 640, 480),
                 cam_from_world: RigidTransform::translation(-x, 0.0, 0.0),
             };
             point_covariance(&[camera(0.0), camera(0.1)], &point, sigma_px)

@@ -98,8 +98,8 @@ fn point_of_pair(problem: &Problem<'_>, i: usize, j: usize) -> Result<Point3<f64
     let (cam1, cam2) = (&problem.cameras[i], &problem.cameras[j]);
     let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
     let (ray1, ray2) = (
-        cam1.intrinsics.ray(&problem.pixels[i]),
-        cam2.intrinsics.ray(&problem.pixels[j]),
+        cam1.camera.intrinsics.ray(&problem.pixels[i]),
+        cam2.camera.intrinsics.ray(&problem.pixels[j]),
     );
     let x_in_cam1 = triangulate_weighted_midpoint(&motion, &ray1, &ray2)?;
     Ok(cam1.cam_from_world.inverse_transform_point(&x_in_cam1))

@@ -68,7 +68,7 @@ impl Scene {
 
     fn cost(&self, cam_from_world: &RigidTransform, points: &[Point3<f64>]) -> f64 {
         let camera = PosedCamera {
-            intrinsics: self.intrinsics,
+            camera: Camera::pinhole(self.intrinsics, 640, 480),
             cam_from_world: *cam_from_world,
         };
         let errors = points

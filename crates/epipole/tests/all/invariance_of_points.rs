@@ -66,7 +66,11 @@ fn camera(random: &mut Random, side: f64) -> PosedCamera {
     let target = Point3::new(near(random, 0.3), near(random, 0.3), 0.0);
     let up = Vector3::new(near(random, 0.3), -1.0, 0.0);
     PosedCamera {
-        intrinsics: Intrinsics::new(600.0 + near(random, 50.0), 620.0, 320.0, 240.0).unwrap(),
+        camera: Camera::pinhole(
+            Intrinsics::new(600.0 + near(random, 50.0), 620.0, 320.0, 240.0).unwrap(),
+            640,
+            480,
+        ),
         cam_from_world: look_at(&center, &target, &up).unwrap(),
     }
 }
@@ -156,7 +160,7 @@ proptest! {
         let mut random = Random::new(seed);
         let truth = point(&mut random);
         let cameras = [-2.0, 2.0].map(|x| camera(&mut random, x));
-        let rays = cameras.map(|c| c.intrinsics.ray(&seen(&mut random, &c, &truth, 1.0)));
+        let rays = cameras.map(|c| c.camera.intrinsics.ray(&seen(&mut random, &c, &truth, 1.0)));
         let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
         let mut enlarged = motion;
         enlarged.translation.vector *= scale;
@@ -211,7 +215,7 @@ proptest! {
         let points: Vec<_> = (0..30).map(|_| point(&mut random)).collect();
         let pixels: Vec<_> = points.iter().map(|x| seen(&mut random, &truth, x, 0.5)).collect();
         let moved: Vec<_> = points.iter().map(|x| change.point(x)).collect();
-        let k = truth.intrinsics;
+        let k = truth.camera.intrinsics;
         // The world's origin may be far away, and a rotation moves it.
         let length = change.scale * (5.0 + change.shift.norm() / change.scale);
 
@@ -281,7 +285,7 @@ proptest! {
         let points: Vec<_> = (0..40).map(|_| point(&mut random)).collect();
         let p1: Vec<_> = points.iter().map(|x| seen(&mut random, &cam1, x, 0.5)).collect();
         let p2: Vec<_> = points.iter().map(|x| seen(&mut random, &cam2, x, 0.5)).collect();
-        let (k1, k2) = (cam1.intrinsics, cam2.intrinsics);
+        let (k1, k2) = (cam1.camera.intrinsics, cam2.camera.intrinsics);
         let rays1: Vec<_> = p1.iter().map(|p| k1.ray(p)).collect();
         let rays2: Vec<_> = p2.iter().map(|p| k2.ray(p)).collect();
 

@@ -112,7 +112,7 @@ fn kitti_turn_is_followed() {
         let result = monocular_odometry(&unknown, &options, &mut observer).expect("a path");
         let cameras = result.reconstruction.cameras.iter().flatten();
         let found: Vec<f64> = cameras
-            .map(|camera| camera.intrinsics.fu_px() / k[0])
+            .map(|camera| camera.camera.intrinsics.fu_px() / k[0])
             .collect();
         println!("from {share} of the focal length: {}", found[0]);
         assert_eq!(found.len(), truth.len());

@@ -247,7 +247,7 @@ fn matches() -> (Vec<Point2<f64>>, Vec<Point2<f64>>, Intrinsics) {
     let mut random = Random::new(8);
     let intrinsics = Intrinsics::centered(700.0, 640, 480).unwrap();
     let camera = |cam_from_world| PosedCamera {
-        intrinsics,
+        camera: Camera::pinhole(intrinsics, 640, 480),
         cam_from_world,
     };
     let left = camera(RigidTransform::identity());

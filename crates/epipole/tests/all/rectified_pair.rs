@@ -34,7 +34,7 @@ fn pair(aside: Vector3<f64>) -> ([PosedCamera; 2], [Photograph; 2]) {
 
 fn rig_of(cameras: &[PosedCamera; 2]) -> Result<Rectification> {
     let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
-    let cameras = cameras.map(|camera| Camera::pinhole(camera.intrinsics, SIZE.0, SIZE.1));
+    let cameras = cameras.map(|camera| Camera::pinhole(camera.camera.intrinsics, SIZE.0, SIZE.1));
     let options = RectifyOptions::default().with_alpha(1.0);
     rectify_calibrated(&cameras, &motion, &options)
 }
@@ -47,7 +47,7 @@ fn places(camera: &PosedCamera, photograph: &Photograph) -> Vec<Point3<f64>> {
     let place = |(u, v): (u32, u32)| {
         let pixel = Point2::new(f64::from(u), f64::from(v));
         let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
-        Point3::from(camera.intrinsics.ray(&pixel) * depth)
+        Point3::from(camera.camera.intrinsics.ray(&pixel) * depth)
     };
     pixels.map(place).collect()
 }
@@ -74,7 +74,7 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
         let mut errors: Vec<f64> = (cloud.points.iter())
             .map(|point| rig.rect_from_cam[0].inverse() * point)
             .filter_map(|place| {
-                let pixel = cameras[0].intrinsics.project(&place).unwrap();
+                let pixel = cameras[0].camera.intrinsics.project(&place).unwrap();
                 let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
                 let truth = photographs[0].depth_m.get_pixel_checked(u, v)?;
                 Some((place.z / f64::from(truth.0[0]) - 1.0).abs())

@@ -1,6 +1,6 @@
 //! Reconstruction through lenses that no pinhole camera approximates, against exact truth.
 
-use epipole::camera::{Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, BundleObservation, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult,
@@ -68,7 +68,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
         let rotation = RigidTransform::new(Vector3::zeros(), turn);
         let shift = -(rotation.rotation * (making.step * center));
         let camera = PosedCamera {
-            intrinsics: k(),
+            camera: Camera::pinhole(k(), 640, 480),
             cam_from_world: RigidTransform::from_parts(shift.into(), rotation.rotation),
         };
         let mut image = SfmImage {
@@ -173,7 +173,12 @@ fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     assert!(num_behind > 20, "{num_behind}");
     // Each observation is where the lens shows its point.
     let (bundle, _) = found.to_bundle(&world.input.images);
-    assert_eq!(bundle.lenses, [lens(LensKind::Fisheye)]);
+    assert!(
+        bundle
+            .cameras
+            .iter()
+            .all(|c| c.camera.lens == lens(LensKind::Fisheye))
+    );
     let largest = (0..bundle.observations.len()).map(|o| bundle.residual_px(o).norm());
     assert!(largest.fold(0.0, f64::max) < 4.5);
 }
@@ -197,15 +202,18 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     let result = run(&world, &options);
     let found = &result.components[0];
     assert_eq!(found.num_registered(), 9);
-    let focal_px = found.cameras[4].unwrap().intrinsics.fu_px();
+    let focal_px = found.cameras[4].unwrap().camera.intrinsics.fu_px();
     assert!((focal_px - 300.0).abs() < 0.5, "{focal_px}");
     // The coefficients compensate each other, so the rays are compared.
     let truth = lens(LensKind::Fisheye);
     for degrees in [20.0f64, 50.0, 80.0, 90.0] {
         let (sine, cosine) = libm::sincos(degrees.to_radians());
         let ray = Vector3::new(sine, 0.0, cosine);
-        let [found_px, true_px] = [(found.lens(4), focal_px), (truth, 300.0)]
-            .map(|(lens, focal_px)| focal_px * lens.project(&ray).unwrap().x);
+        let [found_px, true_px] = [
+            (found.cameras[4].unwrap().camera.lens, focal_px),
+            (truth, 300.0),
+        ]
+        .map(|(lens, focal_px)| focal_px * lens.project(&ray).unwrap().x);
         assert!(
             (found_px - true_px).abs() < 0.2,
             "{degrees}: {found_px} {true_px}"
@@ -273,8 +281,15 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
     assert_eq!(result.components[0].num_registered(), 6);
     let off = off_centers(&world, &result);
     assert!(off < 0.01, "{off}");
-    assert_eq!(result.components[0].lens(2).kind(), LensKind::Brown);
-    assert_eq!(result.components[0].lens(3).kind(), LensKind::Fisheye);
+    let kind = |image: usize| {
+        result.components[0].cameras[image]
+            .unwrap()
+            .camera
+            .lens
+            .kind()
+    };
+    assert_eq!(kind(2), LensKind::Brown);
+    assert_eq!(kind(3), LensKind::Fisheye);
 }
 
 #[test]
@@ -347,7 +362,9 @@ fn points_behind_a_lens_are_mirrored_or_refused() {
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
         let mut wrong = bundle.clone();
-        wrong.lenses = vec![lens(kind)];
+        for camera in &mut wrong.cameras {
+            camera.camera.lens = lens(kind);
+        }
         let observations: Vec<BundleObservation> = wrong.observations.clone();
         assert!(!observations.is_empty());
         if let Ok(report) = adjust_bundle(&mut wrong, &Default::default(), &mut ()) {

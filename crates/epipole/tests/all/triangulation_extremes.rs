@@ -1,7 +1,7 @@
 //! Triangulation in any unit of length, and with a view that is wrong.
 
 use epipole::Error;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::triangulation::{
@@ -18,7 +18,7 @@ fn row_of_cameras(random: &mut Random, count: usize) -> Vec<PosedCamera> {
             let rotation = UnitQuaternion::from_scaled_axis(axis * random.uniform(0.0, 0.15));
             let center = Vector3::new(i as f64 * 0.5, 0.2 * random.normal(), 0.2 * random.normal());
             PosedCamera {
-                intrinsics,
+                camera: Camera::pinhole(intrinsics, 640, 480),
                 cam_from_world: RigidTransform::from_parts((-(rotation * center)).into(), rotation),
             }
         })
@@ -123,10 +123,10 @@ fn views_without_a_point_are_refused_with_every_loss() {
     let apart: Vec<_> = (0..4)
         .map(|i| Point2::new(200.0 * f64::from(i), 240.0))
         .collect();
-    let intrinsics = cameras[0].intrinsics;
+    let intrinsics = cameras[0].camera.intrinsics;
     let straight: Vec<_> = (0..4)
         .map(|i| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: RigidTransform::translation(-f64::from(i), 0.0, 0.0),
         })
         .collect();
@@ -177,7 +177,7 @@ fn parallel_rays_are_parallel_in_every_unit() {
     let center = Point2::new(320.0, 240.0);
     for scale in [1e-100, 1e-15, 1e-12, 1.0, 1e12, 1e15, 1e100] {
         let camera = |x: f64| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, 640, 480),
             cam_from_world: RigidTransform::translation(-x * scale, 0.0, 0.0),
         };
         let cameras = [camera(0.0), camera(1.0)];

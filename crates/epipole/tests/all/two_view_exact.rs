@@ -38,7 +38,11 @@ impl Pair {
             let target = Point3::new(near(0.3), near(0.3), 0.0);
             let up = Vector3::new(near(0.3), -1.0, 0.0);
             PosedCamera {
-                intrinsics: Intrinsics::centered(focal_px, 640, 480).unwrap(),
+                camera: Camera::pinhole(
+                    Intrinsics::centered(focal_px, 640, 480).unwrap(),
+                    640,
+                    480,
+                ),
                 cam_from_world: look_at(&center, &target, &up).unwrap(),
             }
         });
@@ -90,7 +94,7 @@ fn a_hundred_pairs_with_known_intrinsics() {
     for seed in 0..100 {
         let pair = Pair::new(&mut Random::new(seed), 50);
         let [p1, p2] = &pair.pixels;
-        let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
+        let [k1, k2] = pair.cameras.map(|camera| camera.camera.intrinsics);
         let choice = TwoViewOptions::default().with_ransac(options(seed));
         let report = estimate_two_view_calibrated(
             p1,
@@ -119,7 +123,7 @@ fn a_hundred_pairs_with_unknown_intrinsics() {
     for seed in 0..100 {
         let pair = Pair::new(&mut Random::new(seed), 50);
         let [p1, p2] = &pair.pixels;
-        let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
+        let [k1, k2] = pair.cameras.map(|camera| camera.camera.intrinsics);
         let choice = TwoViewOptions::default().with_ransac(options(seed));
         let report = estimate_two_view(p1, p2, &choice, &mut ()).unwrap();
         check_general(&report, seed);
@@ -212,7 +216,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
         for seed in 0..trials {
             let pair = Pair::new(&mut Random::new(1000 + seed), num_matches);
             let [p1, p2] = &pair.pixels;
-            let [k1, k2] = pair.cameras.map(|camera| camera.intrinsics);
+            let [k1, k2] = pair.cameras.map(|camera| camera.camera.intrinsics);
             let report = estimate_essential(
                 p1,
                 p2,

@@ -69,7 +69,7 @@ fn scene(
         RigidTransform::from_parts(shift.into(), turn),
     ]
     .map(|cam_from_world| PosedCamera {
-        intrinsics,
+        camera: Camera::pinhole(intrinsics, 640, 480),
         cam_from_world,
     });
     let mut pixels = cameras.map(|camera| -> Vec<Point2<f64>> {
@@ -181,7 +181,7 @@ fn essential_matrices() {
             let scene = scene(&mut random, Shape::Cube, 1500, share, 0.01);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
-                let k = &scene.cameras[0].intrinsics;
+                let k = &scene.cameras[0].camera.intrinsics;
                 let report = estimate_relative_pose(
                     p1,
                     p2,
@@ -239,7 +239,7 @@ fn absolute_poses() {
             let scene = scene(&mut random, Shape::Cube, 3000, share, 0.15);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let pixels = &scene.pixels[1];
-                let intrinsics = scene.cameras[1].intrinsics;
+                let intrinsics = scene.cameras[1].camera.intrinsics;
                 let report = estimate_absolute_pose(
                     &scene.points,
                     pixels,
@@ -248,7 +248,7 @@ fn absolute_poses() {
                     &mut (),
                 )?;
                 let camera = PosedCamera {
-                    intrinsics,
+                    camera: Camera::pinhole(intrinsics, 640, 480),
                     cam_from_world: report.model,
                 };
                 let error = |(point, pixel): (&Point3<f64>, &Point2<f64>)| {

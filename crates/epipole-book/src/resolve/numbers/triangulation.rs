@@ -2,7 +2,7 @@
 
 use super::entry::Number::{self, Real};
 use super::entry::{Arguments, Entry, sentence};
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole::triangulation::{
     point_covariance, triangulate_angular, triangulate_dlt, triangulate_midpoint,
     triangulate_optimal,
@@ -58,7 +58,7 @@ pub(super) const ENTRIES: &[Entry] = &[
 fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[PosedCamera; 2], String> {
     let intrinsics = Intrinsics::new(focal_px, focal_px, 320.0, 240.0).map_err(sentence)?;
     Ok([(0.0, 0.0), (x, z)].map(|(x, z)| PosedCamera {
-        intrinsics,
+        camera: Camera::pinhole(intrinsics, 640, 480),
         cam_from_world: RigidTransform::translation(-x, 0.0, -z),
     }))
 }
@@ -132,7 +132,11 @@ fn sigma_mm(a: &Arguments) -> Result<Number, String> {
         let center = Point3::new(side * sin, 0.0, -cos) * a.get("r");
         let up = Vector3::new(0.0, -1.0, 0.0);
         Ok(PosedCamera {
-            intrinsics: Intrinsics::new(a.get("f"), a.get("f"), 320.0, 240.0)?,
+            camera: Camera::pinhole(
+                Intrinsics::new(a.get("f"), a.get("f"), 320.0, 240.0)?,
+                640,
+                480,
+            ),
             cam_from_world: look_at(&center, &Point3::origin(), &up)?,
         })
     };

@@ -89,7 +89,7 @@ pub(crate) fn photographs<const N: usize>(
             let turn = UnitQuaternion::from_rotation_matrix(&turn);
             let to_side = RigidTransform::from_parts(Vector3::zeros().into(), turn);
             let side_camera = PosedCamera {
-                intrinsics: k,
+                camera: Camera::pinhole(k, 640, 480),
                 cam_from_world: to_side * cam_from_world,
             };
             let shown = scene.render(&side_camera, side, side, Sampling::Full);

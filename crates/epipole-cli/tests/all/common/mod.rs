@@ -196,8 +196,11 @@ pub(crate) fn moved(size: (u32, u32), motion: &RigidTransform) -> PosedCamera {
 
 /// `fx,fy,cx,cy`.
 pub(crate) fn k(camera: &PosedCamera) -> String {
-    let center = camera.intrinsics.principal_point();
-    let (fu, fv) = (camera.intrinsics.fu_px(), camera.intrinsics.fv_px());
+    let center = camera.camera.intrinsics.principal_point();
+    let (fu, fv) = (
+        camera.camera.intrinsics.fu_px(),
+        camera.camera.intrinsics.fv_px(),
+    );
     format!("{fu},{fv},{},{}", center.x, center.y)
 }
 

@@ -149,7 +149,7 @@ fn matches_tell_a_focal_length_that_nobody_gave() {
         let words = String::from_utf8(output.stderr.clone()).unwrap();
         let focals_px = numbers(&parse(&output)["focals_px"]);
         assert_eq!(focals_px[0], focals_px[1]);
-        (focals_px[0], cameras[0].intrinsics.fu_px(), words)
+        (focals_px[0], cameras[0].camera.intrinsics.fu_px(), words)
     };
     let rising = RigidTransform::new(
         Vector3::new(-0.2, 0.15, 0.15),

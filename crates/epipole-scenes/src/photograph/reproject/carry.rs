@@ -33,10 +33,10 @@ pub(super) struct Carry {
 impl Carry {
     pub(super) fn new(from: &PosedCamera, to: &PosedCamera, size: (u32, u32)) -> Result<Self> {
         let motion: RigidTransform = to.cam_from_world * from.cam_from_world.inverse();
-        let matrix = to.intrinsics.matrix();
+        let matrix = to.camera.intrinsics.matrix();
         let map = matrix
             * motion.rotation.to_rotation_matrix().matrix()
-            * from.intrinsics.inverse_matrix();
+            * from.camera.intrinsics.inverse_matrix();
         let shift = matrix * motion.translation.vector;
         if !map.iter().chain(shift.iter()).all(|x| x.is_finite()) {
             return Err(Error::NotFinite {
@@ -50,21 +50,21 @@ impl Carry {
         } else {
             center.z
         };
-        let image = from.intrinsics.matrix() * center.coords / depth;
+        let image = from.camera.intrinsics.matrix() * center.coords / depth;
         let place = |at: f64, size: u32| (at + 0.5).clamp(0.0, f64::from(size)) as u32;
         Ok(Self {
             map: map.map(|x| x as f32),
             shift: shift.map(|x| x as f32),
             epipole: (place(image.x, size.0), place(image.y, size.1)),
             is_ahead: depth > 0.0,
-            zoom: (to.intrinsics.fu_px() / from.intrinsics.fu_px()) as f32,
+            zoom: (to.camera.intrinsics.fu_px() / from.camera.intrinsics.fu_px()) as f32,
             size,
         })
     }
 
     /// Returns the warp for pixels of a thing that has moved in the world by `by`, meters.
     pub(super) fn moved(self, to: &PosedCamera, by: &Vector3<f64>) -> Self {
-        let shift = to.intrinsics.matrix() * (to.cam_from_world.rotation * by);
+        let shift = to.camera.intrinsics.matrix() * (to.cam_from_world.rotation * by);
         Self {
             shift: self.shift + shift.map(|x| x as f32),
             ..self

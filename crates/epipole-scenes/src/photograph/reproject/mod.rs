@@ -124,7 +124,7 @@ impl Photograph {
     #[inline(never)]
     fn zoom(&self, from: &PosedCamera, to: &PosedCamera, target: &mut [u32]) {
         let (width, height) = self.image.dimensions();
-        let (here, there) = (&from.intrinsics, &to.intrinsics);
+        let (here, there) = (&from.camera.intrinsics, &to.camera.intrinsics);
         let [center, new_center] = [here, there].map(Intrinsics::principal_point);
         let (zoom_u, zoom_v) = (here.fu_px() / there.fu_px(), here.fv_px() / there.fv_px());
         let sources = |size: u32, center: f64, new_center: f64, zoom: f64| {
@@ -182,7 +182,7 @@ impl Moved {
                 let index = v * width + u;
                 let depth_m = f64::from(photograph.depth_m.as_raw()[index as usize]);
                 let pixel = nalgebra::Point2::new(f64::from(u), f64::from(v));
-                let point = Point3::from(camera.intrinsics.ray(&pixel) * depth_m);
+                let point = Point3::from(camera.camera.intrinsics.ray(&pixel) * depth_m);
                 if (point - old).norm_squared() <= radius_sq {
                     carried.push(index);
                 } else if (point - old)
@@ -209,7 +209,7 @@ fn bounds(
     if nearest.is_nan() || nearest < f64::from(NEAR_M) {
         return all.clone();
     }
-    let k = &camera.intrinsics;
+    let k = &camera.camera.intrinsics;
     let focal = [k.fu_px(), k.fv_px()];
     let center = k.principal_point();
     std::array::from_fn(|i| {
@@ -239,7 +239,7 @@ mod tests {
     use crate::photograph::Sampling;
     use crate::scene::Scene;
     use crate::sets::{MovableKind, MovableObject, still_life_camera};
-    use epipole::camera::RigidTransform;
+    use epipole::camera::{Camera, RigidTransform};
     use image::RgbImage;
     use nalgebra::{Isometry3, Point2, Translation3};
 
@@ -309,7 +309,11 @@ mod tests {
             let mut draft = Reprojected::default();
             draft.clear(SIZE);
             let small = PosedCamera {
-                intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                camera: Camera::pinhole(
+                    to.camera.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                    SIZE.0.div_ceil(6),
+                    SIZE.1 / 6,
+                ),
                 ..*to
             };
             let sixth = (SIZE.0.div_ceil(6), SIZE.1 / 6);
@@ -407,7 +411,11 @@ mod tests {
                 let mut seen = Reprojected::default();
                 photograph.reproject(&from, &to, None, &mut seen).unwrap();
                 let camera = PosedCamera {
-                    intrinsics: to.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                    camera: Camera::pinhole(
+                        to.camera.intrinsics.scaled(1.0 / 6.0).unwrap(),
+                        SIZE.0.div_ceil(6),
+                        SIZE.1 / 6,
+                    ),
                     ..to
                 };
                 let wanted = seen.wanted(small);
@@ -471,10 +479,14 @@ mod tests {
         let photograph = render(&scene, &from);
         let mut seen = Reprojected::default();
         for factor in [0.8, 1.25, 2.0] {
-            let k = &from.intrinsics;
+            let k = &from.camera.intrinsics;
             let focal_px = factor * k.fu_px();
             let to = PosedCamera {
-                intrinsics: Intrinsics::centered(focal_px, SIZE.0, SIZE.1).unwrap(),
+                camera: Camera::pinhole(
+                    Intrinsics::centered(focal_px, SIZE.0, SIZE.1).unwrap(),
+                    SIZE.0,
+                    SIZE.1,
+                ),
                 ..from
             };
             photograph.reproject(&from, &to, None, &mut seen).unwrap();

@@ -76,7 +76,7 @@ pub(super) struct Scores {
 
 /// Returns the focal length of both cameras, pixels.
 pub(super) fn focal_px() -> f64 {
-    still_life_camera(SIZE.0, SIZE.1).intrinsics.fu_px()
+    still_life_camera(SIZE.0, SIZE.1).camera.intrinsics.fu_px()
 }
 
 /// Returns the left camera and the right one, a baseline apart along the rows.

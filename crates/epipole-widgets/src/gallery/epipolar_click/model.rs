@@ -265,6 +265,7 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
 mod tests {
     use super::*;
     use crate::contract::Words;
+    use epipole::camera::Camera;
     use epipole_scenes::{Sampling, Scene};
 
     fn changed(events: &[Event]) -> EpipolarClick {
@@ -314,7 +315,7 @@ mod tests {
             for forward_m in ends(&FORWARD) {
                 let [_, second] = still_life_pair(PHOTO_SIZE, right_m, forward_m, 0.0);
                 let small = PosedCamera {
-                    intrinsics: second.intrinsics.scaled(0.0125).unwrap(),
+                    camera: Camera::pinhole(second.camera.intrinsics.scaled(0.0125).unwrap(), 8, 6),
                     ..second
                 };
                 let photograph = Scene::still_life().render(&small, 8, 6, Sampling::Draft);

@@ -170,7 +170,7 @@ impl EpipolarPlane {
         // Behind the camera P has no pixel, so the optical axis serves as its ray.
         let ray = match scenery.depth_m() {
             depth if depth > 1e-6 => (scenery.point - center) / depth,
-            _ => first.ray_in_world(&first.intrinsics.principal_point()),
+            _ => first.ray_in_world(&first.camera.intrinsics.principal_point()),
         };
         self.put(&(center + ray * depth_m.clamp(DEPTHS_M[0], DEPTHS_M[1])));
     }
@@ -382,6 +382,7 @@ const CHALLENGES: &[Challenge<EpipolarPlane>] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use epipole::camera::Camera;
     use epipole_scenes::{Sampling, Scene};
 
     fn handle(model: &EpipolarPlane, id: &str) -> Handle {
@@ -450,7 +451,7 @@ mod tests {
             for z in ends(&Z1) {
                 let camera = camera((x, z)).unwrap();
                 let small = PosedCamera {
-                    intrinsics: camera.intrinsics.scaled(0.0125).unwrap(),
+                    camera: Camera::pinhole(camera.camera.intrinsics.scaled(0.0125).unwrap(), 8, 6),
                     ..camera
                 };
                 assert!(

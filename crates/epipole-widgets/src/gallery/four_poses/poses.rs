@@ -1,7 +1,7 @@
 //! Two cameras before a house, the essential matrix between them, and its four poses.
 
 use epipole::Result;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{decompose_essential, essential_from_motion};
 use epipole::triangulation::triangulate_midpoint;
 use nalgebra::{Point3, Rotation3, Vector3};
@@ -117,7 +117,7 @@ fn house() -> [Point3<f64>; HOUSE.len()] {
 fn rays(corner: &Point3<f64>, motion: &RigidTransform) -> Option<[Vector3<f64>; 2]> {
     let lens = Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1).ok()?;
     let camera = |cam_from_world| PosedCamera {
-        intrinsics: lens,
+        camera: Camera::pinhole(lens, SIZE.0, SIZE.1),
         cam_from_world,
     };
     let ray = |camera: PosedCamera| {

@@ -43,7 +43,7 @@ impl Turned {
         let taken = still_life_pair(PHOTO_SIZE, RIGHT_M, forward_m, left_deg);
         let motion = relative_motion(&taken[0].cam_from_world, &taken[1].cam_from_world);
         let (width, height) = PHOTO_SIZE;
-        let cameras = taken.map(|camera| Camera::pinhole(camera.intrinsics, width, height));
+        let cameras = taken.map(|camera| Camera::pinhole(camera.camera.intrinsics, width, height));
         let options = RectifyOptions::default();
         let rectified = rectify_calibrated(&cameras, &motion, &options)?;
         let frames = match way.shows_all {
@@ -64,14 +64,17 @@ impl Turned {
             let turn = Isometry3::from_parts(Default::default(), turns[index]);
             let end = frames[index].intrinsics(&rectified.intrinsics[index])?;
             shown[index] = PosedCamera {
-                intrinsics: between([taken[index].intrinsics, end], share)?,
+                camera: Camera {
+                    intrinsics: between([taken[index].camera.intrinsics, end], share)?,
+                    ..taken[index].camera
+                },
                 cam_from_world: turn * taken[index].cam_from_world,
             };
         }
         let homography = |index: usize| {
             let turn = turns[index].to_rotation_matrix();
-            let inverse = taken[index].intrinsics.inverse_matrix();
-            shown[index].intrinsics.matrix() * turn.matrix() * inverse
+            let inverse = taken[index].camera.intrinsics.inverse_matrix();
+            shown[index].camera.intrinsics.matrix() * turn.matrix() * inverse
         };
         Ok(Self {
             taken,
@@ -214,7 +217,7 @@ fn between([from, to]: [Intrinsics; 2], share: f64) -> Result<Intrinsics, Error>
 
 /// Returns the horizontal ends of a picture on the image plane at distance 1, relative to the axis.
 pub(super) fn image_ends(camera: &PosedCamera) -> [f64; 2] {
-    let k = &camera.intrinsics;
+    let k = &camera.camera.intrinsics;
     let at = |u: f64| (u - k.principal_point().x) / k.fu_px();
     [at(-0.5), at(f64::from(PHOTO_WIDTH) - 0.5)]
 }
@@ -244,8 +247,7 @@ mod tests {
                 let done = Way { shows_all, ..DONE };
                 let done = Turned::new(forward_m, left_deg, done).unwrap();
                 let [one, two] = done.taken.map(|camera| camera.cam_from_world);
-                let pinhole = |camera: PosedCamera| Camera::pinhole(camera.intrinsics, 640, 480);
-                let cameras = done.taken.map(pinhole);
+                let cameras = done.taken.map(|posed| posed.camera);
                 let options = RectifyOptions::default();
                 let motion = relative_motion(&one, &two);
                 let core = rectify_calibrated(&cameras, &motion, &options).unwrap();

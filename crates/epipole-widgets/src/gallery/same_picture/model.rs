@@ -5,7 +5,7 @@ use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Symbol,
     format_number, knobs,
 };
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole_scenes::Scene;
 use nalgebra::{Point3, Vector3};
 
@@ -73,11 +73,19 @@ impl SamePicture {
         let second_from_world = look_at(&CENTER2_M.into(), &TARGET2_M.into(), &up)?;
         Ok([
             PosedCamera {
-                intrinsics: Intrinsics::centered(first, SIZE.0, SIZE.1)?,
+                camera: Camera::pinhole(
+                    Intrinsics::centered(first, SIZE.0, SIZE.1)?,
+                    SIZE.0,
+                    SIZE.1,
+                ),
                 cam_from_world: RigidTransform::identity(),
             },
             PosedCamera {
-                intrinsics: Intrinsics::centered(second, SIZE.0, SIZE.1)?,
+                camera: Camera::pinhole(
+                    Intrinsics::centered(second, SIZE.0, SIZE.1)?,
+                    SIZE.0,
+                    SIZE.1,
+                ),
                 cam_from_world: second_from_world,
             },
         ])

@@ -2,7 +2,7 @@
 
 use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
-use epipole::camera::{Intrinsics, PosedCamera};
+use epipole::camera::{Camera, Intrinsics, PosedCamera};
 use epipole::stereo::{DepthInterval, depth_from_disparity, depth_interval};
 use nalgebra::{Isometry3, Point2, Point3};
 
@@ -48,7 +48,7 @@ impl Rig {
     pub(super) fn cameras(&self) -> Result<[PosedCamera; 2], Error> {
         let intrinsics = Intrinsics::centered(self.focal_px, PHOTO_WIDTH, PHOTO_HEIGHT)?;
         Ok([0.0, self.baseline_m].map(|x_m| PosedCamera {
-            intrinsics,
+            camera: Camera::pinhole(intrinsics, PHOTO_WIDTH, PHOTO_HEIGHT),
             cam_from_world: Isometry3::translation(-x_m, 0.0, 0.0),
         }))
     }

@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
-use epipole::camera::{Intrinsics, PosedCamera, look_at};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use nalgebra::{Point3, Vector3};
 use std::cell::OnceCell;
 
@@ -91,7 +91,11 @@ impl Triangulate {
         let estimate = || {
             let camera = |center: &Point3<f64>| {
                 Ok(PosedCamera {
-                    intrinsics: Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
+                    camera: Camera::pinhole(
+                        Intrinsics::centered(FOCAL_PX, SIZE.0, SIZE.1)?,
+                        SIZE.0,
+                        SIZE.1,
+                    ),
                     cam_from_world: look_at(center, &point, &Vector3::new(0.0, -1.0, 0.0))?,
                 })
             };

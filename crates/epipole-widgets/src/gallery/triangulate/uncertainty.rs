@@ -91,11 +91,11 @@ pub(super) fn axes_of(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epipole::camera::{Intrinsics, RigidTransform};
+    use epipole::camera::{Camera, Intrinsics, RigidTransform};
 
     fn curves(second: Point3<f64>) -> Curves {
         let camera = |center: &Point3<f64>| PosedCamera {
-            intrinsics: Intrinsics::centered(500.0, 640, 480).unwrap(),
+            camera: Camera::pinhole(Intrinsics::centered(500.0, 640, 480).unwrap(), 640, 480),
             cam_from_world: RigidTransform::translation(-center.x, -center.y, -center.z),
         };
         let cameras = [camera(&Point3::origin()), camera(&second)];

@@ -5,7 +5,7 @@ use crate::contract::{
     Toggle, knobs,
 };
 use crate::kit::probe::Probe;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3};
 
 pub(super) const FOCAL_PX: f64 = 500.0;
@@ -71,7 +71,11 @@ impl TwoCameras {
     pub(super) fn pixel(&self, camera: usize, ball: usize) -> Result<Point2<f64>, Problem> {
         let right_m = camera as f64 * self.baseline_m();
         let camera = PosedCamera {
-            intrinsics: Intrinsics::new(FOCAL_PX, FOCAL_PX, MIDDLE_PX.0, MIDDLE_PX.1)?,
+            camera: Camera::pinhole(
+                Intrinsics::new(FOCAL_PX, FOCAL_PX, MIDDLE_PX.0, MIDDLE_PX.1)?,
+                640,
+                480,
+            ),
             cam_from_world: RigidTransform::translation(-right_m, 0.0, 0.0),
         };
         let (x, z) = self.balls[ball].place();

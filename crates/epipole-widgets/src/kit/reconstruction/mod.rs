@@ -11,7 +11,7 @@ use crate::kit::picture::Picture;
 use crate::kit::question;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole_scenes::still_life_camera;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -167,9 +167,10 @@ impl Question {
         stage: Stage,
     ) -> Option<(PosedCamera, Option<PosedCamera>)> {
         let camera = |index: usize, cam_from_world| {
-            let intrinsics = self.lens(answer.pictures[index].size()).ok()?;
+            let (width, height) = answer.pictures[index].size();
+            let intrinsics = self.lens((width, height)).ok()?;
             Some(PosedCamera {
-                intrinsics,
+                camera: Camera::pinhole(intrinsics, width, height),
                 cam_from_world,
             })
         };

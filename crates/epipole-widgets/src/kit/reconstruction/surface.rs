@@ -157,11 +157,11 @@ mod tests {
             .map(|(u, v)| {
                 let pixel = Point2::new(f64::from(u), f64::from(v));
                 let depth = f64::from(photographs[0].depth_m.get_pixel(u, v).0[0]);
-                Point3::from(cameras[0].intrinsics.ray(&pixel) * depth)
+                Point3::from(cameras[0].camera.intrinsics.ray(&pixel) * depth)
             })
             .collect();
         let images = photographs.each_ref().map(|photograph| &photograph.image);
-        let lenses = cameras.map(|camera| camera.intrinsics);
+        let lenses = cameras.map(|camera| camera.camera.intrinsics);
         let go_on = &mut |_| ControlFlow::Continue(());
         surface(images, &lenses, &motion, &places, go_on)
     }
@@ -173,7 +173,7 @@ mod tests {
         let mut errors: Vec<f64> = (surface.points.iter())
             .filter_map(|(place, _)| {
                 let place = Point3::from(*place).cast::<f64>();
-                let pixel = cameras[0].intrinsics.project(&place).unwrap();
+                let pixel = cameras[0].camera.intrinsics.project(&place).unwrap();
                 let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
                 let truth = photographs[0].depth_m.get_pixel_checked(u, v)?;
                 Some((place.z / f64::from(truth.0[0]) - 1.0).abs())

@@ -1,7 +1,7 @@
 //! Bundle adjustment of a growing reconstruction, or of a part of it.
 
 use super::Builder;
-use crate::camera::Intrinsics;
+use crate::camera::{Intrinsics, PosedCamera};
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
@@ -83,7 +83,7 @@ impl Builder {
                     bundle.cameras.push(camera);
                     image_of.push(image);
                     options.held_cameras.push(!is_free(image));
-                    let lens = self.lens_in(&mut bundle, &mut lenses, image);
+                    let lens = lenses.number_of(self.images[image].lens);
                     bundle.lens_of_camera.push(lens);
                     if self.is_placed {
                         (options.position_priors).push(self.images[image].position);
@@ -100,7 +100,7 @@ impl Builder {
             track_of.push(track);
         }
         if let Some(rig) = self.rig {
-            let lens = self.lens_in(&mut bundle, &mut lenses, self.images.len() / 2);
+            let lens = lenses.number_of(self.images[self.images.len() / 2].lens);
             bundle.sensors.push(Sensor { lens, ..rig });
         }
         let adjusted = match adjust_bundle(&mut bundle, &options, monitor) {
@@ -122,31 +122,21 @@ impl Builder {
         adjusted
     }
 
-    /// The number that the lens of an image has in a bundle, into which it comes if it is new
-    /// there.
-    fn lens_in(&self, bundle: &mut Bundle, lenses: &mut Lenses, image: usize) -> usize {
-        let lens = lenses.number_of(self.images[image].lens);
-        if lens == bundle.lenses.len() {
-            bundle.lenses.push(self.lenses[image]);
-        }
-        lens
-    }
-
     /// Gives what was refined of a lens to all its images, those that are still to come, too.
     fn share_intrinsics(&mut self, bundle: &Bundle, image_of: &[usize], lenses: &Lenses) {
         if let (Some(rig), Some(sensor)) = (&mut self.rig, bundle.sensors.first()) {
-            rig.intrinsics = sensor.intrinsics;
+            rig.camera = sensor.camera;
         }
         for (lens, name) in lenses.names().iter().enumerate() {
             let of_camera = bundle.lens_of_camera.iter().position(|of| *of == lens);
             let (image, refined) = match (of_camera, self.rig) {
-                (Some(camera), _) => (image_of[camera], bundle.cameras[camera].intrinsics),
-                (None, Some(rig)) => (self.images.len() / 2, rig.intrinsics),
+                (Some(camera), _) => (image_of[camera], bundle.cameras[camera].camera),
+                (None, Some(rig)) => (self.images.len() / 2, rig.camera),
                 (None, None) => continue,
             };
             let old = self.intrinsics[image];
-            let factor = refined.fu_px() / old.fu_px();
-            let shift_px = refined.principal_point() - old.principal_point();
+            let factor = refined.intrinsics.fu_px() / old.fu_px();
+            let shift_px = refined.intrinsics.principal_point() - old.principal_point();
             for other in (0..self.images.len()).filter(|&i| self.images[i].lens == *name) {
                 let k = self.intrinsics[other];
                 let center = k.principal_point() + shift_px;
@@ -155,12 +145,13 @@ impl Builder {
                 {
                     self.intrinsics[other] = k;
                 }
-                self.lenses[other] = bundle.lenses[lens];
+                self.lenses[other] = refined.lens;
             }
         }
-        for (camera, intrinsics) in self.cameras.iter_mut().zip(&self.intrinsics) {
-            if let Some(camera) = camera {
-                camera.intrinsics = *intrinsics;
+        let each = self.intrinsics.iter().zip(&self.lenses);
+        for (camera, (intrinsics, lens)) in self.cameras.iter_mut().zip(each) {
+            if let Some(PosedCamera { camera, .. }) = camera {
+                (camera.intrinsics, camera.lens) = (*intrinsics, *lens);
             }
         }
         self.views = Views::new(&self.images, &self.intrinsics, &self.lenses);

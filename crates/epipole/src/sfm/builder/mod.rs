@@ -13,7 +13,7 @@ use super::two_view_start::VerifiedPair;
 use super::views::Views;
 use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
+use crate::camera::{Camera, Intrinsics, Lens, PosedCamera, RigidTransform};
 use crate::progress::Monitor;
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
@@ -110,12 +110,31 @@ impl Builder {
         }
     }
 
+    /// The camera of an image, refined as far as it is.
+    pub(super) fn camera(&self, image: usize) -> Camera {
+        let SfmImage { width, height, .. } = self.images[image];
+        Camera {
+            width,
+            height,
+            intrinsics: self.intrinsics[image],
+            lens: self.lenses[image],
+        }
+    }
+
+    /// The camera of an image at a pose.
+    pub(super) fn posed(&self, image: usize, cam_from_world: RigidTransform) -> PosedCamera {
+        PosedCamera {
+            camera: self.camera(image),
+            cam_from_world,
+        }
+    }
+
     /// Places a camera, and with it the right one of its rig.
     pub(super) fn place(&mut self, image: usize, camera: Option<PosedCamera>) {
         self.cameras[image] = camera;
         if let Some(rig) = self.rig {
             self.cameras[self.images.len() / 2 + image] = camera.map(|camera| PosedCamera {
-                intrinsics: rig.intrinsics,
+                camera: rig.camera,
                 cam_from_world: rig.sensor_from_camera * camera.cam_from_world,
             });
         }
@@ -131,7 +150,8 @@ impl Builder {
 
     fn sight(&self, element: TrackElement) -> Option<Sight<'_>> {
         let (image, keypoint) = (element.image as usize, element.keypoint as usize);
-        let camera = self.cameras[image]?;
+        let mut camera = self.cameras[image]?;
+        camera.camera.lens = self.views.cameras[image].lens;
         let view = self.views.of(image, keypoint)?;
         Some(Sight { camera, view })
     }
@@ -177,14 +197,8 @@ impl Builder {
         monitor: &mut dyn Monitor,
     ) -> Result<bool> {
         let (a, b) = (verified.pair.image1, verified.pair.image2);
-        let camera = |intrinsics, cam_from_world| {
-            Some(PosedCamera {
-                intrinsics,
-                cam_from_world,
-            })
-        };
-        self.cameras[a] = camera(self.intrinsics[a], RigidTransform::identity());
-        self.cameras[b] = camera(self.intrinsics[b], verified.cam2_from_cam1);
+        self.cameras[a] = Some(self.posed(a, RigidTransform::identity()));
+        self.cameras[b] = Some(self.posed(b, verified.cam2_from_cam1));
         self.triangulate();
         let mut adjusted = Ok(None);
         if self.num_points() >= self.options.min_num_inliers {
@@ -275,10 +289,7 @@ impl Builder {
         if found.num_unique_inliers < self.options.min_num_inliers {
             return None;
         }
-        let camera = PosedCamera {
-            intrinsics: self.intrinsics[image],
-            cam_from_world: found.model,
-        };
+        let camera = self.posed(image, found.model);
         self.place(image, Some(camera));
         for (n, inlier) in of_visible.into_iter().zip(&found.inliers) {
             let (element, track) = &visible[n];
@@ -292,7 +303,6 @@ impl Builder {
     /// The reconstruction so far.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
-            lenses: self.lenses.clone(),
             is_placed: self.is_placed,
             points: (self.points.iter().flatten())
                 .map(|point| ScenePoint {

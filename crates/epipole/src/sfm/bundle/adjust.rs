@@ -36,14 +36,14 @@ use nalgebra::Translation3;
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{PosedCamera, Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::sfm::{Bundle, BundleObservation, BundleOptions, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
 /// // Three cameras look along z; each has a lens of its own.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
 /// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
 ///     bundle.cameras.push(PosedCamera {
-///         intrinsics: Intrinsics::centered(500.0, 640, 480)?,
+///         camera: Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480),
 ///         cam_from_world: RigidTransform::translation(-x, -y, 0.0),
 ///     });
 /// }
@@ -90,7 +90,6 @@ pub fn adjust_bundle(
             value: sensor as f64,
         });
     }
-    bundle.lenses.iter().try_for_each(Lens::check)?;
     let num_lenses = bundle.num_lenses();
     if num_lenses > bundle.cameras.len() + bundle.sensors.len() {
         return Err(Error::OutOfRange {
@@ -99,10 +98,12 @@ pub fn adjust_bundle(
             value: (num_lenses - 1) as f64,
         });
     }
+    let lenses = bundle.lenses()?;
+    lenses.iter().try_for_each(Lens::check)?;
     // Room for more coefficients costs time, so it is taken only where some lens has more.
-    match (bundle.lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
-        true => adjust::<OF_ANY>(bundle, pairs, options, monitor),
-        false => adjust::<OF_BROWN>(bundle, pairs, options, monitor),
+    match (lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
+        true => adjust::<OF_ANY>(bundle, pairs, &lenses, options, monitor),
+        false => adjust::<OF_BROWN>(bundle, pairs, &lenses, options, monitor),
     }
 }
 
@@ -110,17 +111,17 @@ pub fn adjust_bundle(
 fn adjust<const S: usize>(
     bundle: &mut Bundle,
     pairs: Vec<(u32, u32)>,
+    lenses: &[Lens],
     options: &BundleOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<LmReport> {
-    let num_lenses = bundle.num_lenses();
-    let mut state = State::new(bundle);
+    let mut state = State::new(bundle, lenses);
     let problem = Problem::<S> {
         bundle,
         pairs,
         options,
         held_cameras: gauge::held_freedoms(bundle, options),
-        refined: lens_state::refined(bundle, options),
+        refined: lens_state::refined(lenses, options),
     };
     let mut system = SchurSystem::new(&problem);
     let mut step = Part::new(monitor, 0.0, 1.0).of_stage(Stage::BundleAdjustment);
@@ -133,20 +134,12 @@ fn adjust<const S: usize>(
     for (index, (camera, new)) in cameras.iter_mut().zip(&state.cameras).enumerate() {
         camera.cam_from_world =
             RigidTransform::from_parts(Translation3::from(new.translation), new.rotation);
-        let lens = bundle.lens_of_camera.get(index).copied().unwrap_or(0);
-        camera.intrinsics = state.lenses[lens].refined(&camera.intrinsics)?;
+        camera.camera = state.lenses[bundle.lens_of(index)].refined(&camera.camera)?;
     }
     for sensor in &mut sensors {
-        sensor.intrinsics = state.lenses[sensor.lens].refined(&sensor.intrinsics)?;
+        sensor.camera = state.lenses[sensor.lens].refined(&sensor.camera)?;
     }
     (bundle.cameras, bundle.sensors) = (cameras, sensors);
     bundle.points = state.points;
-    if options.refines_lens() {
-        let num_known = bundle.lenses.len().max(num_lenses);
-        bundle.lenses.resize(num_known, Lens::NONE);
-        for (lens, refined) in bundle.lenses.iter_mut().zip(&state.lenses) {
-            *lens = refined.lens;
-        }
-    }
     report
 }

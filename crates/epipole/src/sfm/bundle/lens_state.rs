@@ -1,9 +1,8 @@
 //! Refined parameters of a lens.
 
 use super::options::BundleOptions;
-use super::scene::Bundle;
 use crate::Result;
-use crate::camera::{Intrinsics, Lens, MAX_COEFFICIENTS};
+use crate::camera::{Camera, Intrinsics, Lens, MAX_COEFFICIENTS};
 use nalgebra::Vector2;
 
 /// Capacity for the refined parameters of a lens: a factor of the focal lengths, its first
@@ -35,15 +34,16 @@ impl LensState {
         }
     }
 
-    /// The intrinsics after refinement.
-    pub(super) fn refined(&self, k: &Intrinsics) -> Result<Intrinsics> {
+    /// The camera after refinement.
+    pub(super) fn refined(&self, camera: &Camera) -> Result<Camera> {
+        let k = &camera.intrinsics;
         let center = k.principal_point() + self.shift_px;
-        Intrinsics::new(
-            k.fu_px() * self.focal,
-            k.fv_px() * self.focal,
-            center.x,
-            center.y,
-        )
+        let [fu_px, fv_px] = [k.fu_px(), k.fv_px()].map(|focal_px| focal_px * self.focal);
+        Ok(Camera {
+            intrinsics: Intrinsics::new(fu_px, fv_px, center.x, center.y)?,
+            lens: self.lens,
+            ..*camera
+        })
     }
 
     pub(super) fn moved<const S: usize>(&self, step: &[f64; S]) -> Self {
@@ -56,9 +56,8 @@ impl LensState {
 }
 
 /// Which coefficients are refined, lens by lens.
-pub(super) fn refined(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; MAX_COEFFICIENTS]> {
-    let of = |lens: usize| bundle.lenses.get(lens).copied().unwrap_or_default();
-    (0..bundle.num_lenses())
-        .map(|lens| options.refined(of(lens).kind()))
+pub(super) fn refined(lenses: &[Lens], options: &BundleOptions) -> Vec<[bool; MAX_COEFFICIENTS]> {
+    (lenses.iter())
+        .map(|lens| options.refined(lens.kind()))
         .collect()
 }

@@ -1,10 +1,12 @@
 //! Bundles seen through lenses beyond Brown's model.
 
 use super::lens_state::{OF_ANY, OF_BROWN};
-use super::tests::{check_derivatives, disturb, everything, photograph};
+use super::tests::{check_derivatives, disturb, everything, photograph, set_lenses};
 use super::*;
 use crate::Error;
-use crate::camera::{Division, Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
+use crate::camera::{
+    Camera, Division, Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform,
+};
 use crate::math::random::Random;
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -23,7 +25,6 @@ fn lens(kind: LensKind) -> Lens {
 fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: f64) -> Bundle {
     let mut random = Random::new(31);
     let mut bundle = Bundle {
-        lenses: lenses.to_vec(),
         lens_of_camera: (0..num_cameras).map(|i| i % lenses.len()).collect(),
         ..Bundle::default()
     };
@@ -31,7 +32,11 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: 
         let turn = 0.3 * Vector3::from_fn(|_, _| random.normal());
         let shift = 0.6 * Vector3::from_fn(|_, _| random.normal());
         bundle.cameras.push(PosedCamera {
-            intrinsics: Intrinsics::new(300.0, 303.0, 500.0, 490.0).unwrap(),
+            camera: Camera::pinhole(
+                Intrinsics::new(300.0, 303.0, 500.0, 490.0).unwrap(),
+                640,
+                480,
+            ),
             cam_from_world: RigidTransform::new(shift, turn),
         });
     }
@@ -53,6 +58,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: 
             }
         }
     }
+    set_lenses(&mut bundle, lenses);
     photograph(&mut bundle);
     bundle
 }
@@ -81,9 +87,13 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
         &options,
     );
     // Through a sensor that looks from the side.
+    let seen_through = any.cameras[0].camera;
     any.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), Vector3::y() * 0.2),
-        intrinsics: Intrinsics::new(310.0, 312.0, 480.0, 500.0).unwrap(),
+        camera: Camera {
+            intrinsics: Intrinsics::new(310.0, 312.0, 480.0, 500.0).unwrap(),
+            ..seen_through
+        },
         lens: 0,
     });
     any.sensor_of_observation = (0..any.observations.len()).map(|o| o % 2).collect();
@@ -97,13 +107,13 @@ fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
     let truth = bundle.clone();
     disturb(&mut bundle, 0.005);
     for camera in &mut bundle.cameras {
-        camera.intrinsics = Intrinsics::new(309.0, 312.09, 502.0, 487.0).unwrap();
+        camera.camera.intrinsics = Intrinsics::new(309.0, 312.09, 502.0, 487.0).unwrap();
     }
-    bundle.lenses = start.to_vec();
+    set_lenses(&mut bundle, start);
     let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-9, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
-        let (got, want) = (got.intrinsics, want.intrinsics);
+        let (got, want) = (got.camera.intrinsics, want.camera.intrinsics);
         assert!((got.fu_px() - want.fu_px()).abs() < 0.01, "{got:?}");
         assert!((got.fv_px() - want.fv_px()).abs() < 0.01, "{got:?}");
         assert!(
@@ -118,7 +128,7 @@ fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
 fn a_fisheye_of_180_degrees_finds_its_coefficients() {
     let truth = lens(LensKind::Fisheye);
     let bundle = comes_back(&[truth], &[Fisheye::default().into()], 90.0);
-    for (got, want) in bundle.lenses[0]
+    for (got, want) in (bundle.cameras[0].camera.lens)
         .coefficients()
         .iter()
         .zip(truth.coefficients())
@@ -136,7 +146,7 @@ fn lenses_of_all_models_in_one_bundle_find_theirs() {
         Lens::NONE,
     ];
     let bundle = comes_back(&kinds.map(lens), &start, 55.0);
-    for (got, want) in bundle.lenses.iter().zip(kinds.map(lens)) {
+    for (got, want) in bundle.lenses().unwrap().iter().zip(kinds.map(lens)) {
         assert_eq!(got.kind(), want.kind());
         for (got, want) in got.coefficients().iter().zip(want.coefficients()) {
             assert!((got - want).abs() < 1e-3, "{got} {want}");
@@ -152,7 +162,8 @@ fn a_rational_lens_finds_how_it_bends() {
     let exact = bundle.clone();
     disturb(&mut bundle, 0.003);
     let start = [0.28, 0.05, 0.0, 0.0, 0.01, 0.5, 0.1, 0.005];
-    bundle.lenses = vec![Lens::from_coefficients(LensKind::Rational, &start).unwrap()];
+    let start = Lens::from_coefficients(LensKind::Rational, &start).unwrap();
+    set_lenses(&mut bundle, &[start]);
     let options = BundleOptions {
         refine_focal: false,
         refine_principal_point: false,
@@ -162,10 +173,14 @@ fn a_rational_lens_finds_how_it_bends() {
     assert!(report.final_cost < 1e-6, "{report:?}");
     for degrees in [10.0f64, 30.0, 50.0, 59.0] {
         let ray = Vector3::new(libm::tan(degrees.to_radians()), 0.1, 1.0);
-        let off = bundle.lenses[0].project_or_mirror(&ray) - truth.project_or_mirror(&ray);
+        let off =
+            bundle.cameras[0].camera.lens.project_or_mirror(&ray) - truth.project_or_mirror(&ray);
         assert!(off.norm() < 1e-5, "{degrees} {off}");
     }
-    assert_eq!(bundle.cameras[0].intrinsics, exact.cameras[0].intrinsics);
+    assert_eq!(
+        bundle.cameras[0].camera.intrinsics,
+        exact.cameras[0].camera.intrinsics
+    );
 }
 
 #[test]
@@ -182,7 +197,7 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
             };
             let mut bundle = bundle.clone();
             adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
-            let changed: Vec<bool> = (bundle.lenses[0].coefficients().into_iter())
+            let changed: Vec<bool> = (bundle.cameras[0].camera.lens.coefficients().into_iter())
                 .zip(lens(kind).coefficients())
                 .map(|(new, old)| new != old)
                 .collect();
@@ -197,12 +212,10 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     let good = surrounded(3, 80, &[lens(LensKind::Fisheye)], 80.0);
     for k in [f64::NAN, f64::INFINITY] {
         let mut bundle = good.clone();
-        bundle.lenses = vec![
-            Fisheye {
-                coefficients: [0.0, k, 0.0, 0.0],
-            }
-            .into(),
-        ];
+        let bad = Fisheye {
+            coefficients: [0.0, k, 0.0, 0.0],
+        };
+        set_lenses(&mut bundle, &[bad.into()]);
         let refused = adjust_bundle(&mut bundle, &everything(), &mut ());
         assert!(
             matches!(refused, Err(Error::NotFinite { .. })),
@@ -227,7 +240,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     }
     // A cushion does not see rays beyond its fold.
     let mut folded = good;
-    folded.lenses = vec![Division { k: 0.5 }.into()];
+    set_lenses(&mut folded, &[Division { k: 0.5 }.into()]);
     let refused = adjust_bundle(&mut folded, &everything(), &mut ());
     assert!(
         matches!(refused, Err(Error::NotFinite { .. })),

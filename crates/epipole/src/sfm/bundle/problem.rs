@@ -16,7 +16,8 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(bundle: &Bundle) -> Self {
+    /// * `lenses`: of the bundle, by number
+    pub(super) fn new(bundle: &Bundle, lenses: &[Lens]) -> Self {
         let cameras = bundle
             .cameras
             .iter()
@@ -25,11 +26,9 @@ impl State {
                 PoseState::new(pose.rotation, pose.translation.vector)
             })
             .collect();
-        let lens =
-            |index: usize| LensState::new(bundle.lenses.get(index).copied().unwrap_or_default());
         Self {
             cameras,
-            lenses: (0..bundle.num_lenses()).map(lens).collect(),
+            lenses: lenses.iter().map(|lens| LensState::new(*lens)).collect(),
             points: bundle.points.clone(),
         }
     }
@@ -60,8 +59,8 @@ impl Sight<'_> {
     /// The focal length that a row of the residual started with.
     fn focal_px(&self, row: usize) -> f64 {
         match row {
-            0 => self.eye.intrinsics.fu_px(),
-            _ => self.eye.intrinsics.fv_px(),
+            0 => self.eye.camera.intrinsics.fu_px(),
+            _ => self.eye.camera.intrinsics.fv_px(),
         }
     }
 }
@@ -113,7 +112,7 @@ impl<const S: usize> Problem<'_, S> {
     ) {
         let focal_px = sight.focal_px(row);
         let f = focal_px * sight.lens.focal;
-        let center = sight.eye.intrinsics.principal_point() + sight.lens.shift_px;
+        let center = sight.eye.camera.intrinsics.principal_point() + sight.lens.shift_px;
         terms.residual[row] = f * shown + center[row] - sight.pixel[row];
         if let Some(sensor_from_camera) = sight.eye.sensor_from_camera {
             by_p = sensor_from_camera.rotation.inverse() * by_p;
@@ -213,10 +212,10 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
         let sight = self.sight(state, observation);
         let lens = sight.lens;
         let shown = lens.lens.project_or_mirror(&sight.p);
-        let center = sight.eye.intrinsics.principal_point() + lens.shift_px;
+        let center = sight.eye.camera.intrinsics.principal_point() + lens.shift_px;
         [
-            lens.focal * sight.eye.intrinsics.fu_px() * shown.x + center.x - sight.pixel.x,
-            lens.focal * sight.eye.intrinsics.fv_px() * shown.y + center.y - sight.pixel.y,
+            lens.focal * sight.eye.camera.intrinsics.fu_px() * shown.x + center.x - sight.pixel.x,
+            lens.focal * sight.eye.camera.intrinsics.fv_px() * shown.y + center.y - sight.pixel.y,
         ]
     }
 

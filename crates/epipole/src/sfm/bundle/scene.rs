@@ -1,7 +1,8 @@
 //! Cameras with their lenses, points and observations.
 
 use super::observation::BundleObservation;
-use crate::camera::{Intrinsics, Lens, PosedCamera, RigidTransform};
+use crate::camera::{Camera, Lens, PosedCamera, RigidTransform};
+use crate::{Error, Result};
 use nalgebra::{Point3, Vector2};
 
 /// A further camera rigidly mounted on each camera of a bundle, such as the right one of a stereo
@@ -10,9 +11,9 @@ use nalgebra::{Point3, Vector2};
 pub struct Sensor {
     /// From the frame of the camera to that of the sensor; it is not refined.
     pub sensor_from_camera: RigidTransform,
-    /// Intrinsics of the sensor.
-    pub intrinsics: Intrinsics,
-    /// Its lens, as in [`Bundle::lens_of_camera`].
+    /// Image size, intrinsics and lens of the sensor.
+    pub camera: Camera,
+    /// Number of its lens, as in [`Bundle::lens_of_camera`].
     pub lens: usize,
 }
 
@@ -25,9 +26,8 @@ pub struct Sensor {
 pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<PosedCamera>,
-    /// Lenses; missing entries have no distortion.
-    pub lenses: Vec<Lens>,
-    /// The lens of each camera; missing entries are 0.
+    /// Number of the lens of each camera; missing entries are 0. Cameras and sensors of one number
+    /// must have equal lenses.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
@@ -50,16 +50,43 @@ impl Bundle {
         let camera = self.observations[observation].camera;
         match sensor {
             Some(sensor) => Eye {
-                intrinsics: &sensor.intrinsics,
+                camera: &sensor.camera,
                 lens: sensor.lens,
                 sensor_from_camera: Some(&sensor.sensor_from_camera),
             },
             None => Eye {
-                intrinsics: &self.cameras[camera].intrinsics,
-                lens: self.lens_of_camera.get(camera).copied().unwrap_or(0),
+                camera: &self.cameras[camera].camera,
+                lens: self.lens_of(camera),
                 sensor_from_camera: None,
             },
         }
+    }
+
+    /// Number of the lens of a camera.
+    pub(super) fn lens_of(&self, camera: usize) -> usize {
+        self.lens_of_camera.get(camera).copied().unwrap_or(0)
+    }
+
+    /// The lenses by number; numbers without a camera have no distortion.
+    ///
+    /// # Errors
+    /// [`Error::Degenerate`] if cameras of one number have different lenses.
+    pub(super) fn lenses(&self) -> Result<Vec<Lens>> {
+        let mut lenses: Vec<Option<Lens>> = vec![None; self.num_lenses()];
+        let of_cameras = self.cameras.iter().map(|camera| camera.camera.lens);
+        let of_cameras = of_cameras
+            .enumerate()
+            .map(|(n, lens)| (self.lens_of(n), lens));
+        let of_sensors = (self.sensors.iter()).map(|sensor| (sensor.lens, sensor.camera.lens));
+        for (number, lens) in of_cameras.chain(of_sensors) {
+            if *lenses[number].get_or_insert(lens) != lens {
+                return Err(Error::Degenerate {
+                    what: "a lens that cameras of a bundle share",
+                    why: "their coefficients differ; give each its own number in lens_of_camera",
+                });
+            }
+        }
+        Ok(lenses.into_iter().map(Option::unwrap_or_default).collect())
     }
 
     /// The number of lenses, as far as cameras and sensors have them.
@@ -80,19 +107,20 @@ impl Bundle {
         if let Some(sensor_from_camera) = eye.sensor_from_camera {
             p = sensor_from_camera * p;
         }
-        let lens = self.lenses.get(eye.lens).copied().unwrap_or_default();
-        let shown = lens.project_or_mirror(&p.coords);
-        let center = eye.intrinsics.principal_point();
+        let k = &eye.camera.intrinsics;
+        let shown = eye.camera.lens.project_or_mirror(&p.coords);
+        let center = k.principal_point();
         Vector2::new(
-            eye.intrinsics.fu_px() * shown.x + center.x - o.pixel.x,
-            eye.intrinsics.fv_px() * shown.y + center.y - o.pixel.y,
+            k.fu_px() * shown.x + center.x - o.pixel.x,
+            k.fv_px() * shown.y + center.y - o.pixel.y,
         )
     }
 }
 
 /// Source of an observation.
 pub(super) struct Eye<'a> {
-    pub(super) intrinsics: &'a Intrinsics,
+    pub(super) camera: &'a Camera,
+    /// Number of its lens.
     pub(super) lens: usize,
     /// `None` for the camera itself.
     pub(super) sensor_from_camera: Option<&'a RigidTransform>,

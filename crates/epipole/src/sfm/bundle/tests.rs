@@ -4,7 +4,7 @@ use super::lens_state::OF_BROWN;
 use super::problem::{Problem, State};
 use super::*;
 use crate::Error;
-use crate::camera::{Distortion, Intrinsics, Lens, PosedCamera, RigidTransform, look_at};
+use crate::camera::{Camera, Distortion, Intrinsics, Lens, PosedCamera, RigidTransform, look_at};
 use crate::math::random::Random;
 use crate::optim::{BundleProblem, BundleStep, LmOptions, RobustLoss, check_jacobian};
 use crate::progress::{Stage, Status};
@@ -21,16 +21,17 @@ fn brown(lens: &Lens) -> Distortion {
 /// Cameras on an arc look at a ball of points.
 fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<Lens>) -> Bundle {
     let mut random = Random::new(21);
-    let mut bundle = Bundle {
-        lenses: vec![distortion.into()],
-        ..Bundle::default()
-    };
+    let mut bundle = Bundle::default();
+    let lens = distortion.into();
     let up = Vector3::new(0.0, -1.0, 0.0);
     for i in 0..num_cameras {
         let (s, c) = libm::sincos(0.15 * i as f64);
         let center = Point3::new(6.0 * s, 0.2 * i as f64, -6.0 * c);
         bundle.cameras.push(PosedCamera {
-            intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
+            camera: Camera {
+                lens,
+                ..Camera::pinhole(Intrinsics::centered(800.0, 640, 480).unwrap(), 640, 480)
+            },
             cam_from_world: look_at(&center, &Point3::origin(), &up).unwrap(),
         });
     }
@@ -52,6 +53,13 @@ fn arc(num_cameras: usize, num_points: usize, distortion: impl Into<Lens>) -> Bu
         }
     }
     bundle
+}
+
+/// Gives each camera the lens of its number.
+pub(super) fn set_lenses(bundle: &mut Bundle, lenses: &[Lens]) {
+    for index in 0..bundle.cameras.len() {
+        bundle.cameras[index].camera.lens = lenses[bundle.lens_of(index)];
+    }
 }
 
 pub(super) fn disturb(bundle: &mut Bundle, amount: f64) {
@@ -107,12 +115,17 @@ fn jacobians_are_those_of_central_differences() {
     let turn = Vector3::new(0.05, -0.2, 0.1);
     bundle.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), turn),
-        intrinsics: Intrinsics::new(700.0, 710.0, 300.0, 200.0).unwrap(),
+        camera: Camera::pinhole(
+            Intrinsics::new(700.0, 710.0, 300.0, 200.0).unwrap(),
+            640,
+            480,
+        ),
         lens: 2,
     });
     bundle.sensor_of_observation = (0..15).map(|o| usize::from(o >= 8)).collect();
     bundle.lens_of_camera = vec![0, 1];
-    bundle.lenses.push(bent(0.05, 0.002).into());
+    bundle.cameras[1].camera.lens = bent(0.05, 0.002).into();
+    bundle.cameras[2].camera.lens = bundle.cameras[0].camera.lens;
     check_derivatives::<OF_BROWN>(&bundle, &options);
 }
 
@@ -125,9 +138,9 @@ pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &Bundl
         pairs: observation_pairs(&bundle.observations, num_cameras, num_points).unwrap(),
         options,
         held_cameras: vec![[false; 6]; num_cameras],
-        refined: lens_state::refined(bundle, options),
+        refined: lens_state::refined(&bundle.lenses().unwrap(), options),
     };
-    let state = State::new(bundle);
+    let state = State::new(bundle, &bundle.lenses().unwrap());
     let nothing = BundleStep {
         cameras: vec![[0.0; 6]; num_cameras],
         shared: vec![[0.0; S]; bundle.num_lenses()],
@@ -207,16 +220,15 @@ pub(super) fn photograph(bundle: &mut Bundle) {
 fn each_lens_is_refined_by_what_was_seen_through_it() {
     let mut bundle = arc(9, 120, Distortion::NONE);
     bundle.lens_of_camera = (0..9).map(|camera| camera % 3).collect();
-    bundle.lenses = [(-0.1, 0.003), (0.06, -0.002), (-0.02, 0.001)]
-        .map(|(k1, p1)| bent(k1, p1).into())
-        .to_vec();
+    let lenses = [(-0.1, 0.003), (0.06, -0.002), (-0.02, 0.001)];
+    set_lenses(&mut bundle, &lenses.map(|(k1, p1)| bent(k1, p1).into()));
     let k = [
         Intrinsics::new(800.0, 800.0, 322.0, 236.0).unwrap(),
         Intrinsics::new(900.0, 905.0, 315.0, 244.0).unwrap(),
         Intrinsics::new(700.0, 690.0, 320.0, 240.0).unwrap(),
     ];
     for (index, camera) in bundle.cameras.iter_mut().enumerate() {
-        camera.intrinsics = k[index % 3];
+        camera.camera.intrinsics = k[index % 3];
     }
     photograph(&mut bundle);
     let truth = bundle.clone();
@@ -225,7 +237,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         // Of each lens another focal length, but the same ratio of its two.
         let factor = [1.03, 0.98, 1.01][index % 3];
         let k = k[index % 3];
-        camera.intrinsics =
+        camera.camera.intrinsics =
             Intrinsics::new(factor * k.fu_px(), factor * k.fv_px(), 320.0, 240.0).unwrap();
     }
     // The third terms are not refined.
@@ -233,11 +245,11 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         k3: 0.01,
         ..Distortion::NONE
     };
-    bundle.lenses = vec![only_third.into(); 3];
+    set_lenses(&mut bundle, &[only_third.into(); 3]);
     let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
-        let (got, want) = (got.intrinsics, want.intrinsics);
+        let (got, want) = (got.camera.intrinsics, want.camera.intrinsics);
         assert!(
             (got.fu_px() - want.fu_px()).abs() < 1e-3,
             "{got:?} {want:?}"
@@ -248,8 +260,8 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         );
         assert!((got.principal_point() - want.principal_point()).norm() < 1e-2);
     }
-    for (got, want) in bundle.lenses.iter().zip(&truth.lenses) {
-        let (got, want) = (brown(got), brown(want));
+    for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
+        let (got, want) = (brown(&got.camera.lens), brown(&want.camera.lens));
         for (got, want) in [
             (got.k1, want.k1),
             (got.k2, want.k2),
@@ -263,7 +275,12 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     // One shared lens does not fit three lenses.
     let mut shared = truth.clone();
     shared.lens_of_camera = Vec::new();
-    shared.lenses = vec![only_third.into()];
+    let refused = adjust_bundle(&mut shared, &everything(), &mut ());
+    assert!(
+        matches!(refused, Err(Error::Degenerate { .. })),
+        "{refused:?}"
+    );
+    set_lenses(&mut shared, &[only_third.into()]);
     let report = adjust_bundle(&mut shared, &everything(), &mut ()).unwrap();
     assert!(report.final_cost > 1.0, "{report:?}");
 }
@@ -281,11 +298,14 @@ fn what_is_not_to_be_refined_stays_the_same_bits() {
         };
         let mut bundle = before.clone();
         adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
-        let (new, old) = (brown(&bundle.lenses[0]), brown(&before.lenses[0]));
+        let (new, old) = (
+            brown(&bundle.cameras[0].camera.lens),
+            brown(&before.cameras[0].camera.lens),
+        );
         assert_eq!((new.p1, new.p2) == (old.p1, old.p2), !refine_tangential);
         assert_eq!((new.k1, new.k2) == (old.k1, old.k2), !refine_distortion);
         for (new, old) in bundle.cameras.iter().zip(&before.cameras) {
-            assert_eq!(new.intrinsics, old.intrinsics);
+            assert_eq!(new.camera.intrinsics, old.camera.intrinsics);
         }
     }
 }
@@ -333,7 +353,7 @@ fn a_rig_knows_its_size() {
     let truth = bundle.clone();
     bundle.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::translation(-0.4, 0.0, 0.0),
-        intrinsics: Intrinsics::centered(800.0, 640, 480).unwrap(),
+        camera: Camera::pinhole(Intrinsics::centered(800.0, 640, 480).unwrap(), 640, 480),
         lens: 0,
     });
     bundle.sensor_of_observation = vec![0; bundle.observations.len()];
@@ -393,9 +413,9 @@ fn a_shared_focal_length_and_distortion_are_refined() {
         ..Distortion::NONE
     };
     let mut bundle = arc(6, 80, distortion);
-    bundle.lenses.clear();
+    let start = Intrinsics::centered(830.0, 640, 480).unwrap();
     for camera in &mut bundle.cameras {
-        camera.intrinsics = Intrinsics::centered(830.0, 640, 480).unwrap();
+        camera.camera = Camera::pinhole(start, 640, 480);
     }
     disturb(&mut bundle, 0.01);
     let options = BundleOptions {
@@ -406,9 +426,10 @@ fn a_shared_focal_length_and_distortion_are_refined() {
     };
     let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
-    assert!((bundle.cameras[3].intrinsics.fu_px() - 800.0).abs() < 1e-4);
-    assert!((brown(&bundle.lenses[0]).k1 + 0.08).abs() < 1e-6);
-    assert!((brown(&bundle.lenses[0]).k2 - 0.02).abs() < 1e-5);
+    assert!((bundle.cameras[3].camera.intrinsics.fu_px() - 800.0).abs() < 1e-4);
+    let found = brown(&bundle.cameras[3].camera.lens);
+    assert!((found.k1 + 0.08).abs() < 1e-6);
+    assert!((found.k2 - 0.02).abs() < 1e-5);
 }
 
 #[test]

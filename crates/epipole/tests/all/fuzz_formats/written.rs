@@ -1,7 +1,7 @@
 //! Written files can be read: COLMAP's text model and PLY, by independent readers.
 
 use super::config;
-use epipole::camera::{Distortion, Intrinsics, PosedCamera, RigidTransform};
+use epipole::camera::{Camera, Distortion, Intrinsics, PosedCamera, RigidTransform};
 use epipole::sfm::{Reconstruction, ScenePoint, SfmImage, TrackElement};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
@@ -41,10 +41,17 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                     ..SfmImage::default()
                 })
                 .collect();
+            let distortion = Distortion {
+                k1: if is_bent { k1 } else { 0.0 },
+                ..Distortion::NONE
+            };
             let camera = |told: &Option<(f64, f64, f64, f64)>| {
                 let (f, x, y, z) = (*told)?;
                 Some(PosedCamera {
-                    intrinsics: Intrinsics::new(f, f, 10.0, 5.0).unwrap(),
+                    camera: Camera {
+                        lens: distortion.into(),
+                        ..Camera::pinhole(Intrinsics::new(f, f, 10.0, 5.0).unwrap(), 640, 480)
+                    },
                     cam_from_world: RigidTransform::translation(x, y, z),
                 })
             };
@@ -68,12 +75,7 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                     error_px: 0.5,
                 })
                 .collect();
-            let distortion = Distortion {
-                k1: if is_bent { k1 } else { 0.0 },
-                ..Distortion::NONE
-            };
             let reconstruction = Reconstruction {
-                lenses: vec![distortion.into(); images.len()],
                 cameras,
                 points,
                 ..Reconstruction::default()
@@ -123,7 +125,7 @@ proptest! {
         let cameras = lines(&model.cameras);
         for (index, words) in cameras.iter().enumerate() {
             prop_assert_eq!(words[0], (index + 1).to_string());
-            let is_bent = !reconstruction.lens(0).is_none();
+            let is_bent = (reconstruction.cameras.iter().flatten()).any(|c| !c.camera.is_pinhole());
             prop_assert_eq!(words.len(), if is_bent { 12 } else { 8 });
             words[2..].iter().for_each(|word| { number(word); });
         }

@@ -2,7 +2,7 @@
 
 use super::world::{Making, World, ball, errors, intrinsics, photograph};
 use epipole::Error;
-use epipole::camera::{PosedCamera, RigidTransform};
+use epipole::camera::{Camera, PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole::sfm::{OdometryOptions, monocular_odometry, stereo_odometry};
 use nalgebra::{Point3, Vector3};
@@ -26,7 +26,7 @@ fn drive(frames: usize, making: Making) -> (World, Vec<Point3<f64>>) {
             let world_from_cam =
                 RigidTransform::new(Vector3::new(0.02 * along * along, 0.0, along), turn);
             PosedCamera {
-                intrinsics: intrinsics(),
+                camera: Camera::pinhole(intrinsics(), 640, 480),
                 cam_from_world: world_from_cam.inverse(),
             }
         })
@@ -171,7 +171,7 @@ fn a_stereo_rig_is_followed_in_meters() {
 fn a_camera_that_only_turns_has_no_path() {
     let cameras = (0..6)
         .map(|i| PosedCamera {
-            intrinsics: intrinsics(),
+            camera: Camera::pinhole(intrinsics(), 640, 480),
             cam_from_world: RigidTransform::new(
                 Vector3::zeros(),
                 Vector3::new(0.0, 0.02 * f64::from(i), 0.0),

@@ -95,9 +95,17 @@ fn focal_length_and_distortion_are_found() {
     let result = run(&world, &options);
     let first = &result.components[0];
     assert_eq!(first.num_registered(), 8);
-    let focal_px = first.cameras[3].expect("a camera").intrinsics.fu_px();
+    let focal_px = first.cameras[3]
+        .expect("a camera")
+        .camera
+        .intrinsics
+        .fu_px();
     assert!((focal_px - 700.0).abs() < 3.0, "{focal_px}");
-    let k1 = first.lens(3).coefficients()[0];
+    let k1 = first.cameras[3]
+        .expect("a camera")
+        .camera
+        .lens
+        .coefficients()[0];
     assert!((k1 + 0.12).abs() < 0.02, "{k1}");
 }
 
@@ -117,7 +125,8 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
         // All cameras with this lens; half of them are used.
         let mut cameras = arc(10, Point3::origin());
         for camera in &mut cameras {
-            camera.intrinsics = Intrinsics::centered(focal_px, 640, 480).expect("intrinsics");
+            camera.camera.intrinsics =
+                Intrinsics::centered(focal_px, 640, 480).expect("intrinsics");
         }
         let making = Making {
             distortion: Distortion {
@@ -152,9 +161,10 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
     assert_eq!(first.num_registered(), 10);
     for image in 0..10 {
         let (focal_px, k1) = lenses[image % 2];
-        let found_px = first.cameras[image].expect("a camera").intrinsics.fu_px();
+        let camera = first.cameras[image].expect("a camera").camera;
+        let found_px = camera.intrinsics.fu_px();
         assert!((found_px - focal_px).abs() < 0.5, "{image}: {found_px}");
-        let found = first.lens(image).coefficients()[0];
+        let found = camera.lens.coefficients()[0];
         assert!((found - k1).abs() < 0.005, "{image}: {found}");
     }
     assert!(first.mean_reprojection_px(&world.input.images) < 0.01);

@@ -1,6 +1,6 @@
 //! Synthetic scenes and images: matches with known ground truth.
 
-use epipole::camera::{Distortion, Intrinsics, PosedCamera, look_at};
+use epipole::camera::{Camera, Distortion, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult, align_points,
@@ -43,7 +43,7 @@ pub(crate) fn photograph(
 ) -> World {
     let mut random = Random::new(seed);
     let mut input = SfmInput {
-        intrinsics: vec![cameras[0].intrinsics],
+        intrinsics: vec![cameras[0].camera.intrinsics],
         ..SfmInput::default()
     };
     // The keypoint of each point in each image.
@@ -64,7 +64,7 @@ pub(crate) fn photograph(
             let shown = making
                 .distortion
                 .distort(&Point2::new(p.x / p.z, p.y / p.z));
-            let k = camera.intrinsics;
+            let k = camera.camera.intrinsics;
             let pixel = Point2::new(
                 k.fu_px() * shown.x + k.principal_point().x + making.noise_px * random.normal(),
                 k.fv_px() * shown.y + k.principal_point().y + making.noise_px * random.normal(),
@@ -125,7 +125,7 @@ pub(crate) fn arc(count: usize, center: Point3<f64>) -> Vec<PosedCamera> {
             let eye = center + Vector3::new(5.0 * s, 0.3 * (i % 3) as f64, -5.0 * c);
             let up = Vector3::new(0.0, -1.0, 0.0);
             PosedCamera {
-                intrinsics: intrinsics(),
+                camera: Camera::pinhole(intrinsics(), 640, 480),
                 cam_from_world: look_at(&eye, &center, &up).expect("a view"),
             }
         })

@@ -131,7 +131,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
                 let center = r.model.inverse().translation.vector;
                 assert!(center.iter().all(|x| x.is_finite()), "{center}");
                 let camera = PosedCamera {
-                    intrinsics: k,
+                    camera: Camera::pinhole(k, 640, 480),
                     cam_from_world: r.model,
                 };
                 let errors: Vec<f64> = (points.iter().zip(p2))

@@ -37,7 +37,7 @@ fn configurations_are_recognized() {
         for seed in 0..20 {
             let mut random = Random::new(seed);
             let pair = cameras(&mut random);
-            let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
+            let (k1, k2) = (pair.0.camera.intrinsics, pair.1.camera.intrinsics);
             let two_view = |s: &Scene| {
                 let options = TwoViewOptions::default()
                     .with_ransac(options(seed).with_max_error_px(max_error_px));
@@ -185,7 +185,7 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
         let mut random = Random::new(400 + seed);
         let pair = cameras(&mut random);
         let scene = scene(&mut random, pair, Shape::Volume, 200, 0.7, 0.5);
-        let (k1, k2) = (pair.0.intrinsics, pair.1.intrinsics);
+        let (k1, k2) = (pair.0.camera.intrinsics, pair.1.camera.intrinsics);
         let choose = TwoViewOptions::default()
             .with_ransac(options(seed))
             // E cannot have twice F's inliers.

@@ -62,13 +62,13 @@ fn forward_motion() {
         let mut random = Random::new(seed);
         let up = Vector3::new(0.0, -1.0, 0.0);
         let camera = |z: f64| PosedCamera {
-            intrinsics: intrinsics(600.0),
+            camera: Camera::pinhole(intrinsics(600.0), 640, 480),
             cam_from_world: look_at(&Point3::new(0.0, 0.0, z), &Point3::new(0.0, 0.0, 9.0), &up)
                 .unwrap(),
         };
         let pair = (camera(-5.0), camera(-4.0));
         let s = scene(&mut random, pair, Shape::Volume, 300, 0.7, 0.3);
-        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let (k1, k2) = (&s.cam1.camera.intrinsics, &s.cam2.camera.intrinsics);
         let pose = estimate_relative_pose(
             &s.p1,
             &s.p2,
@@ -116,7 +116,7 @@ fn no_motion_and_almost_none() {
         for noise_px in [0.0, 0.3] {
             let mut random = Random::new(3);
             let camera = |x: f64, yaw: f64| PosedCamera {
-                intrinsics: intrinsics(600.0),
+                camera: Camera::pinhole(intrinsics(600.0), 640, 480),
                 cam_from_world: RigidTransform::new(
                     Vector3::new(-x, 0.0, 5.0),
                     Vector3::new(0.0, yaw, 0.0),
@@ -127,7 +127,7 @@ fn no_motion_and_almost_none() {
                 pair.1.cam_from_world =
                     RigidTransform::rotation(Vector3::new(0.0, yaw, 0.0)) * pair.1.cam_from_world;
                 let s = scene(&mut random, pair, Shape::Volume, 150, 0.8, noise_px);
-                let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+                let (k1, k2) = (&s.cam1.camera.intrinsics, &s.cam2.camera.intrinsics);
                 for report in [estimate_fundamental(&s.p1, &s.p2, &options(1), &mut ())] {
                     match report {
                         Ok(report) => assert!(report.model.iter().all(|x| x.is_finite())),
@@ -265,7 +265,7 @@ fn a_crowded_pixel_has_few_votes() {
                 *p2 = Point2::new(300.0, 200.0);
             }
         }
-        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let (k1, k2) = (&s.cam1.camera.intrinsics, &s.cam2.camera.intrinsics);
         let f = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
         let e = estimate_relative_pose(
             &s.p1,

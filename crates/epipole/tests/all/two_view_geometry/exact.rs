@@ -23,7 +23,7 @@ fn a_hundred_exact_pairs() {
         let mut random = Random::new(seed);
         let pair = cameras(&mut random);
         let s = scene(&mut random, pair, Shape::Volume, 50, 1.0, 0.0);
-        let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+        let (k1, k2) = (&s.cam1.camera.intrinsics, &s.cam2.camera.intrinsics);
         let truth = s.motion();
         let report = estimate_relative_pose(
             &s.p1,
@@ -63,7 +63,7 @@ fn equal_seeds_give_equal_bits() {
     let mut random = Random::new(17);
     let pair = cameras(&mut random);
     let s = scene(&mut random, pair, Shape::Volume, 200, 0.6, 0.5);
-    let (k1, k2) = (&s.cam1.intrinsics, &s.cam2.intrinsics);
+    let (k1, k2) = (&s.cam1.camera.intrinsics, &s.cam2.camera.intrinsics);
     let mut different = 0;
     for seed in 0..5 {
         let one = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();

@@ -1,6 +1,6 @@
 //! Scenes with known truth, and how far a motion is from it.
 
-use epipole::camera::{Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
+use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at, relative_motion};
 use epipole::math::random::Random;
 use epipole::robust::RansacOptions;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
@@ -42,7 +42,7 @@ pub(crate) fn cameras(random: &mut Random) -> (PosedCamera, PosedCamera) {
         let target = Point3::new(near(0.3), near(0.3), 0.0);
         let up = Vector3::new(near(0.3), -1.0, 0.0);
         PosedCamera {
-            intrinsics: intrinsics(focal_px),
+            camera: Camera::pinhole(intrinsics(focal_px), 640, 480),
             cam_from_world: look_at(&center, &target, &up).unwrap(),
         }
     };
