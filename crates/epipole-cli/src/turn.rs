@@ -1,7 +1,7 @@
 //! Cameras that only rotated, or hardly moved: E and F fit then, but are meaningless.
 
 use crate::failure::Failure;
-use epipole::camera::{Camera, Intrinsics};
+use epipole::camera::Camera;
 use epipole::robust::{LineEstimator, RansacOptions};
 use epipole::two_view::{
     Degeneracy, ExplainingTurn, TwoViewOptions, find_degeneracy, find_explaining_turn,
@@ -34,22 +34,22 @@ pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
 /// Warning about a homography whose inliers fit a rotation with another focal length equally well,
 /// if there is one.
 ///
-/// * `intrinsics`: known or guessed
+/// * `cameras`: known or guessed
 /// * `inliers`: those of the homography
 pub(crate) fn sentence_of_other_focal(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    [k1, k2]: &[Intrinsics; 2],
+    cameras: [&Camera; 2],
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> epipole::Result<Option<String>> {
-    let turn = find_turn_and_focal(pixels1, pixels2, k1, k2, inliers, options)?;
+    let turn = find_turn_and_focal(pixels1, pixels2, cameras, inliers, options)?;
     Ok(turn.map(|turn| {
         format!(
             "a camera that only turned, by {:.1}° and with a focal length near {:.0} px, explains {} of the {} \
              inliers: then there is no plane, and no depth to be had",
             turn.cam2_from_cam1.rotation.angle().to_degrees(),
-            turn.focal_factor * k1.fu_px(),
+            turn.focal_factor * cameras[0].intrinsics.fu_px(),
             turn.num_explained,
             turn.num_inliers
         )

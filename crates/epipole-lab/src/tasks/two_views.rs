@@ -53,7 +53,7 @@ pub(super) fn two_views(
     // With a wrong focal length a rotation passes for a plane.
     let otherwise = match found.configuration {
         Configuration::Planar => {
-            find_turn_and_focal(&first, &second, &k1, &k2, &found.inliers, &how)
+            find_turn_and_focal(&first, &second, [&one, &two], &found.inliers, &how)
                 .map_err(sentence)?
         }
         _ => None,

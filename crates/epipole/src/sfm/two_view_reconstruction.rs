@@ -1,7 +1,7 @@
 //! Reconstruction from two views with known motion: triangulation and refinement.
 
 use super::bundle::{Bundle, BundleObservation, BundleOptions, adjust_bundle};
-use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
+use crate::camera::{Camera, PosedCamera, RigidTransform};
 use crate::epipolar::{decompose_essential, essential_from_motion, select_pose};
 use crate::optim::{LmReport, RobustLoss};
 use crate::progress::{Monitor, Part};
@@ -81,7 +81,7 @@ pub struct TwoViewReconstruction {
 /// is refined again.
 ///
 /// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
-/// * `intrinsics1`, `intrinsics2`: of the two cameras, without lens distortion
+/// * `cameras`: the two cameras, of any lens
 /// * `cam2_from_cam1`: the motion to start from; the length of its translation does not matter
 /// * `monitor`: the one stage is
 ///   [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment)
@@ -97,10 +97,10 @@ pub struct TwoViewReconstruction {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, RigidTransform};
 /// use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 /// use nalgebra::{Point2, Vector3};
-/// let lens = Intrinsics::new(500.0, 500.0, 320.0, 240.0)?;
+/// let camera = Camera::pinhole(Intrinsics::new(500.0, 500.0, 320.0, 240.0)?, 640, 480);
 /// // Camera 2 is one unit to the right. Points 4 and 5 units away have disparities of 125 and 100.
 /// let (mut pixels1, mut pixels2) = (Vec::new(), Vec::new());
 /// for i in 0..20 {
@@ -113,7 +113,7 @@ pub struct TwoViewReconstruction {
 /// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.01, 0.0, 0.0));
 /// let options = TwoViewReconstructionOptions::default();
 /// let found =
-///     two_view_reconstruction(&pixels1, &pixels2, &lens, &lens, &start, &options, &mut ())?;
+///     two_view_reconstruction(&pixels1, &pixels2, [&camera; 2], &start, &options, &mut ())?;
 /// assert!(found.rms_before_px > 1.0 && found.rms_px < 1e-3);
 /// assert_eq!((found.points.len(), found.num_in_front), (20, [20, 0, 0, 0]));
 /// assert!((found.points[0].z - 4.0).abs() < 0.01 && (found.points[1].z - 5.0).abs() < 0.01);
@@ -123,22 +123,22 @@ pub struct TwoViewReconstruction {
 pub fn two_view_reconstruction(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    intrinsics1: &Intrinsics,
-    intrinsics2: &Intrinsics,
+    cameras: [&Camera; 2],
     cam2_from_cam1: &RigidTransform,
     options: &TwoViewReconstructionOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<TwoViewReconstruction> {
     check(pixels1, pixels2, cam2_from_cam1, options)?;
-    let camera = |intrinsics: &Intrinsics, cam_from_world| PosedCamera {
-        camera: Camera::pinhole(*intrinsics, 640, 480),
+    let posed = |camera: &Camera, cam_from_world| PosedCamera {
+        camera: *camera,
         cam_from_world,
     };
     let mut start = Bundle {
         cameras: vec![
-            camera(intrinsics1, RigidTransform::identity()),
-            camera(intrinsics2, in_baselines(cam2_from_cam1)),
+            posed(cameras[0], RigidTransform::identity()),
+            posed(cameras[1], in_baselines(cam2_from_cam1)),
         ],
+        lens_of_camera: vec![0, usize::from(cameras[0].lens != cameras[1].lens)],
         ..Bundle::default()
     };
     let mut matches = Vec::new();
@@ -192,14 +192,13 @@ pub fn two_view_reconstruction(
     let in_cam1 = |&point: &usize| {
         Point3::from((bundle.cameras[0].cam_from_world * bundle.points[point]).coords / unit)
     };
-    let [k1, k2] = [0, 1].map(|n| &bundle.cameras[n].camera.intrinsics);
     let rms_before_px = rms_px(&start, &all);
     Ok(TwoViewReconstruction {
         cam2_from_cam1: motion,
         points: all.iter().map(in_cam1).collect(),
         triangulated: start.points,
         match_of_point: matches,
-        num_in_front: four_counts(&motion, pixels1, pixels2, [k1, k2])?,
+        num_in_front: four_counts(&motion, pixels1, pixels2, &bundle.cameras)?,
         rms_before_px,
         rms_px: rms_px(&bundle, &all),
         report,
@@ -289,6 +288,7 @@ fn only(bundle: &Bundle, points: &[usize]) -> Bundle {
     };
     Bundle {
         cameras: bundle.cameras.clone(),
+        lens_of_camera: bundle.lens_of_camera.clone(),
         points: points.iter().map(|&point| bundle.points[point]).collect(),
         observations: points.iter().enumerate().flat_map(observation).collect(),
         ..Bundle::default()
@@ -303,7 +303,7 @@ fn angle_rad(bundle: &Bundle, point: &Point3<f64>) -> f64 {
 /// Whether a point is in front of both cameras, wide enough, and near both of its pixels.
 fn is_good(bundle: &Bundle, point: usize, options: &TwoViewReconstructionOptions) -> bool {
     let place = &bundle.points[point];
-    let in_front = (bundle.cameras.iter()).all(|camera| (camera.cam_from_world * place).z > 0.0);
+    let in_front = (bundle.cameras.iter()).all(|camera| camera.project(place).is_ok());
     let is_near = |observation| bundle.residual_px(observation).norm() <= options.max_error_px;
     in_front
         && is_near(2 * point)
@@ -325,12 +325,29 @@ fn four_counts(
     motion: &RigidTransform,
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    [lens1, lens2]: [&Intrinsics; 2],
+    cameras: &[PosedCamera],
 ) -> Result<[usize; 4]> {
+    let [first, second] = [&cameras[0].camera, &cameras[1].camera];
+    // Pixels that a lens bends no ray to are in front of nothing.
+    let straight = |(p1, p2)| {
+        first
+            .pinhole_pixel(p1)
+            .ok()
+            .zip(second.pinhole_pixel(p2).ok())
+    };
+    let (pixels1, pixels2): (Vec<_>, Vec<_>) =
+        pixels1.iter().zip(pixels2).filter_map(straight).unzip();
     let mut counts = [0; 4];
     let motions = decompose_essential(&essential_from_motion(motion)?)?;
     for (count, motion) in counts.iter_mut().zip(motions) {
-        *count = select_pose(&[motion], pixels1, pixels2, lens1, lens2)?.num_in_front;
+        *count = select_pose(
+            &[motion],
+            &pixels1,
+            &pixels2,
+            &first.intrinsics,
+            &second.intrinsics,
+        )?
+        .num_in_front;
     }
     counts.sort_unstable_by_key(|count| std::cmp::Reverse(*count));
     Ok(counts)
@@ -339,11 +356,16 @@ fn four_counts(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::{Intrinsics, Lens, LensKind};
     use crate::math::random::Random;
     use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
-    fn lens() -> Intrinsics {
-        Intrinsics::new(800.0, 800.0, 320.0, 240.0).unwrap()
+    fn camera() -> Camera {
+        Camera::pinhole(
+            Intrinsics::new(800.0, 800.0, 320.0, 240.0).unwrap(),
+            640,
+            480,
+        )
     }
 
     fn motion() -> RigidTransform {
@@ -355,17 +377,24 @@ mod tests {
 
     /// Matches of points around 6 units away, and the points.
     fn matches(count: usize, noise_px: f64, far: f64) -> ([Vec<Point2<f64>>; 2], Vec<Point3<f64>>) {
+        matches_through([&camera(); 2], count, noise_px, far)
+    }
+
+    fn matches_through(
+        cameras: [&Camera; 2],
+        count: usize,
+        noise_px: f64,
+        far: f64,
+    ) -> ([Vec<Point2<f64>>; 2], Vec<Point3<f64>>) {
         let mut random = Random::new(8);
         let (mut pixels, mut points) = ([Vec::new(), Vec::new()], Vec::new());
         for _ in 0..count {
             let mut within = |reach: f64| random.uniform(-reach, reach);
             let point = Point3::new(within(1.5), within(1.2), 6.0 + within(1.5)) * far;
-            for (list, pose) in pixels
-                .iter_mut()
-                .zip([RigidTransform::identity(), motion()])
-            {
+            let poses = [RigidTransform::identity(), motion()];
+            for (list, (pose, camera)) in pixels.iter_mut().zip(poses.iter().zip(cameras)) {
                 let noise = Vector2::new(random.normal(), random.normal()) * noise_px;
-                list.push(lens().project(&(pose * point)).unwrap() + noise);
+                list.push(camera.project(&(pose * point)).unwrap() + noise);
             }
             points.push(point);
         }
@@ -377,7 +406,38 @@ mod tests {
         start: &RigidTransform,
     ) -> Result<TwoViewReconstruction> {
         let options = TwoViewReconstructionOptions::default();
-        two_view_reconstruction(pixels1, pixels2, &lens(), &lens(), start, &options, &mut ())
+        two_view_reconstruction(pixels1, pixels2, [&camera(); 2], start, &options, &mut ())
+    }
+
+    #[test]
+    fn distorted_matches_give_the_scene() {
+        let lens = |kind, numbers: &[f64]| Lens::from_coefficients(kind, numbers).unwrap();
+        let brown = Camera {
+            lens: lens(LensKind::Brown, &[-0.25, 0.06, 0.001, -0.002, 0.0]),
+            ..camera()
+        };
+        let fisheye = Camera {
+            lens: lens(LensKind::Fisheye, &[-0.02, 0.004, -0.001, 0.0]),
+            ..camera()
+        };
+        let ([pixels1, pixels2], truth) = matches_through([&brown, &fisheye], 200, 0.0, 1.0);
+        let options = TwoViewReconstructionOptions::default();
+        let start = knocked(0.02);
+        let found = two_view_reconstruction(
+            &pixels1,
+            &pixels2,
+            [&brown, &fisheye],
+            &start,
+            &options,
+            &mut (),
+        )
+        .unwrap();
+        assert_eq!(found.points.len(), 200);
+        assert_eq!(found.num_in_front[0], 200);
+        let unit = motion().translation.vector.norm();
+        for (point, truth) in found.points.iter().zip(&truth) {
+            assert!((point.coords * unit - truth.coords).norm() < 1e-3);
+        }
     }
 
     /// The motion, knocked off by an angle and a shift, and three times as long.
@@ -482,8 +542,7 @@ mod tests {
             let refused = two_view_reconstruction(
                 pixels1,
                 pixels2,
-                &lens(),
-                &lens(),
+                [&camera(); 2],
                 &motion(),
                 &options,
                 &mut (),

@@ -197,32 +197,13 @@ fn find_plane(
     flat.filter(|flat| flat.num_inliers as f64 > needed)
 }
 
-/// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
-const NARROW: f64 = 0.642_787_609_686_539_3;
-
-/// Whether a rotation with another focal length explains matches on a plane. False for wide lenses,
-/// as [`find_turn_and_focal`] assumes pinhole cameras.
+/// Whether a rotation with another focal length explains matches on a plane.
 fn turned_otherwise(
-    pixels: [&[Point2<f64>]; 2],
+    [pixels1, pixels2]: [&[Point2<f64>]; 2],
     cameras: [&Camera; 2],
     on_plane: &[bool],
     judging: &TwoViewOptions,
 ) -> bool {
-    let straight = |side: usize| -> Option<Vec<Point2<f64>>> {
-        let camera = cameras[side];
-        if camera.is_pinhole() {
-            return Some(pixels[side].to_vec());
-        }
-        let straight = |pixel| {
-            let is_narrow = camera.unproject(pixel).is_ok_and(|ray| ray.z > NARROW);
-            is_narrow.then(|| camera.pinhole_pixel(pixel).ok())?
-        };
-        pixels[side].iter().map(straight).collect()
-    };
-    let (Some(pixels1), Some(pixels2)) = (straight(0), straight(1)) else {
-        return false;
-    };
-    let [k1, k2] = cameras.map(|camera| &camera.intrinsics);
-    find_turn_and_focal(&pixels1, &pixels2, k1, k2, on_plane, judging)
+    find_turn_and_focal(pixels1, pixels2, cameras, on_plane, judging)
         .is_ok_and(|turn| turn.is_some())
 }

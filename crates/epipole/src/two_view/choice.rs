@@ -155,7 +155,7 @@ pub fn estimate_two_view_calibrated(
     let fundamental = searches.ransac(FundamentalEstimator::new(set.clone()), &options.ransac);
     let homography = searches.ransac(HomographyEstimator::new(set.clone()), &in_two_dimensions);
     let rotation = searches.ransac(
-        RotationEstimator::new(set.clone(), *k1, *k2),
+        RotationEstimator::new(set.clone(), cameras),
         &in_two_dimensions,
     );
     searches.check()?;

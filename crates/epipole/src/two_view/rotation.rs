@@ -3,7 +3,7 @@
 #[cfg(doc)]
 use crate::Error;
 use crate::Result;
-use crate::camera::Intrinsics;
+use crate::camera::{Camera, Intrinsics, Observation};
 use crate::homography::transfer_error_sq;
 use crate::math::svd3;
 use crate::progress::Monitor;
@@ -14,56 +14,71 @@ use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is two matches; the error is the distance in image 2 from `K2 R K1⁻¹ x1`, pixels;
-/// refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a
+/// A sample is two matches; the error is the distance in image 2 from the projection of the turned
+/// ray, pixels, to first order through a lens; refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a
 /// pixel have few votes together, as for homographies.
 ///
 /// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
 #[derive(Debug, Clone)]
 pub struct RotationEstimator {
     matches: MatchSet,
+    /// Of length 1; zero where a lens bends no ray to a pixel.
     rays: Vec<[Vector3<f64>; 2]>,
-    k1: Intrinsics,
-    k2: Intrinsics,
+    geometry: Geometry,
+}
+
+/// How errors are measured.
+#[derive(Debug, Clone)]
+enum Geometry {
+    /// K of both cameras.
+    Pinhole([Intrinsics; 2]),
+    /// What camera 2 sees of each match.
+    Lens(Vec<Option<Observation>>),
 }
 
 impl RotationEstimator {
-    /// Prepares the estimation; `k1` and `k2` are the intrinsics of images 1 and 2.
+    /// Prepares the estimation from the matches of two cameras of any lens.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer than 2 different matches.
-    pub fn new(matches: MatchSet, k1: Intrinsics, k2: Intrinsics) -> Result<Self> {
+    pub fn new(matches: MatchSet, cameras: [&Camera; 2]) -> Result<Self> {
         matches.at_least(2, "a rotation from matches")?;
-        let rays = (0..matches.len())
-            .map(|i| {
-                let (p1, p2) = matches.pair(i);
-                [k1.ray(&p1).normalize(), k2.ray(&p2).normalize()]
-            })
+        let pairs = (0..matches.len()).map(|i| matches.pair(i));
+        let ray = |camera: &Camera, pixel| camera.unproject(&pixel).unwrap_or_default();
+        let rays = (pairs.clone())
+            .map(|(p1, p2)| [ray(cameras[0], p1), ray(cameras[1], p2)])
             .collect();
+        let geometry = match Camera::are_pinholes(cameras) {
+            true => Geometry::Pinhole(cameras.map(|camera| camera.intrinsics)),
+            false => Geometry::Lens(pairs.map(|(_, p2)| cameras[1].observe(&p2).ok()).collect()),
+        };
         Ok(Self {
             matches,
             rays,
-            k1,
-            k2,
+            geometry,
         })
     }
 
-    fn homography(&self, rotation: &Matrix3<f64>) -> Matrix3<f64> {
-        self.k2.matrix() * rotation * self.k1.inverse_matrix()
-    }
-
-    fn transfer_error_sq(
-        &self,
-        rotation: &Matrix3<f64>,
-        homography: &Matrix3<f64>,
-        index: usize,
-    ) -> f64 {
-        let (x1, x2) = self.matches.pair(index);
-        // A ray turned behind the camera would land on a pixel, too.
-        if (rotation * self.rays[index][0]).z > 0.0 {
-            transfer_error_sq(homography, &x1, &x2)
-        } else {
-            f64::INFINITY
+    /// The squared error of a match, by its index.
+    fn errors_sq(&self, rotation: &Matrix3<f64>) -> impl Fn(usize) -> f64 {
+        let homography = match &self.geometry {
+            Geometry::Pinhole([k1, k2]) => k2.matrix() * rotation * k1.inverse_matrix(),
+            Geometry::Lens(_) => Matrix3::zeros(),
+        };
+        let rotation = *rotation;
+        move |index| {
+            let turned = rotation * self.rays[index][0];
+            match &self.geometry {
+                // A ray turned behind the camera would land on a pixel, too.
+                Geometry::Pinhole(_) if turned.z <= 0.0 => f64::INFINITY,
+                Geometry::Pinhole(_) => {
+                    let (x1, x2) = self.matches.pair(index);
+                    transfer_error_sq(&homography, &x1, &x2)
+                }
+                Geometry::Lens(seen) => {
+                    seen[index].map_or(f64::INFINITY, |seen| seen.error_sq(&turned))
+                }
+            }
         }
     }
 
@@ -112,7 +127,7 @@ impl Estimator for RotationEstimator {
     }
 
     fn error_sq(&self, rotation: &Matrix3<f64>, index: usize) -> f64 {
-        self.transfer_error_sq(rotation, &self.homography(rotation), index)
+        self.errors_sq(rotation)(index)
     }
 
     fn refine(&mut self, _: &Matrix3<f64>, inliers: &[usize], _: f64) -> Option<Matrix3<f64>> {
@@ -120,17 +135,15 @@ impl Estimator for RotationEstimator {
     }
 
     fn support(&self, rotation: &Matrix3<f64>, max_error_px: f64, cost_limit: f64) -> Support {
-        let homography = self.homography(rotation);
-        let error_sq = |i| self.transfer_error_sq(rotation, &homography, i);
-        (self.problem().data).support(error_sq, max_error_px, cost_limit)
+        (self.problem().data).support(self.errors_sq(rotation), max_error_px, cost_limit)
     }
 }
 
-/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera that did not move:
-/// `x2 ∝ K2 R K1⁻¹ x1`.
+/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera of any lens that did
+/// not move; of pinholes, `x2 ∝ K2 R K1⁻¹ x1`.
 ///
 /// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `k1`, `k2`: intrinsics of the two cameras
+/// * `cameras`: the two cameras
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
 /// # Errors
@@ -140,19 +153,19 @@ impl Estimator for RotationEstimator {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::robust::RansacOptions;
 /// use epipole::two_view::estimate_rotation;
 /// use nalgebra::{Matrix3, Point2};
 /// // Rolled by a quarter turn about the optical axis: (x, y) from the middle goes to (−y, x).
-/// let k = Intrinsics::new(600.0, 600.0, 300.0, 300.0)?;
+/// let camera = Camera::pinhole(Intrinsics::new(600.0, 600.0, 300.0, 300.0)?, 601, 601);
 /// let p1: Vec<_> = (0..40).map(|i| Point2::new(f64::from(i * 37 % 600), f64::from(i * 71 % 600))).collect();
 /// let mut p2: Vec<_> = p1.iter().map(|p| Point2::new(600.0 - p.y, p.x)).collect();
 /// // Every fourth match is wrong.
 /// for i in (0..40).step_by(4) {
 ///     p2[i].x += 90.0;
 /// }
-/// let report = estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ())?;
+/// let report = estimate_rotation(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
 /// let quarter = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
 /// assert!((report.model - quarter).norm() < 1e-9);
@@ -161,25 +174,53 @@ impl Estimator for RotationEstimator {
 pub fn estimate_rotation(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
+    cameras: [&Camera; 2],
     options: &RansacOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<Matrix3<f64>>> {
     let matches = MatchSet::new(pixels1, pixels2)?;
-    ransac(RotationEstimator::new(matches, *k1, *k2)?, options, monitor)
+    ransac(RotationEstimator::new(matches, cameras)?, options, monitor)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::{Fisheye, Lens};
     use crate::math::random::Random;
     use nalgebra::Rotation3;
+
+    #[test]
+    fn a_turn_of_a_fisheye_is_found_among_outliers() {
+        let mut random = Random::new(2);
+        let camera = Camera {
+            lens: Lens::Fisheye(Fisheye::default()),
+            ..Camera::pinhole(Intrinsics::centered(250.0, 800, 800).unwrap(), 800, 800)
+        };
+        let truth = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.5, -0.2));
+        let (p1, p2): (Vec<_>, Vec<_>) = (0..120)
+            .map(|i| {
+                // Up to 100° off the axis.
+                let angle = random.uniform(0.0, 1.7);
+                let (sin, cos) = libm::sincos(random.uniform(0.0, core::f64::consts::TAU));
+                let (away, along) = libm::sincos(angle);
+                let ray = Vector3::new(away * cos, away * sin, along);
+                let seen = |ray: Vector3<f64>| camera.project(&ray.into()).unwrap();
+                let off = if i % 3 == 0 { 50.0 } else { 0.0 };
+                let p2 = seen(truth * ray);
+                (seen(ray), Point2::new(p2.x + off, p2.y - 0.5 * off))
+            })
+            .unzip();
+        let options = RansacOptions::default();
+        let report = estimate_rotation(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap();
+        assert!((report.model - truth.matrix()).norm() < 1e-8);
+        assert_eq!(report.num_inliers, 80);
+    }
 
     #[test]
     fn a_turn_is_found_among_outliers() {
         let mut random = Random::new(1);
         let k = Intrinsics::centered(600.0, 640, 480).unwrap();
+        let camera = Camera::pinhole(k, 640, 480);
         let truth = Rotation3::from_scaled_axis(Vector3::new(0.05, 0.2, -0.1)).into_inner();
         let h = k.matrix() * truth * k.inverse_matrix();
         let (p1, p2): (Vec<_>, Vec<_>) = (0..100)
@@ -191,7 +232,7 @@ mod tests {
             })
             .unzip();
         let report =
-            estimate_rotation(&p1, &p2, &k, &k, &RansacOptions::default(), &mut ()).unwrap();
+            estimate_rotation(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ()).unwrap();
         assert!((report.model - truth).norm() < 1e-9);
         assert_eq!(report.num_inliers, 66);
         // A crowd of matches that lead to one pixel counts as it does for a homography.
@@ -207,7 +248,7 @@ mod tests {
             max_error_px: 60.0,
             ..RansacOptions::default()
         };
-        let report = estimate_rotation(&p1, &p2, &k, &k, &options, &mut ()).unwrap();
+        let report = estimate_rotation(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap();
         let h = crate::homography::estimate_homography(&p1, &p2, &options, &mut ()).unwrap();
         assert!((report.model - truth).norm() < 0.05, "{}", report.model);
         let in_crowd = report.inliers[100..].iter().filter(|is| **is).count();
@@ -222,8 +263,7 @@ mod tests {
             estimate_rotation(
                 &p1[..1],
                 &p2[..1],
-                &k,
-                &k,
+                [&camera; 2],
                 &RansacOptions::default(),
                 &mut ()
             )

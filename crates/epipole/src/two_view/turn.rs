@@ -68,7 +68,7 @@ pub fn find_explaining_turn(
         max_iterations: options.ransac.max_iterations.min(MAX_SAMPLES),
         ..options.in_two_dimensions()
     };
-    let report = match estimate_rotation(&in1, &in2, k1, k2, &ransac, &mut ()) {
+    let report = match estimate_rotation(&in1, &in2, cameras, &ransac, &mut ()) {
         Ok(report) => report,
         Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
         Err(error) => return Err(error),

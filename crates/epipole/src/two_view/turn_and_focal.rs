@@ -5,7 +5,7 @@ use super::explaining_turn::{homography_of_turn, motion_of_turn};
 use super::pairs::inliers_of;
 use super::rotation::align_rays;
 use crate::Result;
-use crate::camera::{Intrinsics, RigidTransform};
+use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::homography::{fit_homography, homography_sampson_sq, refine_homography};
 use crate::optim::RobustLoss;
 use crate::robust::MatchSet;
@@ -13,6 +13,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Focal lengths are looked for from the given one over this to the given one times this.
 const WIDEST: f64 = 4.0;
+/// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
+const NARROW: f64 = 0.642_787_609_686_539_3;
 /// Factors tried over that range, evenly by their logarithms. The cost has one valley, far wider
 /// than their steps of 9 %.
 const NUM_TRIED: usize = 33;
@@ -63,14 +65,14 @@ struct Search<'a> {
 /// The factor is looked for from ¼ to 4; for each the rotation that aligns the rays best is taken.
 ///
 /// * `pixels1`, `pixels2`: the matches that H was found from
-/// * `k1`, `k2`: intrinsics of the two cameras, pixels; the principal points are believed, the
-///   focal lengths are not
+/// * `cameras`: the two cameras; principal points and lenses are believed, focal lengths are not
 /// * `inliers`: for each match, whether it is an inlier of H
 /// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of
 ///   the search
 ///
-/// `None` if the rotation misses nearly as many matches, or misses them by more than 1.1 times the
+/// `None` for inliers 50° and more off the axis of a lens, where it is not near enough to a pinhole
+/// camera; if the rotation misses nearly as many matches, or misses them by more than 1.1 times the
 /// error of the best homography, as for planes. Also `None` if the longest focal length fits
 /// equally well, since a rotation then moves the image by the same everywhere, as a step aside
 /// before a wall does. A camera that looks straight at a wall, and turns a little while it steps
@@ -101,7 +103,7 @@ struct Search<'a> {
 /// let camera = Camera::pinhole(guess, 640, 480);
 /// let report = estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
-/// let turn = find_turn_and_focal(&p1, &p2, &guess, &guess, &report.inliers, &options)?.unwrap();
+/// let turn = find_turn_and_focal(&p1, &p2, [&camera; 2], &report.inliers, &options)?.unwrap();
 /// assert!((turn.focal_factor - 600.0 / 480.0).abs() < 1e-3);
 /// assert!((turn.cam2_from_cam1.rotation.angle() - 0.2).abs() < 1e-3);
 /// # Ok(()) }
@@ -109,17 +111,25 @@ struct Search<'a> {
 pub fn find_turn_and_focal(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
-    k1: &Intrinsics,
-    k2: &Intrinsics,
+    cameras: [&Camera; 2],
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> Result<Option<TurnAndFocal>> {
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
+    let straight = |camera: &Camera, pixels: &[Point2<f64>]| -> Option<Vec<Point2<f64>>> {
+        pixels
+            .iter()
+            .map(|pixel| narrow_pixel(camera, pixel))
+            .collect()
+    };
+    let (Some(in1), Some(in2)) = (straight(cameras[0], &in1), straight(cameras[1], &in2)) else {
+        return Ok(None);
+    };
     let set = MatchSet::new(&in1, &in2)?;
     let search = Search {
         pairs: (0..set.len()).map(|index| set.pair(index)).collect(),
-        intrinsics: [k1, k2],
+        intrinsics: cameras.map(|camera| &camera.intrinsics),
         options,
     };
     if set.len() < MIN_NUM_MATCHES {
@@ -128,6 +138,15 @@ pub fn find_turn_and_focal(
     // Matches on a line have no homography, and too many rotations fit.
     let homography = search.homography().ok();
     Ok(homography.and_then(|homography| search.turn(search.cost(&homography))))
+}
+
+/// The pixel of a camera without distortion; `None` where the lens sees too far off its axis.
+fn narrow_pixel(camera: &Camera, pixel: &Point2<f64>) -> Option<Point2<f64>> {
+    if camera.is_pinhole() {
+        return Some(*pixel);
+    }
+    let ray = camera.unproject(pixel).ok()?;
+    (ray.z > NARROW).then(|| camera.pinhole_pixel(pixel).ok())?
 }
 
 impl Search<'_> {
@@ -253,6 +272,10 @@ mod tests {
         Intrinsics::centered(focal_px, 800, 600).unwrap()
     }
 
+    fn camera(focal_px: f64) -> Camera {
+        Camera::pinhole(intrinsics(focal_px), 800, 600)
+    }
+
     /// 200 matches within photographs of 800 × 600, every fifth of them wrong. `None` if the motion
     /// leaves none in sight.
     ///
@@ -295,13 +318,13 @@ mod tests {
 
     /// The result for matches of a homography with a guessed focal length.
     fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<TurnAndFocal> {
-        let (guess, options) = (intrinsics(GUESS_PX), options());
+        let (guess, options) = (camera(GUESS_PX), options());
         let h = estimate_homography(p1, p2, &options.in_two_dimensions(), &mut ()).unwrap();
         let pairs = p1.iter().zip(p2);
         let inliers: Vec<bool> = pairs
             .map(|(a, b)| options.fits_homography(&h.model, a, b))
             .collect();
-        find_turn_and_focal(p1, p2, &guess, &guess, &inliers, &options).unwrap()
+        find_turn_and_focal(p1, p2, [&guess; 2], &inliers, &options).unwrap()
     }
 
     fn angle(random: &mut Random) -> Vector3<f64> {
@@ -396,7 +419,9 @@ mod tests {
                 let (k, wall) = (intrinsics(GUESS_PX), Vector3::z());
                 let [p1, p2] = matches(&mut random, &k, &motion, &wall, noise_px, &|p| p).unwrap();
                 let right: Vec<bool> = (0..p1.len()).map(|index| index % 5 != 4).collect();
-                let found = find_turn_and_focal(&p1, &p2, &k, &k, &right, &options()).unwrap();
+                let found =
+                    find_turn_and_focal(&p1, &p2, [&camera(GUESS_PX); 2], &right, &options())
+                        .unwrap();
                 assert_eq!(found, None, "{noise_px} {seed}");
             }
         }
@@ -404,9 +429,9 @@ mod tests {
 
     #[test]
     fn too_little_to_tell_is_nothing_and_nonsense_an_error() {
-        let k = intrinsics(GUESS_PX);
+        let camera = camera(GUESS_PX);
         let ask = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
-            find_turn_and_focal(p1, p2, &k, &k, &vec![true; p1.len()], &options())
+            find_turn_and_focal(p1, p2, [&camera; 2], &vec![true; p1.len()], &options())
         };
         let at = |i: usize| Point2::new((i * 97 % 800) as f64, (i * 61 % 600) as f64);
         let some: Vec<_> = (0..40).map(at).collect();

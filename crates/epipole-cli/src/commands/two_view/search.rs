@@ -333,7 +333,11 @@ fn warn_of_turn(
     let inliers = &found.inliers;
     let unmoved = left_open_by_homography(pixels1, pixels2, inliers, &options.ransac)?;
     let sentence = match unmoved {
-        None => turn::sentence_of_other_focal(pixels1, pixels2, &intrinsics, inliers, &options)?,
+        None => {
+            let [k1, k2] = intrinsics;
+            let cameras = [photos[0].camera(k1), photos[1].camera(k2)];
+            turn::sentence_of_other_focal(pixels1, pixels2, cameras.each_ref(), inliers, &options)?
+        }
         unmoved => unmoved,
     };
     if let Some(sentence) = sentence {

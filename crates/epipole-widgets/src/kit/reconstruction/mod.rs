@@ -145,8 +145,10 @@ impl Answer {
 }
 
 impl Question {
-    fn lens(&self, (width, height): (u32, u32)) -> Result<Intrinsics, Error> {
-        Intrinsics::centered(self.focal * f64::from(width.max(height)), width, height)
+    fn camera(&self, (width, height): (u32, u32)) -> Result<Camera, Error> {
+        let focal_px = self.focal * f64::from(width.max(height));
+        let intrinsics = Intrinsics::centered(focal_px, width, height)?;
+        Ok(Camera::pinhole(intrinsics, width, height))
     }
 
     /// Returns the pose of camera 2 relative to camera 1 at a stage.
@@ -167,10 +169,8 @@ impl Question {
         stage: Stage,
     ) -> Option<(PosedCamera, Option<PosedCamera>)> {
         let camera = |index: usize, cam_from_world| {
-            let (width, height) = answer.pictures[index].size();
-            let intrinsics = self.lens((width, height)).ok()?;
             Some(PosedCamera {
-                camera: Camera::pinhole(intrinsics, width, height),
+                camera: self.camera(answer.pictures[index].size()).ok()?,
                 cam_from_world,
             })
         };

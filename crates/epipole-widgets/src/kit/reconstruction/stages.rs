@@ -8,7 +8,7 @@ use crate::kit::picture::Picture;
 use crate::kit::question::tell;
 use crate::kit::scenes::{self, PHOTO_SIZE};
 use epipole::Error;
-use epipole::camera::Intrinsics;
+use epipole::camera::Camera;
 use epipole::feature::{
     FeatureOptions, Features, MatchOptions, detect_sift, match_descriptors, photo_to_gray,
 };
@@ -27,9 +27,9 @@ impl Question {
     pub(super) fn follow(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         tell(progress, 0.0)?;
         let pictures = self.photographs(progress)?;
-        let lenses = [
-            self.lens(pictures[0].size())?,
-            self.lens(pictures[1].size())?,
+        let cameras = [
+            self.camera(pictures[0].size())?,
+            self.camera(pictures[1].size())?,
         ];
         let first = features(&pictures[0], &mut |share| progress(0.4 + 0.1 * share))?;
         let second = features(&pictures[1], &mut |share| progress(0.5 + 0.1 * share))?;
@@ -44,11 +44,11 @@ impl Question {
         let colors: Vec<_> = (matches.iter())
             .map(|m| color_at(&pictures[0], &keypoints[0][m.0 as usize]))
             .collect();
-        let judged = judge([&pixels1, &pixels2], &lenses, self.max_error_px)?;
+        let judged = judge([&pixels1, &pixels2], &cameras, self.max_error_px)?;
         tell(progress, 0.75)?;
-        let mut motion = self.reconstruct(&judged, [&pixels1, &pixels2], &lenses, &colors)?;
+        let mut motion = self.reconstruct(&judged, [&pixels1, &pixels2], &cameras, &colors)?;
         if let Some(motion) = &mut motion {
-            Self::look_everywhere(motion, &pictures, &lenses, &mut |share| {
+            Self::look_everywhere(motion, &pictures, &cameras, &mut |share| {
                 progress(0.8 + 0.2 * share)
             })?;
         }
@@ -90,7 +90,7 @@ impl Question {
         &self,
         judged: &Judged,
         [pixels1, pixels2]: [&[Point2<f64>]; 2],
-        [lens1, lens2]: &[Intrinsics; 2],
+        cameras: &[Camera; 2],
         colors: &[[u8; 3]],
     ) -> Result<Option<Motion>, Error> {
         let Some(motion) = judged.cam2_from_cam1 else {
@@ -107,8 +107,7 @@ impl Question {
         let found = two_view_reconstruction(
             &chosen(pixels1),
             &chosen(pixels2),
-            lens1,
-            lens2,
+            cameras.each_ref(),
             &self.knocked(&motion),
             &TwoViewReconstructionOptions::default(),
             &mut (),
@@ -140,12 +139,12 @@ impl Question {
     fn look_everywhere(
         motion: &mut Motion,
         pictures: &[Picture; 2],
-        lenses: &[Intrinsics; 2],
+        cameras: &[Camera; 2],
         progress: Progress<'_>,
     ) -> Result<(), Error> {
         let places: Vec<_> = motion.points.iter().map(|point| point.place).collect();
         let images = pictures.each_ref().map(Picture::image);
-        let found = surface(images, lenses, &motion.cam2_from_cam1, &places, progress);
+        let found = surface(images, cameras, &motion.cam2_from_cam1, &places, progress);
         motion.surface = match found {
             Err(Error::Canceled) => return Err(Error::Canceled),
             found => found.map_err(|error| error.to_string()),

@@ -4,7 +4,7 @@
 use crate::contract::{Panel, Progress};
 use crate::kit::space::Space;
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, RigidTransform};
 use epipole::progress::Status;
 use epipole::stereo::{
     DisparityFilter, DisparityImage, PointCloud, RectifiedPair, RectifyOptions, StereoSgm,
@@ -49,7 +49,7 @@ impl Surface {
 
 /// Computes the surface by stereo matching.
 ///
-/// * `photographs`, `lenses`: the pair and its cameras, without distortion; equal sizes
+/// * `photographs`, `cameras`: the pair, without distortion; equal sizes
 /// * `cam2_from_cam1`: the motion, in units of the baseline
 /// * `places`: points seen by both cameras, in the frame of camera 1
 ///
@@ -58,20 +58,19 @@ impl Surface {
 /// [`StereoSgm::compute`].
 pub(super) fn surface(
     photographs: [&RgbImage; 2],
-    lenses: &[Intrinsics; 2],
+    cameras: &[Camera; 2],
     cam2_from_cam1: &RigidTransform,
     places: &[Point3<f64>],
     progress: Progress<'_>,
 ) -> Result<Surface, Error> {
     let (width, height) = photographs[0].dimensions();
-    let cameras = lenses.map(|intrinsics| Camera::pinhole(intrinsics, width, height));
     let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
     let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
     let options = RectifyOptions::default()
         // Keep everything that a camera saw, not only the common rectangle.
         .with_alpha(1.0)
         .with_size(Some((side(width), side(height))));
-    let rig = rectify_calibrated(&cameras, cam2_from_cam1, &options)?;
+    let rig = rectify_calibrated(cameras, cam2_from_cam1, &options)?;
     let redrawn = RectifiedPair::new(&rig, photographs)?;
     let (min_disparity_px, num_disparities) = searched(rig.disparity_range(places)?);
     let matcher = StereoSgm::default()
@@ -161,9 +160,9 @@ mod tests {
             })
             .collect();
         let images = photographs.each_ref().map(|photograph| &photograph.image);
-        let lenses = cameras.map(|camera| camera.camera.intrinsics);
+        let cameras = cameras.map(|posed| posed.camera);
         let go_on = &mut |_| ControlFlow::Continue(());
-        surface(images, &lenses, &motion, &places, go_on)
+        surface(images, &cameras, &motion, &places, go_on)
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Configuration of a pair, judged from its matches.
 
 use epipole::Error;
-use epipole::camera::{Camera, Intrinsics, RigidTransform};
+use epipole::camera::{Camera, RigidTransform};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
@@ -53,18 +53,13 @@ pub(super) struct Judged {
     pub(super) median_angle_deg: f64,
 }
 
-/// Creates cameras without an image size, which the estimators do not need.
-fn pinholes(intrinsics: &[Intrinsics; 2]) -> [Camera; 2] {
-    intrinsics.map(|k| Camera::pinhole(k, 0, 0))
-}
-
 /// Judges matches; inliers are at most `max_error_px` from their epipolar lines.
 ///
 /// # Errors
 /// For values that are not finite; matches without consensus are a verdict.
 pub(super) fn judge(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
-    lenses: &[Intrinsics; 2],
+    cameras: &[Camera; 2],
     max_error_px: f64,
 ) -> Result<Judged, Error> {
     let nothing = |verdict| Judged {
@@ -80,20 +75,16 @@ pub(super) fn judge(
         .with_ransac(RansacOptions::default().with_max_error_px(max_error_px))
         .with_min_num_inliers(MIN_NUM_MATCHES);
     options.ransac.check()?;
-    let report: TwoViewReport = match estimate_two_view_calibrated(
-        pixels1,
-        pixels2,
-        pinholes(lenses).each_ref(),
-        &options,
-        &mut (),
-    ) {
-        Ok(report) => report,
-        // Wrong matches have no consensus, and matches at one place determine nothing.
-        Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
-            return Ok(nothing(Verdict::NoConsensus));
-        }
-        Err(error) => return Err(error),
-    };
+    let report: TwoViewReport =
+        match estimate_two_view_calibrated(pixels1, pixels2, cameras.each_ref(), &options, &mut ())
+        {
+            Ok(report) => report,
+            // Wrong matches have no consensus, and matches at one place determine nothing.
+            Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
+                return Ok(nothing(Verdict::NoConsensus));
+            }
+            Err(error) => return Err(error),
+        };
     let median_angle_deg = (report.median_triangulation_angle_rad).map_or(0.0, f64::to_degrees);
     let turn_deg =
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
@@ -107,7 +98,7 @@ pub(super) fn judge(
         Configuration::General if fundamental_won => Verdict::Lens,
         Configuration::General => Verdict::Good,
     };
-    let otherwise = turned_otherwise([pixels1, pixels2], lenses, &report, &options)?;
+    let otherwise = turned_otherwise([pixels1, pixels2], cameras, &report, &options)?;
     let (verdict, inliers) = otherwise.unwrap_or((seen, report.inliers));
     let has_depth = matches!(verdict, Verdict::Good | Verdict::Plane | Verdict::Lens);
     Ok(Judged {
@@ -123,7 +114,7 @@ pub(super) fn judge(
 /// fewer inliers.
 fn turned_otherwise(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
-    lenses: &[Intrinsics; 2],
+    cameras: &[Camera; 2],
     report: &TwoViewReport,
     options: &TwoViewOptions,
 ) -> Result<Option<(Verdict, Vec<bool>)>, Error> {
@@ -132,8 +123,13 @@ fn turned_otherwise(
         Configuration::Panoramic => true,
         Configuration::General | Configuration::Degenerate => return Ok(None),
     };
-    let [k1, k2] = lenses;
-    let found = find_turn_and_focal(pixels1, pixels2, k1, k2, &report.inliers, options)?;
+    let found = find_turn_and_focal(
+        pixels1,
+        pixels2,
+        cameras.each_ref(),
+        &report.inliers,
+        options,
+    )?;
     let Some(turn) = found else {
         return Ok(None);
     };
@@ -147,8 +143,10 @@ fn turned_otherwise(
             report.inliers.clone(),
         )));
     }
-    let [k1, k2] = [k1.zoomed(turn.focal_factor)?, k2.zoomed(turn.focal_factor)?];
-    let cameras = pinholes(&[k1, k2]);
+    let mut cameras = *cameras;
+    for camera in &mut cameras {
+        camera.intrinsics = camera.intrinsics.zoomed(turn.focal_factor)?;
+    }
     let better =
         estimate_two_view_calibrated(pixels1, pixels2, cameras.each_ref(), options, &mut ())?;
     let count = |inliers: &[bool]| inliers.iter().filter(|inlier| **inlier).count() as f64;
