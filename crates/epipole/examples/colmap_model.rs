@@ -14,9 +14,13 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     let focal_px = arguments.get(1).map_or(Ok(400.0), |text| text.parse())?;
     let first = photos.first().ok_or("which photographs?")?;
     let (width, height) = first.image.dimensions();
-    let k = Intrinsics::centered(focal_px, width, height)?;
+    let camera = Camera::pinhole(
+        Intrinsics::centered(focal_px, width, height)?,
+        width,
+        height,
+    );
     let (features, options) = (PhotoOptions::default(), SfmOptions::default());
-    let (input, result) = reconstruct_photos(&photos, &[k], &features, &options, &mut ())?;
+    let (input, result) = reconstruct_photos(&photos, &[camera], &features, &options, &mut ())?;
     let model = result
         .components
         .first()

@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
-use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
+use epipole::camera::{Camera, RigidTransform};
 use epipole::feature::Match;
 use epipole::progress::Part;
 use epipole::robust::SamplerKind;
@@ -119,7 +119,7 @@ struct Work<'a> {
 /// The frames, and the camera that took them.
 struct Frames {
     features: Vec<PhotoFeatures>,
-    intrinsics: Intrinsics,
+    camera: Camera,
     /// Of a focal length that nobody gave.
     guess: Option<Guess>,
     lens: Option<KeptLens>,
@@ -156,7 +156,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut left = work.read(&paths)?;
     let right = left.features.split_off(left_paths.len());
     let options = work.options(&left);
-    let begun_with_px = left.intrinsics.fu_px();
+    let begun_with_px = left.camera.intrinsics.fu_px();
     let result = work.follow(left, right, &options)?;
     let Work { progress, .. } = work;
     drop(progress);
@@ -177,11 +177,9 @@ impl Work<'_> {
     /// Options of odometry and of the camera.
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
-        let mut options = (self.arguments).options(self.context, some_unknown(guesses));
-        let lens = (frames.lens).map_or(Lens::NONE, |kept| kept.lens);
-        options.sfm.lenses = vec![lens];
+        let options = (self.arguments).options(self.context, some_unknown(guesses));
         let refined = &self.arguments.refined;
-        refined.tell_of_nothing_to_refine(&options.sfm.lenses, self.context);
+        refined.tell_of_nothing_to_refine(&[frames.camera], self.context);
         if refined.is_given() && !options.final_adjustment {
             self.context.warn(
                 "nothing of the lens is refined with --final-adjustment=false: it is refined by all frames at the end",
@@ -229,7 +227,7 @@ impl Work<'_> {
                     let (intrinsics, guess) = self.arguments.camera.or_guess(&photo)?;
                     none.insert(Frames {
                         features: Vec::new(),
-                        intrinsics,
+                        camera: photo.camera(intrinsics),
                         guess,
                         lens: photo.lens,
                     })
@@ -271,7 +269,7 @@ impl Work<'_> {
         right: Vec<PhotoFeatures>,
         options: &OdometryOptions,
     ) -> Result<OdometryResult, Failure> {
-        let (intrinsics, left) = (left.intrinsics, left.features);
+        let (camera, left) = (left.camera, left.features);
         let watch = &mut |status| self.progress.show(status);
         let mut part = Part::new(watch, DETECTED, MATCHED);
         let pairs = match_features(&left, &self.options, &mut part)?;
@@ -287,7 +285,7 @@ impl Work<'_> {
         };
         let input = SfmInput {
             images: images(left),
-            intrinsics: vec![intrinsics],
+            cameras: vec![camera],
             pairs,
         };
         let monitor = &mut Part::new(watch, MATCHED, 1.0);
@@ -297,7 +295,7 @@ impl Work<'_> {
                 &images(right),
                 &left_right,
                 &RigidTransform::translation(-baseline_m, 0.0, 0.0),
-                &intrinsics,
+                &camera,
                 options,
                 monitor,
             )?,

@@ -21,6 +21,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
+use epipole::camera::{Camera, Lens};
 use epipole::progress::{Monitor, Part};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
@@ -91,12 +92,15 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         false => None,
     };
     let positions = arguments.positions.give(&mut photos, &places)?;
-    let lenses = (arguments.growth).give_lenses(&mut photos, &intrinsics, &lenses);
-    (arguments.growth.refined).tell_of_nothing_to_refine(&lenses, context);
-    let options = arguments
-        .growth
-        .options(&arguments.robust, context, some_unknown(&guesses))
-        .with_lenses(lenses);
+    (arguments.growth).number_lenses(&mut photos, &intrinsics, &lenses);
+    let cameras: Vec<Camera> = (photos.iter().zip(intrinsics.iter().zip(&lenses)))
+        .map(|(photo, (k, kept))| Camera {
+            lens: kept.map_or(Lens::NONE, |kept| kept.lens),
+            ..Camera::pinhole(*k, photo.image.width(), photo.image.height())
+        })
+        .collect();
+    (arguments.growth.refined).tell_of_nothing_to_refine(&cameras, context);
+    let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
         let then = if refine_focal { ", to be refined" } else { "" };
@@ -113,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         match_photos(&photos, &photo_options, &mut Part::new(watch, 0.0, MATCHED))?;
     let mut input = SfmInput {
         images,
-        intrinsics: intrinsics.clone(),
+        cameras,
         pairs,
     };
     let result = grown(&input, &options, &mut Part::new(watch, MATCHED, 1.0))?;

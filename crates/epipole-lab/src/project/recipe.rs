@@ -190,7 +190,7 @@ impl Project {
             None => (
                 "    let undistortion = None;\n".to_owned(),
                 "PrepareOptions, prepare_photo",
-                "Intrinsics",
+                "Camera, Intrinsics",
             ),
         };
         format!(
@@ -203,17 +203,18 @@ impl Project {
              let files: [(&str, Option<f64>); {count}] = [\n{photos}    ];\n{undistortion}    \
              let prepare = PrepareOptions::default()\n        .with_max_pixels({max_pixels})\n        \
              .with_undistortion(undistortion);\n    \
-             let (mut photos, mut intrinsics) = (Vec::new(), Vec::new());\n    \
+             let (mut photos, mut cameras) = (Vec::new(), Vec::new());\n    \
              for (path, focal_px) in files {{\n        \
              let photo = prepare_photo(&std::fs::read(path)?, &prepare)?;\n        \
              let (width, height) = photo.image.dimensions();\n        \
              let longer = f64::from(width.max(height));\n        \
              let told_px = photo.focal_px.unwrap_or(1.2 * longer);\n        \
-             intrinsics.push(match (focal_px.map(|f| photo.reduced_focal_px(f)), photo.intrinsics) {{\n            \
+             let k = match (focal_px.map(|f| photo.reduced_focal_px(f)), photo.intrinsics) {{\n            \
              (Some(f), Some(k)) => Intrinsics::new(f, f, k.principal_point().x, k.principal_point().y)?,\n            \
              (Some(f), None) => Intrinsics::centered(f, width, height)?,\n            \
              (None, Some(k)) => k,\n            \
-             (None, None) => Intrinsics::centered(told_px, width, height)?,\n        }});\n        \
+             (None, None) => Intrinsics::centered(told_px, width, height)?,\n        }};\n        \
+             cameras.push(Camera::pinhole(k, width, height));\n        \
              let name = path.rsplit('/').next().unwrap_or(path).to_owned();\n        \
              photos.push(Photo {{ name, image: photo.image, ..Photo::default() }});\n    }}\n    \
              let mut how = PhotoOptions::default();\n    \
@@ -226,7 +227,7 @@ impl Project {
              .with_refine_focal({refine_focal})\n        .with_refine_distortion({refine_distortion})\n        \
              .with_seed({seed});\n    \
              let (input, found) =\n        \
-             reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;\n    \
+             reconstruct_photos(&photos, &cameras, &how, &options, &mut ())?;\n    \
              let largest = found.components.first().ok_or(\"no two photographs show enough of the same thing\")?;\n    \
              let model = largest.to_colmap(&input.images);\n    \
              std::fs::create_dir_all(\"sparse/0\")?;\n    \

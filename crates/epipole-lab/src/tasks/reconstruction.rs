@@ -2,10 +2,10 @@
 
 use super::convert::{intrinsics, sentence, sfm_images};
 use super::{
-    Answer, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress, Reconstructed,
-    SfmOptions, Told,
+    Answer, Calibrated, CameraFound, Component, ImagePoints, PairOf, PointFound, Progress,
+    Reconstructed, SfmOptions, Told,
 };
-use epipole::camera::{Lens, PosedCamera};
+use epipole::camera::{Camera, Lens, PosedCamera};
 use epipole::progress::Status;
 use epipole::sfm::{
     IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
@@ -28,9 +28,12 @@ pub(super) fn reconstruct(
     };
     let input = SfmInput {
         images: sfm_images(images),
-        intrinsics: (images.iter())
-            .map(|image| intrinsics(&image.camera))
-            .collect::<Result<_, _>>()?,
+        cameras: (images.iter())
+            .map(|image| {
+                let Calibrated { width, height, .. } = image.camera;
+                Ok(Camera::pinhole(intrinsics(&image.camera)?, width, height))
+            })
+            .collect::<Result<_, String>>()?,
         pairs: pairs.iter().map(plain).collect(),
     };
     let how = epipole::sfm::SfmOptions::default()

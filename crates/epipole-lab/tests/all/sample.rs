@@ -4,7 +4,7 @@ use crate::common::depth::every_pixel_has_its_depth;
 use crate::common::growing::it_grows_as_one_watches;
 use crate::common::measured::{a_known_length_sets_the_scale, three_points_set_the_floor};
 use crate::common::{exported, finish, sentences, solved, steps_between};
-use epipole::camera::Intrinsics;
+use epipole::camera::{Camera, Intrinsics};
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_lab::project::{Event, Fate, Project, RefineFocal};
 use epipole_lab::tasks::{Answer, FeatureKind, Sample};
@@ -29,7 +29,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
 
     // Bit for bit what the core makes of the same photographs in one go.
     let mut photos = Vec::new();
-    let mut intrinsics = Vec::new();
+    let mut cameras = Vec::new();
     for given in &project.document().photos {
         let pixels = project.photograph(given).unwrap();
         let image = RgbImage::from_raw(pixels.width, pixels.height, pixels.rgb.to_vec()).unwrap();
@@ -39,12 +39,13 @@ fn the_sample_is_solved_as_the_core_solves_it() {
             ..Photo::default()
         });
         let focal_px = pixels.focal_px.unwrap();
-        intrinsics.push(Intrinsics::centered(focal_px, pixels.width, pixels.height).unwrap());
+        let k = Intrinsics::centered(focal_px, pixels.width, pixels.height).unwrap();
+        cameras.push(Camera::pinhole(k, pixels.width, pixels.height));
     }
     let mut how = PhotoOptions::default();
     how.features.max_features = 8192;
     let options = SfmOptions::default();
-    let (_, direct) = reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ()).unwrap();
+    let (_, direct) = reconstruct_photos(&photos, &cameras, &how, &options, &mut ()).unwrap();
     assert_eq!(direct.components.len(), 1);
     let places = |points: &[epipole::sfm::ScenePoint]| -> Vec<[f64; 3]> {
         points.iter().map(|p| p.position.coords.into()).collect()

@@ -26,18 +26,19 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let prepare = PrepareOptions::default()
         .with_max_pixels(200000)
         .with_undistortion(undistortion);
-    let (mut photos, mut intrinsics) = (Vec::new(), Vec::new());
+    let (mut photos, mut cameras) = (Vec::new(), Vec::new());
     for (path, focal_px) in files {
         let photo = prepare_photo(&std::fs::read(path)?, &prepare)?;
         let (width, height) = photo.image.dimensions();
         let longer = f64::from(width.max(height));
         let told_px = photo.focal_px.unwrap_or(1.2 * longer);
-        intrinsics.push(match (focal_px.map(|f| photo.reduced_focal_px(f)), photo.intrinsics) {
+        let k = match (focal_px.map(|f| photo.reduced_focal_px(f)), photo.intrinsics) {
             (Some(f), Some(k)) => Intrinsics::new(f, f, k.principal_point().x, k.principal_point().y)?,
             (Some(f), None) => Intrinsics::centered(f, width, height)?,
             (None, Some(k)) => k,
             (None, None) => Intrinsics::centered(told_px, width, height)?,
-        });
+        };
+        cameras.push(Camera::pinhole(k, width, height));
         let name = path.rsplit('/').next().unwrap_or(path).to_owned();
         photos.push(Photo { name, image: photo.image, ..Photo::default() });
     }
@@ -53,7 +54,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         .with_refine_distortion(false)
         .with_seed(0);
     let (input, found) =
-        reconstruct_photos(&photos, &intrinsics, &how, &options, &mut ())?;
+        reconstruct_photos(&photos, &cameras, &how, &options, &mut ())?;
     let largest = found.components.first().ok_or("no two photographs show enough of the same thing")?;
     let model = largest.to_colmap(&input.images);
     std::fs::create_dir_all("sparse/0")?;

@@ -89,7 +89,7 @@ pub struct SfmResult {
 ///
 /// # Errors
 /// [`TooFew`](crate::Error::TooFew) for fewer than two photographs,
-/// [`SizeMismatch`](crate::Error::SizeMismatch) unless there is one set of intrinsics or one a
+/// [`SizeMismatch`](crate::Error::SizeMismatch) unless there is one camera or one a
 /// photograph, [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with
 /// invalid indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, in a lens, too,
 /// [`Canceled`](crate::Error::Canceled).
@@ -120,11 +120,11 @@ pub fn reconstruct(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::sfm::{IncrementalReconstruction, SfmImage, SfmInput, SfmOptions};
 /// let input = SfmInput {
 ///     images: vec![SfmImage::default(); 2],
-///     intrinsics: vec![Intrinsics::centered(500.0, 640, 480)?],
+///     cameras: vec![Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480)],
 ///     pairs: vec![],
 /// };
 /// let mut run = IncrementalReconstruction::new(&input, &SfmOptions::default(), &mut ())?;
@@ -170,11 +170,11 @@ impl IncrementalReconstruction {
     /// As [`reconstruct`].
     pub fn new(input: &SfmInput, options: &SfmOptions, monitor: &mut dyn Monitor) -> Result<Self> {
         let images = &input.images;
-        let intrinsics = check(OF_PHOTOGRAPHS, images, &input.intrinsics, options)?;
+        let cameras = check(OF_PHOTOGRAPHS, images, &input.cameras, options)?;
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
         // Bad indices are found before the work begins.
         build_tracks(&counts, &input.pairs)?;
-        let mut builder = Builder::new(images, intrinsics, options);
+        let mut builder = Builder::new(images, cameras, options);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
         let verified = verify_pairs(&input.pairs, &builder.views, options, &mut part)?;
         let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();

@@ -10,7 +10,7 @@ use super::options::{SfmInput, check};
 use super::reconstruction::SfmImage;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
-use crate::camera::{Intrinsics, RigidTransform};
+use crate::camera::{Camera, RigidTransform};
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use std::collections::VecDeque;
@@ -59,7 +59,7 @@ pub fn monocular_odometry(
 /// * `right`: the same frames of the right camera
 /// * `left_right`: matches between the two images of each frame, left first
 /// * `right_from_left`: the rig; for rectified images its translation is minus the baseline along x
-/// * `right_intrinsics`: of the right camera
+/// * `right_camera`: of the right images
 /// * `monitor`: as in [`monocular_odometry`]
 ///
 /// # Errors
@@ -73,7 +73,7 @@ pub fn stereo_odometry(
     right: &[SfmImage],
     left_right: &[Vec<(u32, u32)>],
     right_from_left: &RigidTransform,
-    right_intrinsics: &Intrinsics,
+    right_camera: &Camera,
     options: &OdometryOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<OdometryResult> {
@@ -82,7 +82,7 @@ pub fn stereo_odometry(
         right,
         left_right,
         right_from_left,
-        right_intrinsics,
+        right_camera,
         options,
         monitor,
     )?
@@ -126,8 +126,8 @@ impl Odometry {
         options: &OdometryOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self> {
-        let intrinsics = check(OF_FRAMES, &input.images, &input.intrinsics, &options.sfm)?;
-        Self::start(input, intrinsics, None, options, monitor)
+        let cameras = check(OF_FRAMES, &input.images, &input.cameras, &options.sfm)?;
+        Self::start(input, cameras, None, options, monitor)
     }
 
     /// Tests the pairs and finds the first frame of [`stereo_odometry`].
@@ -141,7 +141,7 @@ impl Odometry {
         right: &[SfmImage],
         left_right: &[Vec<(u32, u32)>],
         right_from_left: &RigidTransform,
-        right_intrinsics: &Intrinsics,
+        right_camera: &Camera,
         options: &OdometryOptions,
         monitor: &mut dyn Monitor,
     ) -> Result<Self> {
@@ -167,10 +167,10 @@ impl Odometry {
                 why: "the two cameras are at the same place",
             });
         }
-        let mut intrinsics = check(OF_FRAMES, &left.images, &left.intrinsics, &options.sfm)?;
+        let mut cameras = check(OF_FRAMES, &left.images, &left.cameras, &options.sfm)?;
         let mut input = left.clone();
         input.images.extend(right.iter().cloned());
-        intrinsics.resize(2 * num_frames, *right_intrinsics);
+        cameras.resize(2 * num_frames, *right_camera);
         // Right images are linked to other frames only through their left ones.
         for (frame, matches) in left_right.iter().enumerate() {
             input.pairs.push(PairMatches {
@@ -179,13 +179,13 @@ impl Odometry {
                 matches: matches.clone(),
             });
         }
-        check(OF_FRAMES, &input.images, &intrinsics, &options.sfm)?;
-        Self::start(&input, intrinsics, Some(right_from_left), options, monitor)
+        check(OF_FRAMES, &input.images, &cameras, &options.sfm)?;
+        Self::start(&input, cameras, Some(right_from_left), options, monitor)
     }
 
     fn start(
         input: &SfmInput,
-        intrinsics: Vec<Intrinsics>,
+        cameras: Vec<Camera>,
         right_from_left: Option<&RigidTransform>,
         options: &OdometryOptions,
         monitor: &mut dyn Monitor,
@@ -198,14 +198,14 @@ impl Odometry {
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
         // Bad indices are found before the work begins.
         build_tracks(&counts, &input.pairs)?;
-        let mut builder = Builder::new(images, intrinsics, &options.sfm);
+        let mut builder = Builder::new(images, cameras, &options.sfm);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
         let verified = verify_pairs(&input.pairs, &builder.views, &options.sfm, &mut part)?;
         let surviving: Vec<PairMatches> = verified.iter().map(|v| v.pair.clone()).collect();
         builder.join_tracks(&surviving)?;
         builder.rig = (right_from_left.zip(images.get(num_frames))).map(|(motion, right)| Sensor {
             sensor_from_camera: *motion,
-            camera: builder.camera(num_frames),
+            camera: builder.calibration[num_frames],
             lens: right.lens,
         });
         let mut part = Part::new(monitor, VERIFIED, VERIFIED);
@@ -316,16 +316,17 @@ impl Odometry {
     /// better one other matches fit.
     fn adjust_all(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
         let builder = &mut self.builder;
-        let before = builder.intrinsics.clone();
+        let before = builder.calibration.clone();
         builder.complete();
         builder.triangulate();
         let mut part = Part::new(monitor, self.share, self.share);
         let cost = builder.adjust(None, 50, true, &mut part);
         builder.filter();
         let cost = cost?;
-        let mut both = before.iter().zip(&builder.intrinsics);
-        let is_settled =
-            both.all(|(old, new)| (new.fu_px() / old.fu_px() - 1.0).abs() < SETTLED_FOCAL);
+        let mut both = before.iter().zip(&builder.calibration);
+        let is_settled = both.all(|(old, new)| {
+            (new.intrinsics.fu_px() / old.intrinsics.fu_px() - 1.0).abs() < SETTLED_FOCAL
+        });
         self.num_adjustments = match is_settled {
             true => 0,
             false => self.num_adjustments - 1,

@@ -3,19 +3,20 @@
 use super::bundle::PositionPrior;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
-use crate::camera::{Intrinsics, Lens};
+use crate::camera::Camera;
 use crate::robust::RansacOptions;
 use crate::two_view::PHOTO_MAX_ERROR_PX;
 use crate::{Error, Result};
 use derive_setters::Setters;
+use std::collections::BTreeMap;
 
 /// Photographs, reduced to keypoints, and matches between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SfmInput {
     /// The photographs.
     pub images: Vec<SfmImage>,
-    /// The intrinsics of each photograph, or one for all.
-    pub intrinsics: Vec<Intrinsics>,
+    /// The camera of each photograph, or one for all.
+    pub cameras: Vec<Camera>,
     /// Matches between photographs, wrong ones among them.
     pub pairs: Vec<PairMatches>,
 }
@@ -57,9 +58,6 @@ pub struct SfmOptions {
     pub refine_distortion: bool,
     /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
-    /// The lenses to start with, or to keep, by their number ([`SfmImage::lens`]); missing ones
-    /// bend nothing. None.
-    pub lenses: Vec<Lens>,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
 }
@@ -78,7 +76,6 @@ impl Default for SfmOptions {
             refine_principal_point: false,
             refine_distortion: false,
             refine_tangential: false,
-            lenses: Vec::new(),
             seed: 0,
         }
     }
@@ -87,15 +84,15 @@ impl Default for SfmOptions {
 /// Name of the result in [`TooFew`](crate::Error::TooFew).
 pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
 
-/// Checks images, intrinsics and options; returns the intrinsics of each image.
+/// Checks images, cameras and options; returns the camera of each image.
 ///
 /// * `what`: name of the result, for the error of too few
 pub(super) fn check(
     what: &'static str,
     images: &[SfmImage],
-    intrinsics: &[Intrinsics],
+    cameras: &[Camera],
     options: &SfmOptions,
-) -> Result<Vec<Intrinsics>> {
+) -> Result<Vec<Camera>> {
     let count = images.len();
     if count < 2 {
         return Err(Error::TooFew {
@@ -104,13 +101,7 @@ pub(super) fn check(
             got: count,
         });
     }
-    if intrinsics.len() != 1 && intrinsics.len() != count {
-        return Err(Error::SizeMismatch {
-            what: "the lists of photographs and of their intrinsics",
-            first: count,
-            second: intrinsics.len(),
-        });
-    }
+    check_count(count, cameras)?;
     for image in images {
         if !image
             .keypoints
@@ -150,14 +141,36 @@ pub(super) fn check(
         }
     }
     pair_ransac(options).check()?;
-    options.lenses.iter().try_for_each(Lens::check)?;
+    (cameras.iter()).try_for_each(|camera| camera.lens.check())?;
     (images.iter())
         .filter_map(|image| image.position.as_ref())
         .try_for_each(PositionPrior::check)?;
-    Ok(if intrinsics.len() == 1 {
-        vec![intrinsics[0]; count]
-    } else {
-        intrinsics.to_vec()
+    let cameras = match cameras {
+        [one] => vec![*one; count],
+        each => each.to_vec(),
+    };
+    let mut lens_of = BTreeMap::new();
+    for (image, camera) in images.iter().zip(&cameras) {
+        if *lens_of.entry(image.lens).or_insert(camera.lens) != camera.lens {
+            return Err(Error::Degenerate {
+                what: "a lens that photographs share",
+                why: "their coefficients differ; give each its own number in SfmImage::lens",
+            });
+        }
+    }
+    Ok(cameras)
+}
+
+/// # Errors
+/// [`Error::SizeMismatch`] unless there is one camera, or one for each photograph.
+pub(super) fn check_count(num_photos: usize, cameras: &[Camera]) -> Result<()> {
+    if cameras.len() == 1 || cameras.len() == num_photos {
+        return Ok(());
+    }
+    Err(Error::SizeMismatch {
+        what: "the lists of photographs and of their cameras",
+        first: num_photos,
+        second: cameras.len(),
     })
 }
 
@@ -167,10 +180,4 @@ pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
         seed: options.seed,
         ..options.ransac
     }
-}
-
-/// The initial lens of each image.
-pub(super) fn lenses(images: &[SfmImage], options: &SfmOptions) -> Vec<Lens> {
-    let of = |image: &SfmImage| options.lenses.get(image.lens).copied().unwrap_or_default();
-    images.iter().map(of).collect()
 }

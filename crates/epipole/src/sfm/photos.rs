@@ -2,10 +2,10 @@
 
 use super::bundle::PositionPrior;
 use super::incremental::{SfmResult, reconstruct};
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions};
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check_count};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
-use crate::camera::Intrinsics;
+use crate::camera::Camera;
 use crate::feature::{
     AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
     match_any_descriptors, photo_to_gray,
@@ -224,8 +224,7 @@ const MATCHED: f32 = 0.6;
 
 /// Cameras and points from photographs: features, matches, and [`reconstruct`].
 ///
-/// * `intrinsics`: of each photograph, or one for all
-///
+/// * `cameras`: of each photograph, or one for all
 /// * `monitor`: the stages are those of [`match_photos`], then those of [`reconstruct`]
 ///
 /// Returns the keypoints and matches, too.
@@ -236,23 +235,17 @@ const MATCHED: f32 = 0.6;
 /// Source: as [`reconstruct`].
 pub fn reconstruct_photos(
     photos: &[Photo],
-    intrinsics: &[Intrinsics],
+    cameras: &[Camera],
     photo_options: &PhotoOptions,
     options: &SfmOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<(SfmInput, SfmResult)> {
-    if intrinsics.len() != 1 && intrinsics.len() != photos.len() {
-        return Err(Error::SizeMismatch {
-            what: "the lists of photographs and of their intrinsics",
-            first: photos.len(),
-            second: intrinsics.len(),
-        });
-    }
+    check_count(photos.len(), cameras)?;
     let mut part = Part::new(monitor, 0.0, MATCHED);
     let (images, pairs) = match_photos(photos, photo_options, &mut part)?;
     let input = SfmInput {
         images,
-        intrinsics: intrinsics.to_vec(),
+        cameras: cameras.to_vec(),
         pairs,
     };
     let result = reconstruct(&input, options, &mut Part::new(monitor, MATCHED, 1.0))?;

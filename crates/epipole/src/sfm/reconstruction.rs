@@ -18,8 +18,8 @@ pub struct SfmImage {
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.
     pub colors: Vec<[u8; 3]>,
-    /// Its lens, of [`SfmOptions::lenses`](super::SfmOptions::lenses): photographs with the same
-    /// number share what is refined of it. 0.
+    /// Number of its lens: photographs with the same number have equal lenses and share what is
+    /// refined of them. 0.
     pub lens: usize,
     /// Position of the camera, if known.
     pub position: Option<PositionPrior>,

@@ -1,10 +1,10 @@
 //! Which matches of two photographs belong together, and how the cameras moved between them.
 
-use super::options::{SfmOptions, lenses, pair_ransac};
+use super::options::{SfmOptions, pair_ransac};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use super::views::Views;
-use crate::camera::{Camera, Intrinsics, Lens, RigidTransform};
+use crate::camera::{Camera, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::homography::estimate_homography;
 use crate::progress::{Monitor, Stage, report};
@@ -34,18 +34,18 @@ pub struct VerifiedPair {
 /// The matches of two photographs that agree with one motion of the camera; `None` if too few do.
 ///
 /// * `pair`: matches of the photographs' keypoints
-/// * `images`, `intrinsics`: of the two photographs that the pair names
-/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`], [`SfmOptions::lenses`] and
-///   the seed
+/// * `images`, `cameras`: of the two photographs that the pair names
+/// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`] and the seed
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if a match refers to a keypoint that is not there.
+/// [`Error::OutOfRange`] if a match refers to a keypoint that is not there, [`Error::NotFinite`]
+/// for a lens with such a coefficient.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
 pub fn verify_matches(
     pair: &PairMatches,
     images: [&SfmImage; 2],
-    intrinsics: [&Intrinsics; 2],
+    cameras: [&Camera; 2],
     options: &SfmOptions,
 ) -> Result<Option<VerifiedPair>> {
     let counts = images.map(|image| image.keypoints.len());
@@ -59,10 +59,8 @@ pub fn verify_matches(
         });
     }
     let images = images.map(Clone::clone);
-    let intrinsics = intrinsics.map(|k| *k);
-    let of_each = lenses(&images, options);
-    of_each.iter().try_for_each(Lens::check)?;
-    let views = Views::new(&images, &intrinsics, &of_each);
+    (cameras.iter()).try_for_each(|camera| camera.lens.check())?;
+    let views = Views::new(&images, &cameras.map(|camera| *camera));
     // The two are all the images that there are.
     let here = PairMatches {
         image1: 0,

@@ -1,7 +1,7 @@
 //! Why photographs are missing from a reconstruction.
 
 use super::incremental::SfmResult;
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check, lenses, pair_ransac};
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check, pair_ransac};
 use super::two_view_start::verify_pair;
 use super::views::Views;
 use crate::Result;
@@ -80,12 +80,12 @@ const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::Intrinsics;
+/// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::sfm::{SfmImage, SfmInput, SfmOptions, reconstruct, why_unregistered};
 /// // Two photographs without a feature.
 /// let input = SfmInput {
 ///     images: vec![SfmImage::default(); 2],
-///     intrinsics: vec![Intrinsics::centered(500.0, 640, 480)?],
+///     cameras: vec![Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480)],
 ///     pairs: vec![],
 /// };
 /// let options = SfmOptions::default();
@@ -100,8 +100,8 @@ pub fn why_unregistered(
     result: &SfmResult,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<WhyUnregistered>> {
-    let intrinsics = check(OF_PHOTOGRAPHS, &input.images, &input.intrinsics, options)?;
-    let views = Views::new(&input.images, &intrinsics, &lenses(&input.images, options));
+    let cameras = check(OF_PHOTOGRAPHS, &input.images, &input.cameras, options)?;
+    let views = Views::new(&input.images, &cameras);
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
     // Which keypoints of placed photographs belong to points.
@@ -194,7 +194,7 @@ mod tests {
     use super::super::reconstruction::SfmImage;
     use super::super::tracks::PairMatches;
     use super::*;
-    use crate::camera::{Intrinsics, RigidTransform};
+    use crate::camera::{Camera, Intrinsics, RigidTransform};
     use crate::math::random::Random;
     use nalgebra::{Point2, Point3, Vector3};
 
@@ -248,7 +248,7 @@ mod tests {
                     ..SfmImage::default()
                 })
                 .collect(),
-            intrinsics: vec![k],
+            cameras: vec![Camera::pinhole(k, 640, 480)],
             pairs: vec![
                 pair(0, 1, &all),
                 pair(0, 2, &all),

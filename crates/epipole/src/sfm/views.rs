@@ -1,7 +1,7 @@
 //! Keypoints and cameras from which motions, poses and points are found.
 
 use super::reconstruction::SfmImage;
-use crate::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, Observation};
+use crate::camera::{Camera, Distortion, Lens, LensKind, Observation};
 use nalgebra::Point2;
 
 /// The keypoints of all images with their cameras.
@@ -16,26 +16,22 @@ pub(super) struct Views {
 }
 
 impl Views {
-    /// * `intrinsics`, `lenses`: of each image
-    pub(super) fn new(images: &[SfmImage], intrinsics: &[Intrinsics], lenses: &[Lens]) -> Self {
-        let pinhole =
-            |(image, k): (&SfmImage, &Intrinsics)| Camera::pinhole(*k, image.width, image.height);
-        let cameras = images.iter().zip(intrinsics).map(pinhole);
-        if lenses.iter().all(|lens| lens.kind() == LensKind::Brown) {
+    /// * `cameras`: of each image
+    pub(super) fn new(images: &[SfmImage], cameras: &[Camera]) -> Self {
+        let pinhole = |camera: &Camera| Camera {
+            lens: Lens::NONE,
+            ..*camera
+        };
+        if (cameras.iter()).all(|camera| camera.lens.kind() == LensKind::Brown) {
             return Self {
-                cameras: cameras.collect(),
-                pixels: undistorted(images, intrinsics, lenses),
+                cameras: cameras.iter().map(pinhole).collect(),
+                pixels: undistorted(images, cameras),
                 observed: None,
             };
         }
-        let bent = |(camera, lens): (Camera, &Lens)| Camera {
-            lens: *lens,
-            ..camera
-        };
-        let cameras: Vec<Camera> = cameras.zip(lenses).map(bent).collect();
         Self {
-            observed: Some(observed(images, &cameras)),
-            cameras,
+            observed: Some(observed(images, cameras)),
+            cameras: cameras.to_vec(),
             pixels: images.iter().map(|image| image.keypoints.clone()).collect(),
         }
     }
@@ -68,16 +64,13 @@ fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observati
 }
 
 /// All keypoints as a camera without distortion would show them.
-fn undistorted(
-    images: &[SfmImage],
-    intrinsics: &[Intrinsics],
-    lenses: &[Lens],
-) -> Vec<Vec<Point2<f64>>> {
+fn undistorted(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Point2<f64>>> {
     images
         .iter()
-        .zip(intrinsics.iter().zip(lenses))
-        .map(|(image, (k, lens))| {
-            let distortion = match lens {
+        .zip(cameras)
+        .map(|(image, camera)| {
+            let k = &camera.intrinsics;
+            let distortion = match &camera.lens {
                 Lens::Brown(distortion) if *distortion != Distortion::NONE => distortion,
                 _ => return image.keypoints.clone(),
             };

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "decode")]
 
-use epipole::camera::{Intrinsics, RigidTransform};
+use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::imaging::{DecodeOptions, decode_rgb};
 use epipole::progress::Status;
 use epipole::sfm::{
@@ -56,6 +56,7 @@ fn kitti_turn_is_followed() {
             }
         })
         .collect();
+    let (width, height) = photos[0].image.dimensions();
     let begin = std::time::Instant::now();
     let mut photo_options = PhotoOptions::default().with_neighbors(4);
     photo_options.features.max_features = 3000;
@@ -66,7 +67,7 @@ fn kitti_turn_is_followed() {
     let (images, pairs) = match_photos(&photos, &photo_options, &mut observer).expect("matches");
     let input = SfmInput {
         images,
-        intrinsics: vec![intrinsics],
+        cameras: vec![Camera::pinhole(intrinsics, width, height)],
         pairs,
     };
     for final_adjustment in [false, true] {
@@ -104,7 +105,7 @@ fn kitti_turn_is_followed() {
     for share in [0.75, 1.25] {
         let guess = Intrinsics::new(share * k[0], share * k[5], k[2], k[6]).expect("intrinsics");
         let unknown = SfmInput {
-            intrinsics: vec![guess],
+            cameras: vec![Camera::pinhole(guess, width, height)],
             ..input.clone()
         };
         let mut options = OdometryOptions::default();

@@ -42,6 +42,13 @@ fn lens(kind: LensKind) -> Lens {
     Lens::from_coefficients(kind, numbers).unwrap()
 }
 
+fn seen_through(lens: Lens) -> Camera {
+    Camera {
+        lens,
+        ..Camera::pinhole(k(), SIZE, SIZE)
+    }
+}
+
 /// Cameras go through a hall whose walls, floor and ceiling are full of points, and look ahead,
 /// more or less.
 fn hall(count: usize, making: Making, seed: u64) -> World {
@@ -56,7 +63,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
     let mut world = World {
         cameras: Vec::new(),
         input: SfmInput {
-            intrinsics: vec![k()],
+            cameras: vec![seen_through(making.lens)],
             ..SfmInput::default()
         },
     };
@@ -68,7 +75,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
         let rotation = RigidTransform::new(Vector3::zeros(), turn);
         let shift = -(rotation.rotation * (making.step * center));
         let camera = PosedCamera {
-            camera: Camera::pinhole(k(), 640, 480),
+            camera: seen_through(making.lens),
             cam_from_world: RigidTransform::from_parts(shift.into(), rotation.rotation),
         };
         let mut image = SfmImage {
@@ -152,7 +159,7 @@ fn off_centers(world: &World, result: &SfmResult) -> f64 {
 #[test]
 fn a_fisheye_of_190_degrees_is_reconstructed_to_its_border() {
     let world = hall(7, fisheye(), 1);
-    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
+    let options = SfmOptions::default();
     let result = run(&world, &options);
     let found = &result.components[0];
     assert_eq!(found.num_registered(), 7);
@@ -193,8 +200,11 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
         },
         2,
     );
-    world.input.intrinsics = vec![Intrinsics::new(306.0, 308.04, 501.0, 497.0).unwrap()];
-    let start = SfmOptions::default().with_lenses(vec![Fisheye::default().into()]);
+    world.input.cameras = vec![Camera {
+        intrinsics: Intrinsics::new(306.0, 308.04, 501.0, 497.0).unwrap(),
+        ..seen_through(Fisheye::default().into())
+    }];
+    let start = SfmOptions::default();
     let options = start
         .clone()
         .with_refine_focal(true)
@@ -239,8 +249,7 @@ fn rational_and_division_lenses_keep_the_errors_of_the_photograph() {
             ..fisheye()
         };
         let world = hall(6, making, 3);
-        let options = SfmOptions::default().with_lenses(vec![lens(kind)]);
-        let result = run(&world, &options);
+        let result = run(&world, &SfmOptions::default());
         let found = &result.components[0];
         assert_eq!(found.num_registered(), 6, "{kind:?}");
         let off = off_centers(&world, &result);
@@ -274,10 +283,13 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
             *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
         }
     }
-    let mut lenses = vec![lens(LensKind::Fisheye); 6];
-    lenses[5] = brown;
-    let options = SfmOptions::default().with_lenses(lenses);
-    let result = run(&world, &options);
+    world.input.cameras = (0..6)
+        .map(|image| match image % 2 {
+            0 => seen_through(brown),
+            _ => seen_through(lens(LensKind::Fisheye)),
+        })
+        .collect();
+    let result = run(&world, &SfmOptions::default());
     assert_eq!(result.components[0].num_registered(), 6);
     let off = off_centers(&world, &result);
     assert!(off < 0.01, "{off}");
@@ -303,10 +315,10 @@ fn a_fisheye_that_only_turned_begins_nothing() {
         },
         5,
     );
-    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
+    let options = SfmOptions::default();
     let images = [&world.input.images[0], &world.input.images[1]];
     let pair = &world.input.pairs[0];
-    let found = verify_matches(pair, images, [&k(), &k()], &options).unwrap();
+    let found = verify_matches(pair, images, [&world.input.cameras[0]; 2], &options).unwrap();
     assert_eq!(found.map(|pair| pair.median_angle_rad), Some(0.0));
     let result = run(&world, &options);
     assert!(result.components.is_empty());
@@ -320,23 +332,26 @@ fn a_fisheye_that_only_turned_begins_nothing() {
 
 #[test]
 fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
-    let world = hall(3, fisheye(), 6);
-    let with =
-        |coefficients| SfmOptions::default().with_lenses(vec![Fisheye { coefficients }.into()]);
+    let mut world = hall(3, fisheye(), 6);
+    let options = SfmOptions::default();
+    let with = |coefficients| seen_through(Fisheye { coefficients }.into());
     for k in [f64::NAN, f64::NEG_INFINITY] {
-        let refused = reconstruct(&world.input, &with([0.0, 0.0, k, 0.0]), &mut ());
+        world.input.cameras = vec![with([0.0, 0.0, k, 0.0])];
+        let refused = reconstruct(&world.input, &options, &mut ());
         let told = refused.unwrap_err().to_string();
         assert!(told.contains("every coefficient of the lens"), "{told}");
         let images = [&world.input.images[0], &world.input.images[1]];
         let pair = &world.input.pairs[0];
-        assert!(verify_matches(pair, images, [&k_of(1.0), &k_of(1.0)], &with([k; 4])).is_err());
+        assert!(verify_matches(pair, images, [&with([k; 4]); 2], &options).is_err());
     }
     // It folds 7° off the axis: nearly all keypoints have no ray.
-    let folded = run(&world, &with([-20.0, 0.0, 0.0, 0.0]));
+    world.input.cameras = vec![with([-20.0, 0.0, 0.0, 0.0])];
+    let folded = run(&world, &options);
     assert!(folded.components.is_empty() && folded.unregistered == [0, 1, 2]);
     // Numbers beyond all bounds.
     for coefficients in [[1e300; 4], [-1e300, 1e300, -1e300, 1e300]] {
-        let found = run(&world, &with(coefficients));
+        world.input.cameras = vec![with(coefficients)];
+        let found = run(&world, &options);
         let cameras = found
             .components
             .iter()
@@ -357,7 +372,7 @@ fn k_of(factor: f64) -> Intrinsics {
 #[test]
 fn points_behind_a_lens_are_mirrored_or_refused() {
     let world = hall(3, fisheye(), 7);
-    let options = SfmOptions::default().with_lenses(vec![lens(LensKind::Fisheye)]);
+    let options = SfmOptions::default();
     let result = run(&world, &options);
     let (bundle, _) = result.components[0].to_bundle(&world.input.images);
     for kind in [LensKind::Brown, LensKind::Division, LensKind::Rational] {
@@ -414,8 +429,12 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
         image2: 1,
         matches: (0..300).map(|i| (i, i)).collect(),
     };
-    let options = SfmOptions::default().with_lenses(vec![making.lens]);
-    let found = verify_matches(&pair, [&images[0], &images[1]], [&k, &k], &options);
+    let camera = Camera {
+        intrinsics: k,
+        ..seen_through(making.lens)
+    };
+    let options = SfmOptions::default();
+    let found = verify_matches(&pair, [&images[0], &images[1]], [&camera; 2], &options);
     found.unwrap().unwrap()
 }
 

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "decode")]
 
-use epipole::camera::Intrinsics;
+use epipole::camera::{Camera, Intrinsics};
 use epipole::imaging::{DecodeOptions, decode_rgb};
 use epipole::sfm::{
     AlignmentKind, Photo, PhotoOptions, SfmOptions, absolute_trajectory_error, reconstruct_photos,
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 struct DataSet {
     photos: Vec<Photo>,
-    intrinsics: Intrinsics,
+    camera: Camera,
     centers: Vec<Point3<f64>>,
 }
 
@@ -48,7 +48,11 @@ fn load(name: &str) -> Option<DataSet> {
     };
     let mut set = DataSet {
         photos: Vec::new(),
-        intrinsics: Intrinsics::new(1.0, 1.0, 0.0, 0.0).expect("intrinsics"),
+        camera: Camera::pinhole(
+            Intrinsics::new(1.0, 1.0, 0.0, 0.0).expect("intrinsics"),
+            1,
+            1,
+        ),
         centers: Vec::new(),
     };
     for view in text.split("\"file\"").skip(1) {
@@ -57,13 +61,15 @@ fn load(name: &str) -> Option<DataSet> {
         let image = decode_rgb(&bytes, &DecodeOptions::default())
             .expect("an image")
             .image;
+        let (width, height) = image.dimensions();
         set.photos.push(Photo {
             name: file.to_owned(),
             image,
             ..Photo::default()
         });
         let k = numbers_after(view, "K");
-        set.intrinsics = Intrinsics::new(k[0], k[4], k[2], k[5]).expect("intrinsics");
+        let k = Intrinsics::new(k[0], k[4], k[2], k[5]).expect("intrinsics");
+        set.camera = Camera::pinhole(k, width, height);
         let (r, t) = (numbers_after(view, "R"), numbers_after(view, "t"));
         let r = nalgebra::Matrix3::from_row_slice(&r);
         let t = nalgebra::Vector3::from_row_slice(&t);
@@ -77,7 +83,7 @@ fn run(set: &DataSet, options: &SfmOptions) -> (usize, f64) {
     let begin = std::time::Instant::now();
     let (input, result) = reconstruct_photos(
         &set.photos,
-        &[set.intrinsics],
+        &[set.camera],
         &PhotoOptions::default(),
         options,
         &mut |progress| {

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use clap::Args;
-use epipole::camera::{Lens, LensKind};
+use epipole::camera::{Camera, LensKind};
 use epipole::sfm::SfmOptions;
 
 /// Refined lens parameters.
@@ -38,10 +38,10 @@ impl RefinedArguments {
     }
 
     /// Says what is asked for and cannot be.
-    pub(crate) fn tell_of_nothing_to_refine(&self, lenses: &[Lens], context: &Context) {
+    pub(crate) fn tell_of_nothing_to_refine(&self, cameras: &[Camera], context: &Context) {
         let has_tangential =
-            |lens: &Lens| matches!(lens.kind(), LensKind::Brown | LensKind::Rational);
-        if self.refine_tangential && !lenses.iter().any(has_tangential) {
+            |camera: &Camera| matches!(camera.lens.kind(), LensKind::Brown | LensKind::Rational);
+        if self.refine_tangential && !cameras.iter().any(has_tangential) {
             context.warn(
                 "--refine-tangential makes no difference here: the model of the lens has no tangential terms",
             );

@@ -1,7 +1,7 @@
 //! Bundle adjustment of a growing reconstruction, or of a part of it.
 
 use super::Builder;
-use crate::camera::{Intrinsics, PosedCamera};
+use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
@@ -134,26 +134,26 @@ impl Builder {
                 (None, Some(rig)) => (self.images.len() / 2, rig.camera),
                 (None, None) => continue,
             };
-            let old = self.intrinsics[image];
+            let old = self.calibration[image].intrinsics;
             let factor = refined.intrinsics.fu_px() / old.fu_px();
             let shift_px = refined.intrinsics.principal_point() - old.principal_point();
             for other in (0..self.images.len()).filter(|&i| self.images[i].lens == *name) {
-                let k = self.intrinsics[other];
+                let camera = &mut self.calibration[other];
+                let k = camera.intrinsics;
                 let center = k.principal_point() + shift_px;
                 if let Ok(k) =
                     Intrinsics::new(k.fu_px() * factor, k.fv_px() * factor, center.x, center.y)
                 {
-                    self.intrinsics[other] = k;
+                    camera.intrinsics = k;
                 }
-                self.lenses[other] = refined.lens;
+                camera.lens = refined.lens;
             }
         }
-        let each = self.intrinsics.iter().zip(&self.lenses);
-        for (camera, (intrinsics, lens)) in self.cameras.iter_mut().zip(each) {
-            if let Some(PosedCamera { camera, .. }) = camera {
-                (camera.intrinsics, camera.lens) = (*intrinsics, *lens);
+        for (camera, refined) in self.cameras.iter_mut().zip(&self.calibration) {
+            if let Some(camera) = camera {
+                camera.camera = *refined;
             }
         }
-        self.views = Views::new(&self.images, &self.intrinsics, &self.lenses);
+        self.views = Views::new(&self.images, &self.calibration);
     }
 }

@@ -5,7 +5,7 @@ mod place;
 mod points;
 
 use super::bundle::Sensor;
-use super::options::{SfmOptions, lenses, pair_ransac};
+use super::options::{SfmOptions, pair_ransac};
 use super::reconstruction::{Reconstruction, ScenePoint, SfmImage};
 use super::tracks::{PairMatches, TrackElement, build_tracks};
 use super::triangulate_track::Sight;
@@ -13,7 +13,7 @@ use super::two_view_start::VerifiedPair;
 use super::views::Views;
 use crate::Result;
 use crate::absolute_pose::estimate_absolute_pose;
-use crate::camera::{Camera, Intrinsics, Lens, PosedCamera, RigidTransform};
+use crate::camera::{Camera, PosedCamera, RigidTransform};
 use crate::progress::Monitor;
 use crate::robust::{RansacOptions, SamplerKind};
 use nalgebra::Point3;
@@ -29,11 +29,10 @@ pub(super) struct Builder {
     pub(super) images: Vec<SfmImage>,
     pub(super) options: SfmOptions,
     /// Of each image, before any refinement.
-    first_intrinsics: Vec<Intrinsics>,
+    first_calibration: Vec<Camera>,
     pub(super) views: Views,
-    pub(super) intrinsics: Vec<Intrinsics>,
-    /// Of each image.
-    pub(super) lenses: Vec<Lens>,
+    /// Of each image, refined as far as it is.
+    pub(super) calibration: Vec<Camera>,
     pub(super) tracks: Vec<Vec<TrackElement>>,
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: Vec<Vec<u32>>,
@@ -50,20 +49,14 @@ pub(super) struct Builder {
 impl Builder {
     /// Nothing is registered yet, and [`join_tracks`](Self::join_tracks) gives it tracks.
     ///
-    /// * `intrinsics`: of each image
-    pub(super) fn new(
-        images: &[SfmImage],
-        intrinsics: Vec<Intrinsics>,
-        options: &SfmOptions,
-    ) -> Self {
-        let lenses = lenses(images, options);
+    /// * `calibration`: the camera of each image
+    pub(super) fn new(images: &[SfmImage], calibration: Vec<Camera>, options: &SfmOptions) -> Self {
         Self {
             images: images.to_vec(),
             options: options.clone(),
-            views: Views::new(images, &intrinsics, &lenses),
-            first_intrinsics: intrinsics.clone(),
-            intrinsics,
-            lenses,
+            views: Views::new(images, &calibration),
+            first_calibration: calibration.clone(),
+            calibration,
             tracks: Vec::new(),
             track_of: Vec::new(),
             taken: vec![false; images.len()],
@@ -92,9 +85,8 @@ impl Builder {
 
     /// Forgets cameras, points and refined lenses, for another component.
     pub(super) fn clear(&mut self) {
-        self.intrinsics.clone_from(&self.first_intrinsics);
-        self.lenses = lenses(&self.images, &self.options);
-        self.views = Views::new(&self.images, &self.intrinsics, &self.lenses);
+        self.calibration.clone_from(&self.first_calibration);
+        self.views = Views::new(&self.images, &self.calibration);
         self.cameras.fill(None);
         self.points.fill(None);
         self.is_placed = false;
@@ -110,21 +102,10 @@ impl Builder {
         }
     }
 
-    /// The camera of an image, refined as far as it is.
-    pub(super) fn camera(&self, image: usize) -> Camera {
-        let SfmImage { width, height, .. } = self.images[image];
-        Camera {
-            width,
-            height,
-            intrinsics: self.intrinsics[image],
-            lens: self.lenses[image],
-        }
-    }
-
     /// The camera of an image at a pose.
     pub(super) fn posed(&self, image: usize, cam_from_world: RigidTransform) -> PosedCamera {
         PosedCamera {
-            camera: self.camera(image),
+            camera: self.calibration[image],
             cam_from_world,
         }
     }

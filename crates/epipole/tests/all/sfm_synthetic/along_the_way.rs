@@ -2,6 +2,7 @@
 
 use super::world::{Making, arc, ball, errors, intrinsics, photograph, run};
 use epipole::Error;
+use epipole::camera::Camera;
 use epipole::progress::{Stage, Status};
 use epipole::sfm::{
     IncrementalReconstruction, PairMatches, SfmImage, SfmInput, SfmOptions, SfmStep, reconstruct,
@@ -149,7 +150,7 @@ fn photographs_without_overlap_give_nothing_and_no_error() {
     run(&world, &SfmOptions::default());
     let mut empty = SfmInput {
         images: vec![SfmImage::default(); 3],
-        intrinsics: vec![intrinsics()],
+        cameras: vec![Camera::pinhole(intrinsics(), 640, 480)],
         pairs: Vec::new(),
     };
     empty.pairs.push(PairMatches {
@@ -179,7 +180,7 @@ fn bad_input_is_refused() {
         Err(Error::TooFew { .. })
     ));
     assert!(matches!(
-        attempt(&|i, _| i.intrinsics.clear()),
+        attempt(&|i, _| i.cameras.clear()),
         Err(Error::SizeMismatch { .. })
     ));
     assert!(matches!(

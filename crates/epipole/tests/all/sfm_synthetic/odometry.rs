@@ -144,7 +144,7 @@ fn a_stereo_rig_is_followed_in_meters() {
             &right.input.images,
             left_right,
             right_from_left,
-            &intrinsics(),
+            &Camera::pinhole(intrinsics(), 640, 480),
             &OdometryOptions::default(),
             &mut (),
         )

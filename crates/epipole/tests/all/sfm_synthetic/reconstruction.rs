@@ -1,13 +1,18 @@
 //! Reconstructions against the ground truth.
 
 use super::world::{Making, World, arc, ball, errors, photograph, run};
-use epipole::camera::{Distortion, Intrinsics};
+use epipole::camera::{Camera, Distortion, Intrinsics};
 use epipole::math::random::Random;
 use epipole::sfm::{
     PositionPrior, Reconstruction, SfmInput, SfmOptions, WhyUnregistered, reconstruct,
     why_unregistered,
 };
 use nalgebra::{Point3, Similarity3, Vector3};
+
+fn centered(focal_px: f64) -> Camera {
+    let intrinsics = Intrinsics::centered(focal_px, 640, 480).expect("intrinsics");
+    Camera::pinhole(intrinsics, 640, 480)
+}
 
 #[test]
 fn exact_chained_matches_give_the_exact_cameras() {
@@ -88,7 +93,7 @@ fn focal_length_and_distortion_are_found() {
         making,
         6,
     );
-    world.input.intrinsics = vec![Intrinsics::centered(730.0, 640, 480).expect("intrinsics")];
+    world.input.cameras = vec![centered(730.0)];
     let options = SfmOptions::default()
         .with_refine_focal(true)
         .with_refine_distortion(true);
@@ -150,8 +155,8 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
             }
         }
     }
-    world.input.intrinsics = (0..10)
-        .map(|image| Intrinsics::centered([730.0, 620.0][image % 2], 640, 480).expect("intrinsics"))
+    world.input.cameras = (0..10)
+        .map(|image| centered([730.0, 620.0][image % 2]))
         .collect();
     let options = SfmOptions::default()
         .with_refine_focal(true)

@@ -43,7 +43,7 @@ pub(crate) fn photograph(
 ) -> World {
     let mut random = Random::new(seed);
     let mut input = SfmInput {
-        intrinsics: vec![cameras[0].camera.intrinsics],
+        cameras: vec![cameras[0].camera],
         ..SfmInput::default()
     };
     // The keypoint of each point in each image.
