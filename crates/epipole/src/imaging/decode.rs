@@ -145,15 +145,13 @@ fn decode(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<DynamicImage>
             why: "the file is empty".to_owned(),
         });
     }
-    let mut bytes = Cow::from(bytes);
-    if image::guess_format(&bytes).is_ok_and(|format| format == ImageFormat::Jpeg) {
-        let end = jpeg::check(&bytes, options.max_pixels);
-        if let jpeg::End::Unmarked(at) = end.map_err(|why| Error::BadImage { why })? {
-            // The decoder would take the last rows for lost.
-            bytes = [&bytes[..at], &[0xFF, 0xD9]].concat().into();
-        }
+    let mut whole = Cow::from(bytes);
+    if image::guess_format(bytes).is_ok_and(|format| format == ImageFormat::Jpeg) {
+        let missing = jpeg::check(bytes, options.max_pixels);
+        let missing = missing.map_err(|why| Error::BadImage { why })?;
+        whole = missing.added_to(bytes);
     }
-    let mut reader = ImageReader::new(Cursor::new(&*bytes))
+    let mut reader = ImageReader::new(Cursor::new(&*whole))
         .with_guessed_format()
         .map_err(|error| Error::BadImage {
             why: error.to_string(),
