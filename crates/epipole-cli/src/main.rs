@@ -15,6 +15,7 @@ mod fuzz;
 mod interrupt;
 mod known_camera;
 mod lens;
+mod listing;
 mod matrices;
 mod photo;
 mod picture;

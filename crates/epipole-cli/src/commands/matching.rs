@@ -21,9 +21,9 @@ use std::path::PathBuf;
     1, or null where the lens bends no ray to."
 )]
 pub(crate) struct Arguments {
-    /// A PNG, JPEG or WebP file.
+    /// The first photograph.
     first: PathBuf,
-    /// A PNG, JPEG or WebP file.
+    /// The second photograph.
     second: PathBuf,
     /// Write both photographs with lines between the matches.
     #[arg(long, value_name = "FILE.png")]

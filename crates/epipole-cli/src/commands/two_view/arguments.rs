@@ -50,9 +50,9 @@ pub(super) enum Model {
     a turn; degenerate: no more than chance)."
 )]
 pub(crate) struct Arguments {
-    /// A PNG, JPEG or WebP file.
+    /// The first photograph.
     pub(super) first: PathBuf,
-    /// A PNG, JPEG or WebP file.
+    /// The second photograph.
     pub(super) second: PathBuf,
     /// Which model to look for.
     #[arg(long, value_enum, default_value = "auto")]
