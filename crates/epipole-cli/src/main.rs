@@ -20,6 +20,7 @@ mod matrices;
 mod photo;
 mod picture;
 mod progress;
+mod reading;
 mod refinement;
 mod report;
 mod robust;

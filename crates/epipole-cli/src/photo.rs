@@ -3,135 +3,14 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::matrices::positive;
-use clap::Args;
+use crate::reading::{ReadArguments, SizeArguments};
 use epipole::calibration::{PrepareOptions, PreparedPhoto, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, GrayImage32, PixelRange, decode_rgb, rgb_to_gray};
+use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use epipole::math::Geodetic;
 use image::{GrayImage, RgbImage};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Bytes of a pixel while a photograph is read: decoded, and once more turned upright.
-const BYTES_PER_PIXEL: f64 = 6.0;
-
-/// Reading of photos.
-#[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Photographs")]
-pub(crate) struct ReadArguments {
-    /// Values that become black and white, in the numbers of the file: those in use, if it has more
-    /// than 8 bits (auto); all that it could have (full); or two numbers.
-    #[arg(long, value_name = "auto|full|LOW,HIGH", default_value = "auto", value_parser = range, allow_hyphen_values = true)]
-    range: PixelRange,
-    /// Memory that a photograph may take while it is read, at 6 bytes a pixel. It is downscaled
-    /// after that.
-    #[arg(long, value_name = "GB", default_value_t = 2.0, value_parser = positive)]
-    max_memory_gb: f64,
-}
-
-impl ReadArguments {
-    /// Maximum number of pixels of a file.
-    fn max_file_pixels(self) -> u64 {
-        (self.max_memory_gb * 1e9 / BYTES_PER_PIXEL) as u64
-    }
-
-    /// A sentence about a photograph that cannot be read.
-    fn failure(self, error: epipole::Error, path: &Path) -> Failure {
-        let failure = match error {
-            epipole::Error::TooManyPixels { got, .. } => {
-                let needed_gb = got as f64 * BYTES_PER_PIXEL / 1e9;
-                let message = format!(
-                    "the image has {:.1} megapixels, more than --max-memory-gb {} holds: {:.1} would do",
-                    got as f64 / 1e6,
-                    self.max_memory_gb,
-                    needed_gb + 0.05
-                );
-                Failure::new("too-large", message)
-            }
-            error => error.into(),
-        };
-        failure.about(path)
-    }
-
-    /// Says once in a run which values became black and white, if nobody asked for them.
-    fn tell_of_range(self, range: Option<[f64; 2]>, path: &Path, context: &Context) {
-        static IS_TOLD: AtomicBool = AtomicBool::new(false);
-        let (PixelRange::Auto, Some([low, high])) = (self.range, range) else {
-            return;
-        };
-        if !IS_TOLD.swap(true, Ordering::Relaxed) {
-            context.warn(&format!(
-                "{} has more than 8 bits, of which the values from {low} to {high} are in use: these become black and \
-                 white. Each such image has its own range; --range {low},{high} is one for all",
-                path.display()
-            ));
-        }
-    }
-}
-
-/// Reads "auto", "full" or two numbers.
-fn range(text: &str) -> Result<PixelRange, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    match text {
-        "auto" => Ok(PixelRange::Auto),
-        "full" => Ok(PixelRange::Full),
-        _ => match text.split_once(',').map(|(a, b)| (number(a), number(b))) {
-            Some((Some(low), Some(high))) if low < high => Ok(PixelRange::Between(low, high)),
-            Some((Some(_), Some(_))) => Err("the second number must be above the first".to_owned()),
-            _ => Err("it must be auto, full, or two numbers: LOW,HIGH".to_owned()),
-        },
-    }
-}
-
-/// Size of photos.
-#[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Photographs")]
-pub(crate) struct SizeArguments {
-    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k
-    /// and --focal-px are of the file.
-    #[arg(long, value_name = "M", value_parser = positive)]
-    pub(crate) max_megapixels: Option<f64>,
-    #[command(flatten)]
-    reading: ReadArguments,
-}
-
-impl From<ReadArguments> for SizeArguments {
-    /// As large as they are.
-    fn from(reading: ReadArguments) -> Self {
-        Self {
-            max_megapixels: None,
-            reading,
-        }
-    }
-}
-
-impl SizeArguments {
-    fn max_pixels(self) -> u64 {
-        // A number beyond all pixels becomes the largest there is.
-        let pixels = |megapixels: f64| (megapixels * 1e6).round().max(1.0) as u64;
-        self.max_megapixels.map_or(u64::MAX, pixels)
-    }
-
-    /// Reads a photograph.
-    fn prepare(
-        self,
-        path: &Path,
-        undistortion: Option<&Undistortion>,
-        context: &Context,
-    ) -> Result<PreparedPhoto, Failure> {
-        let options = PrepareOptions::default()
-            .with_max_pixels(self.max_pixels())
-            .with_max_file_pixels(self.reading.max_file_pixels())
-            .with_range(self.reading.range)
-            .with_undistortion(undistortion);
-        let photo = prepare_photo(&bytes(path)?, &options)
-            .map_err(|error| self.reading.failure(error, path))?;
-        self.reading.tell_of_range(photo.range, path, context);
-        Ok(photo)
-    }
-}
 
 /// A photograph, upright, with what its file says about the camera.
 pub(crate) struct Photo {
@@ -186,7 +65,7 @@ impl Photo {
         undistortion: Option<&Undistortion>,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let photo = size.into().prepare(path, undistortion, context)?;
+        let photo = prepare(size.into(), path, undistortion, context)?;
         Ok(Self::from(photo))
     }
 
@@ -201,7 +80,7 @@ impl Photo {
         camera: &Camera,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let prepared = size.into().prepare(path, None, context)?;
+        let prepared = prepare(size.into(), path, None, context)?;
         let its_own = (prepared.camera(camera)).map_err(|e| Failure::from(e).about(path))?;
         let quarters = prepared.quarters.unwrap_or(0);
         let mut photo = Self::from(prepared);
@@ -269,6 +148,24 @@ impl Photo {
     pub(crate) fn gray_u8(&self) -> GrayImage {
         rgb_to_gray(&self.color)
     }
+}
+
+/// Reads a photograph.
+fn prepare(
+    size: SizeArguments,
+    path: &Path,
+    undistortion: Option<&Undistortion>,
+    context: &Context,
+) -> Result<PreparedPhoto, Failure> {
+    let options = PrepareOptions::default()
+        .with_max_pixels(size.max_pixels())
+        .with_max_file_pixels(size.reading.max_file_pixels())
+        .with_range(size.reading.range)
+        .with_undistortion(undistortion);
+    let photo = prepare_photo(&bytes(path)?, &options)
+        .map_err(|error| size.reading.failure(error, path))?;
+    size.reading.tell_of_range(photo.range, path, context);
+    Ok(photo)
 }
 
 /// Refuses a pair of which one is smaller.

@@ -9,8 +9,8 @@ use crate::files;
 use crate::lens::{self, Model};
 use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
-use crate::photo::ReadArguments;
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::calibration::{

@@ -3,7 +3,8 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, rows};
-use crate::photo::{Photo, Size, SizeArguments};
+use crate::photo::{Photo, Size};
+use crate::reading::SizeArguments;
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;

@@ -3,8 +3,9 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::listing::{Listed, ListingArguments};
-use crate::photo::{Photo, ReadArguments, bytes};
+use crate::photo::{Photo, bytes};
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::{files, interrupt};
 use clap::Args;

@@ -3,7 +3,8 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::listing::ListingArguments;
-use crate::photo::{Photo, ReadArguments};
+use crate::photo::Photo;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::{files, interrupt, lens, picture};
 use clap::{Args, ValueEnum};

@@ -4,7 +4,8 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::tell_of_unseen;
 use crate::lens;
-use crate::photo::{Photo, ReadArguments, check_same_size};
+use crate::photo::{Photo, check_same_size};
+use crate::reading::ReadArguments;
 use epipole::camera::{Camera, RigidTransform};
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::known_camera::CameraFile;
 use crate::matrices::positive;
-use crate::photo::SizeArguments;
+use crate::reading::SizeArguments;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::{Args, ValueEnum};
 use epipole::two_view::TwoViewOptions;
