@@ -1,5 +1,6 @@
 //! Photographs given by name or by folder: their order, and their names in results.
 
+use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use clap::Args;
@@ -37,16 +38,28 @@ pub(crate) struct Listed {
 
 impl ListingArguments {
     /// The files given, folders replaced by the photographs in them: frame2 before frame10, the
-    /// files of a folder before its folders.
+    /// files of a folder before its folders. Warns of photographs that are left out for their format.
     ///
     /// # Errors
     /// A sentence, for files and folders that cannot be read, folders without photographs, and a
     /// file that is given twice.
-    pub(crate) fn photos(self, given: &[PathBuf]) -> Result<Vec<Listed>, Failure> {
+    pub(crate) fn photos(
+        self,
+        given: &[PathBuf],
+        context: &Context,
+    ) -> Result<Vec<Listed>, Failure> {
         let mut paths = Vec::new();
         for path in given {
             if path.is_dir() {
-                self.add_folder(path, &mut paths)?;
+                let mut found = Found::default();
+                found.look(path, self.recursive)?;
+                if found.photos.is_empty() {
+                    return Err(Failure::new("read", found.nothing()).about(path));
+                }
+                if let Some(unread) = found.unread_words() {
+                    context.warn(&format!("{}: left out are {unread}", path.display()));
+                }
+                paths.append(&mut found.photos);
             } else {
                 // Told before files are counted: a name that is wrong is not a list too short.
                 path.metadata()
@@ -55,16 +68,6 @@ impl ListingArguments {
             }
         }
         named(paths)
-    }
-
-    fn add_folder(self, folder: &Path, paths: &mut Vec<PathBuf>) -> Result<(), Failure> {
-        let mut found = Found::default();
-        found.look(folder, self.recursive)?;
-        if found.photos.is_empty() {
-            return Err(Failure::new("read", found.nothing()).about(folder));
-        }
-        paths.append(&mut found.photos);
-        Ok(())
     }
 }
 
@@ -113,15 +116,19 @@ impl Found {
         Ok(())
     }
 
+    /// Photographs of formats that are not read, in words.
+    fn unread_words(&self) -> Option<String> {
+        let first = file_name(self.unread.first()?);
+        let count = self.unread.len();
+        Some(format!(
+            "photographs of a format that is not read ({count}, such as {first}): convert them to JPEG or PNG"
+        ))
+    }
+
     /// Why there are no photographs.
     fn nothing(&self) -> String {
-        if let Some(first) = self.unread.first() {
-            return format!(
-                "there are no photographs of a format that is read, but {} of another, such as {}; convert them to JPEG \
-                 or PNG",
-                self.unread.len(),
-                file_name(first)
-            );
+        if let Some(unread) = self.unread_words() {
+            return format!("there are only {unread}");
         }
         let nothing = "there are no photographs in this folder";
         match self.num_folders {
@@ -250,7 +257,13 @@ mod tests {
         }
         let names = |given: &[&str], recursive| {
             let given: Vec<PathBuf> = given.iter().map(|one| root.join(one)).collect();
-            let listed = ListingArguments { recursive }.photos(&given);
+            let listed = ListingArguments { recursive }.photos(
+                &given,
+                &Context {
+                    quiet: true,
+                    seed: 0,
+                },
+            );
             listed.map(|listed| listed.into_iter().map(|one| one.name).collect::<Vec<_>>())
         };
         let all = ["A/2.JPG", "A/10.jpg", "B/2.jpg"];

@@ -80,8 +80,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let board = Board::new(pattern, columns, rows, arguments.square_m)
         .map_err(|error| Failure::usage(error.to_string()))?;
-    let left_photos = arguments.listing.photos(&arguments.photos)?;
-    let right_photos = arguments.listing.photos(&arguments.right)?;
+    let left_photos = arguments.listing.photos(&arguments.photos, context)?;
+    let right_photos = arguments.listing.photos(&arguments.right, context)?;
     if !right_photos.is_empty() && right_photos.len() != left_photos.len() {
         return Err(Failure::usage(format!(
             "--right needs as many photographs as there are left ones, but there are {} and {}",

@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let listed = arguments.listing.photos(&arguments.frames)?;
+    let listed = arguments.listing.photos(&arguments.frames, context)?;
     let num_parts = (arguments.num_frames as usize).min(listed.len());
     let progress = Progress::new(context, "looking for the sharpest frames");
     // The best of each part so far, the first of equals.

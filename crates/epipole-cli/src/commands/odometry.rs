@@ -129,7 +129,11 @@ struct Frames {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let folder = |path: &PathBuf| arguments.listing.photos(std::slice::from_ref(path));
+    let folder = |path: &PathBuf| {
+        arguments
+            .listing
+            .photos(std::slice::from_ref(path), context)
+    };
     let left_frames = folder(&arguments.frames)?;
     let right_frames = arguments.right.as_ref().map(folder).transpose()?;
     if let Some(right_frames) = &right_frames

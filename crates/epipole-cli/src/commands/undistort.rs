@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Kept::All => Keep::All,
         Kept::Valid => Keep::Valid,
     };
-    let listed = arguments.listing.photos(&arguments.photos)?;
+    let listed = arguments.listing.photos(&arguments.photos, context)?;
     let mut targets = Vec::new();
     for one in &listed {
         let target = arguments.output.join(&one.name).with_extension("png");

@@ -78,7 +78,7 @@ impl InputArguments {
     /// # Errors
     /// A sentence, for files that cannot be read and numbers that do not fit.
     pub(super) fn read(&self, context: &Context) -> Result<Input, Failure> {
-        let listed = self.listing.photos(&self.photos)?;
+        let listed = self.listing.photos(&self.photos, context)?;
         if !self.focals_px.is_empty() && self.focals_px.len() != listed.len() {
             return Err(Failure::usage(format!(
                 "--focals-px needs one for each photograph, but there are {} for {}",
