@@ -38,7 +38,8 @@ pub(crate) struct Listed {
 
 impl ListingArguments {
     /// The files given, folders replaced by the photographs in them: frame2 before frame10, the
-    /// files of a folder before its folders. Warns of photographs that are left out for their format.
+    /// files of a folder before its folders. Warns of photographs that are left out for their
+    /// format.
     ///
     /// # Errors
     /// A sentence, for files and folders that cannot be read, folders without photographs, and a
@@ -95,7 +96,7 @@ impl Found {
             }
             let extension = path.extension().and_then(|extension| extension.to_str());
             let extension = extension.map(str::to_lowercase).unwrap_or_default();
-            // What some systems write beside a file has its name behind a dot.
+            // Some systems write a file of their own beside each, its name behind a dot.
             let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
             if is_hidden || path.is_dir() {
                 continue;

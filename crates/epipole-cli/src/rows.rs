@@ -185,7 +185,7 @@ fn expected(columns: usize) -> String {
     known.join(" or ")
 }
 
-/// Where the numbers of a row are.
+/// Places of the numbers in a row.
 struct Header {
     places: Vec<usize>,
     num_fields: usize,

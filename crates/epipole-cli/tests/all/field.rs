@@ -5,7 +5,7 @@ use crate::common::{Folder, epipole, fails, field, json, matrix, numbers, path};
 use image::{GrayImage, Luma};
 use nalgebra::{Point2, Vector3};
 
-/// What a command that succeeds says beside its result.
+/// Standard error of a command that succeeds.
 fn told(arguments: &[&str]) -> String {
     let output = epipole(arguments);
     let told = String::from_utf8(output.stderr).unwrap();

@@ -98,7 +98,7 @@ impl PreparedPhoto {
     }
 }
 
-/// Reads a file that [`decode_rgb`] reads, undistorts it if it has the size of the undistortion's camera,
+/// Decodes a file as [`decode_rgb`], undistorts it if it has the size of the undistortion's camera,
 /// turns it upright, and downscales it.
 ///
 /// The lens is fixed to the sensor: a camera calibrated with photographs in the sensor's

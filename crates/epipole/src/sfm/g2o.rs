@@ -286,9 +286,9 @@ impl PoseGraph {
     /// that start with `#`, and `PARAMS_…` are skipped.
     ///
     /// # Errors
-    /// [`Error::Malformed`] with the line for unknown tags, priors, landmarks, mixed kinds, missing or surplus
-    /// values, values that are not finite, vertices that are there twice or not at all, and
-    /// information matrices that are not positive semi-definite; [`Error::TooFew`] without
+    /// [`Error::Malformed`] with the line for unknown tags, priors, landmarks, mixed kinds, missing
+    /// or surplus values, values that are not finite, vertices that are there twice or not at all,
+    /// and information matrices that are not positive semi-definite; [`Error::TooFew`] without
     /// vertices.
     ///
     /// ```

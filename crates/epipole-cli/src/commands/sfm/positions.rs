@@ -144,8 +144,8 @@ impl PositionArguments {
     }
 }
 
-/// The line of each photograph: of its name, or of its file without the folders, if no other has the
-/// same.
+/// The line of each photograph: of its name, or of its file without the folders, if no other has
+/// the same.
 fn of_photos(lines: &BTreeMap<String, Line>, photos: &[Photo]) -> Vec<Option<Line>> {
     let file = |photo: &Photo| photo.name.rsplit('/').next().map(str::to_owned);
     let mut counts = BTreeMap::new();
