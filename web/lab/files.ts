@@ -3,7 +3,7 @@
  */
 
 /** Formats that the Lab decodes itself, for the same pixels in every browser. */
-const ITS_OWN = /\.(png|jpe?g|webp|zip)$/i;
+const ITS_OWN = /\.(png|jpe?g|webp|tiff?|bmp|p[bgpn]m|zip)$/i;
 const QUALITY = 0.95;
 
 /** The dropped files, including those in dropped folders, sorted by name. */

@@ -75,6 +75,14 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Makes the folder of a file.
+///
+/// # Errors
+/// A sentence naming the folder.
+pub(crate) fn make_folder_of(path: &Path) -> Result<(), Failure> {
+    path.parent().map_or(Ok(()), make_folder)
+}
+
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;

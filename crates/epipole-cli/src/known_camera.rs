@@ -4,7 +4,9 @@ use crate::camera::PairArguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::lens;
-use crate::photo::{Photo, SizeArguments};
+use crate::listing::file_name;
+use crate::photo::Photo;
+use crate::reading::SizeArguments;
 use clap::Args;
 use epipole::camera::Camera;
 use nalgebra::Point2;
@@ -61,12 +63,6 @@ pub(crate) fn tell_of_others(
     ));
 }
 
-/// The name of a file without its folder.
-pub(crate) fn name(path: &Path) -> String {
-    path.file_name()
-        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
@@ -92,16 +88,16 @@ impl CameraFile {
         context: &Context,
     ) -> Result<[Photo; 2], Failure> {
         let Some(file) = &self.camera_file else {
-            let [first, second] = paths.map(|path| Photo::prepared(path, size, None));
+            let [first, second] = paths.map(|path| Photo::prepared(path, size, None, context));
             return Ok([first?, second?]);
         };
         let camera = lens::read(file, false)?;
         tell_of_unseen(&camera, context)?;
-        let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera));
+        let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera, context));
         let photos = [first?, second?];
         let others: Vec<(String, (u32, u32))> = (photos.iter().zip(paths))
             .filter(|(photo, _)| photo.lens.is_none())
-            .map(|(photo, path)| (name(path), photo.sensor_size))
+            .map(|(photo, path)| (file_name(path), photo.sensor_size))
             .collect();
         if others.len() == 2 {
             return Err(Failure::new(

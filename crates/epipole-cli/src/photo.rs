@@ -1,9 +1,9 @@
 //! Photographs from files.
 
+use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::matrices::positive;
-use clap::Args;
+use crate::reading::{ReadArguments, SizeArguments};
 use epipole::calibration::{PrepareOptions, PreparedPhoto, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
@@ -11,24 +11,6 @@ use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
 use epipole::math::Geodetic;
 use image::{GrayImage, RgbImage};
 use std::path::Path;
-
-/// Size of photos.
-#[derive(Debug, Clone, Copy, Default, Args)]
-#[command(next_help_heading = "Photographs")]
-pub(crate) struct SizeArguments {
-    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k
-    /// and --focal-px are of the file.
-    #[arg(long, value_name = "M", value_parser = positive)]
-    pub(crate) max_megapixels: Option<f64>,
-}
-
-impl SizeArguments {
-    fn max_pixels(self) -> u64 {
-        // A number beyond all pixels becomes the largest there is.
-        let pixels = |megapixels: f64| (megapixels * 1e6).round().max(1.0) as u64;
-        self.max_megapixels.map_or(u64::MAX, pixels)
-    }
-}
 
 /// A photograph, upright, with what its file says about the camera.
 pub(crate) struct Photo {
@@ -73,47 +55,33 @@ impl From<PreparedPhoto> for Photo {
 }
 
 impl Photo {
-    /// Reads a PNG, JPEG or WebP file, as large as it is.
+    /// Reads a file, downscaled, and without its distortion if it has the size of the camera.
     ///
     /// # Errors
     /// A sentence naming the file: missing, unreadable, corrupt or too large.
-    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        Self::prepared(path, SizeArguments::default(), None)
-    }
-
-    /// The same reduced, and without its distortion if it has the size of the camera.
-    ///
-    /// # Errors
-    /// As [`Photo::read`].
     pub(crate) fn prepared(
         path: &Path,
-        size: SizeArguments,
+        size: impl Into<SizeArguments>,
         undistortion: Option<&Undistortion>,
+        context: &Context,
     ) -> Result<Self, Failure> {
-        let options = PrepareOptions::default()
-            .with_max_pixels(size.max_pixels())
-            .with_undistortion(undistortion);
-        let photo = prepare_photo(&bytes(path)?, &options)
-            .map_err(|error| Failure::from(error).about(path))?;
+        let photo = prepare(size.into(), path, undistortion, context)?;
         Ok(Self::from(photo))
     }
 
-    /// The same reduced, its distortion kept: K and the lens are those of the camera, if it has its
-    /// size.
+    /// The same downscaled, its distortion kept: K and the lens are those of the camera, if it has
+    /// its size.
     ///
     /// # Errors
-    /// As [`Photo::read`].
+    /// As [`Photo::prepared`].
     pub(crate) fn by_camera(
         path: &Path,
-        size: SizeArguments,
+        size: impl Into<SizeArguments>,
         camera: &Camera,
+        context: &Context,
     ) -> Result<Self, Failure> {
-        let options = PrepareOptions::default()
-            .with_max_pixels(size.max_pixels())
-            .with_undistortion(None);
-        let about = |error: epipole::Error| Failure::from(error).about(path);
-        let prepared = prepare_photo(&bytes(path)?, &options).map_err(about)?;
-        let its_own = prepared.camera(camera).map_err(about)?;
+        let prepared = prepare(size.into(), path, None, context)?;
+        let its_own = (prepared.camera(camera)).map_err(|e| Failure::from(e).about(path))?;
         let quarters = prepared.quarters.unwrap_or(0);
         let mut photo = Self::from(prepared);
         if let Some(camera) = its_own {
@@ -139,11 +107,19 @@ impl Photo {
     /// no other frame.
     ///
     /// # Errors
-    /// As [`Photo::read`].
-    pub(crate) fn of_sensor(path: &Path) -> Result<GrayImage32, Failure> {
-        let as_stored = DecodeOptions::default().with_apply_orientation(false);
+    /// As [`Photo::prepared`].
+    pub(crate) fn of_sensor(
+        path: &Path,
+        reading: ReadArguments,
+        context: &Context,
+    ) -> Result<GrayImage32, Failure> {
+        let as_stored = DecodeOptions::default()
+            .with_max_pixels(reading.max_file_pixels())
+            .with_range(reading.range)
+            .with_apply_orientation(false);
         let decoded = decode_rgb(&bytes(path)?, &as_stored);
-        let decoded = decoded.map_err(|error| Failure::from(error).about(path))?;
+        let decoded = decoded.map_err(|error| reading.failure(error, path))?;
+        reading.tell_of_range(decoded.range, path, context);
         Ok(photo_to_gray(&decoded.image))
     }
 
@@ -172,6 +148,24 @@ impl Photo {
     pub(crate) fn gray_u8(&self) -> GrayImage {
         rgb_to_gray(&self.color)
     }
+}
+
+/// Reads a photograph.
+fn prepare(
+    size: SizeArguments,
+    path: &Path,
+    undistortion: Option<&Undistortion>,
+    context: &Context,
+) -> Result<PreparedPhoto, Failure> {
+    let options = PrepareOptions::default()
+        .with_max_pixels(size.max_pixels())
+        .with_max_file_pixels(size.reading.max_file_pixels())
+        .with_range(size.reading.range)
+        .with_undistortion(undistortion);
+    let photo = prepare_photo(&bytes(path)?, &options)
+        .map_err(|error| size.reading.failure(error, path))?;
+    size.reading.tell_of_range(photo.range, path, context);
+    Ok(photo)
 }
 
 /// Refuses a pair of which one is smaller.

@@ -165,7 +165,7 @@ impl RobustArguments {
     }
 
     /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold
-    /// is given.
+    /// is given. Warns of a model that means nothing, or that nothing verifies.
     ///
     /// # Errors
     /// As [`ransac`].
@@ -180,6 +180,7 @@ impl RobustArguments {
                 ransac(estimator, options, monitor)
             });
         }
+        let (name, sample_size) = (estimator.problem().name, estimator.problem().sample_size);
         let mut run = Ransac::new(estimator, options)?;
         let progress = Progress::new(context, Stage::RobustEstimation.words());
         let mut is_interrupted = false;
@@ -198,7 +199,15 @@ impl RobustArguments {
             Err(Error::NoConsensus { .. }) if is_interrupted => Err(Error::Canceled),
             finished => finished,
         }?;
-        self.warn(&report, context);
+        // A few that someone picked are no search among wrong data.
+        let is_minimal = report.num_unique_inliers == sample_size;
+        if is_minimal && report.num_inliers == report.inliers.len() {
+            context.warn(&format!(
+                "{name} fits any {sample_size} data exactly, and these are all: nothing verifies it"
+            ));
+        } else {
+            self.warn(&report, context);
+        }
         Ok(report)
     }
 

@@ -1,35 +1,308 @@
-//! Files with a row of numbers in each line.
+//! Files with a row of numbers in each line, as text editors, spreadsheets and programs write them.
 
 use crate::failure::Failure;
 use std::path::Path;
 
-/// The rows of a text: numbers between spaces or commas; what follows a `#` is a comment.
+/// Names of columns in a header, in lower case: of points, of matches.
+const NAMES: [&[&str]; 4] = [
+    &["u", "v"],
+    &["x", "y"],
+    &["u1", "v1", "u2", "v2"],
+    &["x1", "y1", "x2", "y2"],
+];
+
+/// Rows from which a first column that counts them is no chance.
+const MIN_COUNTED: usize = 3;
+
+/// The rows of a text: numbers between commas, semicolons, tabs or spaces, in quotes or brackets,
+/// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. What follows a `#` is a
+/// comment. A first line of names says which columns these are, otherwise they are the first ones.
 ///
-/// * `path`: where it came from, for what is told of it
-/// * `columns`: so many numbers of a line are looked at, and needed
+/// * `path`: file that is named in errors
+/// * `columns`: numbers of a row, 2 for points or 4 for matches; further ones are ignored
 ///
 /// # Errors
-/// A sentence that names the line that has fewer, or NaN. Infinities stay: robust searches leave
-/// them out and say so.
+/// A sentence that names the line with fewer numbers, NaN, or a decimal comma that could be
+/// something else; one about a first column that counts the rows. Infinities stay: robust searches
+/// leave them out and say so.
 pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f64>>, Failure> {
     let mut rows = Vec::new();
+    let mut header: Option<Header> = None;
+    // The first numbers of rows with more than are needed.
+    let mut counted = Vec::new();
+    let mut is_first = true;
     for (index, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or("").trim();
         if line.is_empty() {
             continue;
         }
-        let numbers: Vec<f64> = line
-            .split(|c: char| c.is_whitespace() || c == ',')
-            .filter(|word| !word.is_empty())
-            .take(columns)
-            .map_while(|word| word.parse().ok())
-            .collect();
-        if numbers.len() < columns || numbers.iter().any(|number| number.is_nan()) {
+        let malformed = |why: String| {
             let place = format!("{}:{}", path.display(), index + 1);
-            let message = format!("{place}: here should be {columns} numbers, not \"{line}\"");
-            return Err(Failure::new("malformed", message));
+            Failure::new("malformed", format!("{place}: {why}"))
+        };
+        let fields = fields(line, columns).map_err(malformed)?;
+        if std::mem::take(&mut is_first) && is_header(&fields) {
+            header = Some(Header::read(&fields, columns).map_err(malformed)?);
+            continue;
+        }
+        let row = match &header {
+            Some(header) => header.pick(&fields).map_err(malformed)?,
+            None => fields.iter().take(columns).collect(),
+        };
+        let numbers: Vec<f64> = row.iter().map_while(|field| number(field)).collect();
+        if numbers.len() < columns || numbers.iter().any(|number| number.is_nan()) {
+            let why = format!("here should be {columns} numbers, not \"{line}\"");
+            return Err(malformed(why));
+        }
+        if header.is_none() && fields.len() > columns {
+            counted.push(numbers[0]);
         }
         rows.push(numbers);
     }
+    let counts = |from: f64| (counted.iter().zip(0..)).all(|(&n, at)| n == from + f64::from(at));
+    let is_counted = counted.len() >= MIN_COUNTED && counted.len() == rows.len();
+    if is_counted && (counts(0.0) || counts(1.0)) {
+        let message = format!(
+            "the first column counts the rows, so it is no coordinate: remove it, or name the columns in a first line, {}",
+            expected(columns)
+        );
+        return Err(Failure::new("malformed", message).about(path));
+    }
     Ok(rows)
+}
+
+/// A field of a line, and whether it stood in quotes.
+#[derive(Debug, Clone, PartialEq)]
+struct Field {
+    text: String,
+    /// Whether a comma in it can only be a decimal comma.
+    may_have_comma: bool,
+}
+
+/// Splits a line at semicolons, or else tabs, or else commas, or else spaces.
+fn fields(line: &str, columns: usize) -> Result<Vec<Field>, String> {
+    let separator = [';', '\t', ',']
+        .into_iter()
+        .find(|&c| outside_quotes(line, c));
+    let words: Vec<&str> = line.split_whitespace().collect();
+    if separator == Some(',') && words.len() >= columns {
+        let is_decimal = |word: &&&str| {
+            let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+            word.split_once(',')
+                .is_some_and(|(a, b)| digits(a.trim_start_matches(['-', '+'])) && digits(b))
+        };
+        if let Some(word) = words.iter().find(is_decimal) {
+            return Err(format!(
+                "decimal comma in \"{word}\": write a point, or separate the numbers by semicolons"
+            ));
+        }
+    }
+    let mut fields = Vec::new();
+    let mut open = Field {
+        text: String::new(),
+        may_have_comma: separator.is_some_and(|c| c != ','),
+    };
+    let blank = open.clone();
+    let mut quote = None;
+    for c in line.chars() {
+        match (quote, c) {
+            (Some(end), c) if c == end => quote = None,
+            (Some(_), c) => open.text.push(c),
+            (None, '"' | '\'') => {
+                quote = Some(c);
+                open.may_have_comma = true;
+            }
+            (None, c) if Some(c) == separator => {
+                fields.push(std::mem::replace(&mut open, blank.clone()));
+            }
+            (None, '[' | ']' | '(' | ')') => open.text.push(' '),
+            (None, c) => open.text.push(c),
+        }
+    }
+    fields.push(open);
+    if separator.is_none_or(|c| c == ',') {
+        // Spaces separate, too; not in names between commas.
+        fields = fields.into_iter().flat_map(at_spaces).collect();
+    }
+    fields
+        .iter_mut()
+        .for_each(|field| field.text = field.text.trim().to_owned());
+    while separator.is_some() && fields.last().is_some_and(|field| field.text.is_empty()) {
+        fields.pop();
+    }
+    Ok(fields)
+}
+
+/// The words of a field; a field without words is one that is empty.
+fn at_spaces(field: Field) -> Vec<Field> {
+    let words: Vec<Field> = (field.text.split_whitespace())
+        .map(|word| Field {
+            text: word.to_owned(),
+            may_have_comma: field.may_have_comma,
+        })
+        .collect();
+    match words.is_empty() {
+        true => vec![field],
+        false => words,
+    }
+}
+
+fn outside_quotes(line: &str, wanted: char) -> bool {
+    let mut quote = None;
+    line.chars().any(|c| {
+        match quote {
+            Some(end) if c == end => quote = None,
+            None if c == '"' || c == '\'' => quote = Some(c),
+            _ => (),
+        }
+        quote.is_none() && c == wanted
+    })
+}
+
+/// Reads a number, with a decimal comma where that is clear, and Fortran's exponents.
+fn number(field: &Field) -> Option<f64> {
+    let mut text = field.text.clone();
+    if field.may_have_comma && !text.contains('.') {
+        text = text.replacen(',', ".", 1);
+    }
+    let is_number = |c: char| c.is_ascii_digit() || "+-.dD".contains(c);
+    if text.chars().all(is_number) {
+        text = text.replacen(['d', 'D'], "e", 1);
+    }
+    text.parse().ok()
+}
+
+/// Whether fields are names: none is a number, one at least begins with a letter.
+fn is_header(fields: &[Field]) -> bool {
+    let is_name = |field: &Field| field.text.starts_with(|c: char| c.is_alphabetic());
+    fields.iter().all(|field| number(field).is_none()) && fields.iter().any(is_name)
+}
+
+/// Names of the columns that are expected, in words.
+fn expected(columns: usize) -> String {
+    let known = NAMES.iter().filter(|names| names.len() == columns);
+    let known: Vec<String> = known.map(|names| names.join(" ")).collect();
+    known.join(" or ")
+}
+
+/// Places of the numbers in a row.
+struct Header {
+    places: Vec<usize>,
+    num_fields: usize,
+}
+
+impl Header {
+    fn read(fields: &[Field], columns: usize) -> Result<Self, String> {
+        let names: Vec<String> = fields
+            .iter()
+            .map(|field| field.text.to_lowercase())
+            .collect();
+        let find = |wanted: &[&str]| -> Option<Vec<usize>> {
+            let place = |name: &&str| names.iter().position(|other| other == name);
+            wanted.iter().map(|name| place(name)).collect()
+        };
+        // Matches have points, too.
+        let known = NAMES.iter().filter(|names| names.len() >= columns);
+        match known.map(|names| &names[..columns]).find_map(find) {
+            Some(places) => Ok(Self {
+                places,
+                num_fields: fields.len(),
+            }),
+            None => Err(format!(
+                "the first line names no columns {}, but {}",
+                expected(columns),
+                names.join(" ")
+            )),
+        }
+    }
+
+    fn pick<'a>(&self, fields: &'a [Field]) -> Result<Vec<&'a Field>, String> {
+        if fields.len() > self.num_fields {
+            return Err(format!(
+                "the first line names {} columns, but here are {}",
+                self.num_fields,
+                fields.len()
+            ));
+        }
+        Ok(self
+            .places
+            .iter()
+            .filter_map(|&place| fields.get(place))
+            .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<Vec<f64>>, Failure> {
+        parse(text, Path::new("file"), 4)
+    }
+
+    #[test]
+    fn numbers_are_read_however_they_are_separated() {
+        let expected = [[1.5, -2.0, 300.0, 4.25], [5.0, 6.0, 7.0, 8.5]].map(|row| row.to_vec());
+        for text in [
+            "1.5 -2 300 4.25\n5 6 7 8.5",
+            "1.5,-2,300,4.25\r\n5, 6 , 7,8.5,\r\n",
+            "1.5;-2;300;4.25\n5; 6; 7; 8.5;",
+            "1,5;-2;300;4,25\n5;6;7;8,5",
+            "1,5\t-2\t300\t4,25\n5\t6\t7\t8,5",
+            "\"1.5\",\"-2\",\"300\",\"4.25\"\n'5','6','7','8.5'",
+            "\"1,5\",\"-2\",\"300\",\"4,25\"\n5,6,7,8.5",
+            "1.5D+00 -2d0 3.0D+02 4.25e0\n5 6 7 0.85D1",
+            "[1.5 -2] [300 4.25]\n[[5, 6], [7, 8.5]]",
+            "(1.5, -2), (300, 4.25) # a comment\n\n# another\n5,6 7,8.5",
+            "1.5 -2 300 4.25 0.3 x\n5 6 7 8.5 0.4 y",
+        ] {
+            assert_eq!(read(text).unwrap(), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_header_names_the_columns() {
+        let expected = [vec![1.0, 2.0, 3.0, 4.0]];
+        for text in [
+            "u1,v1,u2,v2\n1,2,3,4",
+            "X2;Y2;id;X1;Y1\n3;4;a b;1;2",
+            ",u1,v1,u2,v2,score\n0,1,2,3,4,",
+            "\"x1\" \"y1\" \"x2\" \"y2\"\n1 2 3 4",
+        ] {
+            assert_eq!(read(text).unwrap(), expected, "{text}");
+        }
+        let points = parse("id,x,y\n7,1,2", Path::new("file"), 2).unwrap();
+        assert_eq!(points, [vec![1.0, 2.0]]);
+    }
+
+    #[test]
+    fn doubtful_columns_and_commas_are_refused_by_line() {
+        let ten: String = (0..10).map(|n| format!("{n},1.5,{n},3,4\n")).collect();
+        for (text, why) in [
+            (
+                "1 2 3 4\n1,5 2,5 3,5 4,5",
+                "file:2: decimal comma in \"1,5\"",
+            ),
+            ("1.234,5;2;3;4", "file:1: here should be 4 numbers"),
+            (
+                "a,b,c,d\n1,2,3,4",
+                "names no columns u1 v1 u2 v2 or x1 y1 x2 y2, but a b c d",
+            ),
+            (
+                "u1,v1,u2,v2\n0,1,2,3,4",
+                "file:2: the first line names 4 columns, but here are 5",
+            ),
+            ("1,2,,4,5", "file:1: here should be 4 numbers"),
+            (&ten, "the first column counts the rows"),
+            ("1 2 3 4\nu1 v1 u2 v2", "file:2: here should be 4 numbers"),
+        ] {
+            let told = read(text).unwrap_err().message;
+            assert!(told.contains(why), "{text}: {told}");
+        }
+        // Just the columns that are needed may count.
+        let scan: String = (0..10).map(|n| format!("{n} 1.5 {n} 3\n")).collect();
+        assert_eq!(read(&scan).unwrap().len(), 10);
+    }
 }

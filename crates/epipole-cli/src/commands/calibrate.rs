@@ -7,8 +7,10 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::lens::{self, Model};
+use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::calibration::{
@@ -55,6 +57,10 @@ pub(crate) struct Arguments {
     /// Photographs by a second camera.
     #[arg(long, value_name = "IMAGES", num_args = 1..)]
     right: Vec<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
     /// The model of the lens.
     #[arg(long, value_enum, default_value = "brown")]
     model: Model,
@@ -74,24 +80,24 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let board = Board::new(pattern, columns, rows, arguments.square_m)
         .map_err(|error| Failure::usage(error.to_string()))?;
-    let left_paths = super::sfm::photos(&arguments.photos)?;
-    let right_paths = super::sfm::photos(&arguments.right)?;
-    if !right_paths.is_empty() && right_paths.len() != left_paths.len() {
+    let left_photos = arguments.listing.photos(&arguments.photos, context)?;
+    let right_photos = arguments.listing.photos(&arguments.right, context)?;
+    if !right_photos.is_empty() && right_photos.len() != left_photos.len() {
         return Err(Failure::usage(format!(
             "--right needs as many photographs as there are left ones, but there are {} and {}",
-            right_paths.len(),
-            left_paths.len()
+            right_photos.len(),
+            left_photos.len()
         )));
     }
     let options = CalibrationOptions::default()
         .with_lens(arguments.model.into())
         .with_max_iterations(arguments.max_iterations);
-    let left = Side::new(&left_paths, &board, &options, context)?;
+    let left = Side::new(&left_photos, arguments, &board, &options, context)?;
     let mut fields = left.fields();
     let mut report = left.rows(Report::default());
     let mut warnings = left.warnings("");
-    if !right_paths.is_empty() {
-        let right = Side::new(&right_paths, &board, &options, context)?;
+    if !right_photos.is_empty() {
+        let right = Side::new(&right_photos, arguments, &board, &options, context)?;
         let cameras = [left.found.camera, right.found.camera];
         let rig = calibrate_rig(
             &board,
@@ -131,12 +137,13 @@ struct Side {
 
 impl Side {
     fn new(
-        paths: &[PathBuf],
+        photos: &[Listed],
+        arguments: &Arguments,
         board: &Board,
         options: &CalibrationOptions,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let photographs = search(paths, board, context)?;
+        let photographs = search(photos, arguments.reading, board, context)?;
         let progress = Progress::new(context, "calibration");
         let (views, size) = (&photographs.views, photographs.size);
         let mut watch = |status| progress.show(status);

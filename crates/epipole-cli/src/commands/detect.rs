@@ -3,7 +3,8 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, rows};
-use crate::photo::{Photo, Size, SizeArguments};
+use crate::photo::{Photo, Size};
+use crate::reading::SizeArguments;
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;
@@ -16,7 +17,7 @@ use std::path::PathBuf;
     JSON: image (width, height), keypoints ([u, v, scale_px, angle_rad, response] each)."
 )]
 pub(crate) struct Arguments {
-    /// A PNG, JPEG or WebP file.
+    /// A photograph.
     image: PathBuf,
     /// Write the photograph with the features marked.
     #[arg(long, value_name = "FILE.png")]
@@ -28,7 +29,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let photo = Photo::prepared(&arguments.image, arguments.size, None)?;
+    let photo = Photo::prepared(&arguments.image, arguments.size, None, context)?;
     let found = arguments.features.detect(&photo, context)?;
     let size = Size::from(&photo.color);
     if let Some(path) = &arguments.png {

@@ -38,7 +38,9 @@ enum Model {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole fit --model fundamental matches.txt --max-error-px 1\n\n\
-    A file of matches has one a line, u1 v1 u2 v2; further columns are ignored, # begins a comment.\n\n\
+    A file of matches has one a line, u1 v1 u2 v2; further columns are ignored, # begins a comment. A first line\n\
+    may name the columns: u1 v1 u2 v2 or x1 y1 x2 y2, of points u v or x y. Numbers may stand between commas,\n\
+    semicolons, tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
     JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
     num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
     for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\

@@ -2,8 +2,10 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::listing::{Listed, ListingArguments};
 use crate::photo::{Photo, bytes};
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::{files, interrupt};
 use clap::Args;
@@ -22,9 +24,13 @@ use std::path::PathBuf;
     its details of a few pixels)."
 )]
 pub(crate) struct Arguments {
-    /// Frames of one size, PNG, JPEG or WebP, or a folder of them.
+    /// Frames of one size, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
     frames: Vec<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
     /// Number of frames to choose.
     #[arg(long, default_value_t = 20, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     num_frames: u32,
@@ -34,18 +40,19 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let paths = super::sfm::photos(&arguments.frames)?;
-    let num_parts = (arguments.num_frames as usize).min(paths.len());
+    let listed = arguments.listing.photos(&arguments.frames, context)?;
+    let num_parts = (arguments.num_frames as usize).min(listed.len());
     let progress = Progress::new(context, "looking for the sharpest frames");
     // The best of each part so far, the first of equals.
     let mut best: Vec<Option<(usize, f64)>> = vec![None; num_parts];
-    for (index, path) in paths.iter().enumerate() {
+    for (index, one) in listed.iter().enumerate() {
         if interrupt::requested() {
             return Err(epipole::Error::Canceled.into());
         }
-        progress.set(index as f64 / paths.len() as f64);
-        let value = sharpness(&Photo::read(path)?.gray());
-        let part = &mut best[index * num_parts / paths.len()];
+        progress.set(index as f64 / listed.len() as f64);
+        let photo = Photo::prepared(&one.path, arguments.reading, None, context)?;
+        let value = sharpness(&photo.gray());
+        let part = &mut best[index * num_parts / listed.len()];
         if part.is_none_or(|(_, most)| value > most) {
             *part = Some((index, value));
         }
@@ -54,23 +61,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     files::make_folder(&arguments.output)?;
     let (mut written, mut chosen) = (Vec::new(), Vec::new());
     for (index, value) in best.into_iter().flatten() {
-        let name = crate::known_camera::name(&paths[index]);
-        let target = arguments.output.join(&name);
-        if written.contains(&target.display().to_string()) {
-            return Err(Failure::usage(format!(
-                "two frames would be written to {}",
-                target.display()
-            )));
-        }
-        files::write(&target, &bytes(&paths[index])?)?;
+        let Listed { path, name } = &listed[index];
+        let target = arguments.output.join(name);
+        files::make_folder_of(&target)?;
+        files::write(&target, &bytes(path)?)?;
         written.push(target.display().to_string());
         chosen.push(json!({ "name": name, "sharpness": value }));
     }
     Ok(Report::default()
-        .row("frames", paths.len())
+        .row("frames", listed.len())
         .row("chosen", chosen.len())
         .row("written", written.join(", "))
-        .field("num_frames", paths.len())
+        .field("num_frames", listed.len())
         .field("files", written)
         .field("chosen", chosen))
 }

@@ -5,7 +5,8 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, rows};
 use crate::known_camera::CameraFile;
-use crate::photo::{Size, SizeArguments};
+use crate::photo::Size;
+use crate::reading::SizeArguments;
 use crate::report::Report;
 use crate::{files, picture};
 use clap::Args;
@@ -21,9 +22,9 @@ use std::path::PathBuf;
     1, or null where the lens bends no ray to."
 )]
 pub(crate) struct Arguments {
-    /// A PNG, JPEG or WebP file.
+    /// The first photograph.
     first: PathBuf,
-    /// A PNG, JPEG or WebP file.
+    /// The second photograph.
     second: PathBuf,
     /// Write both photographs with lines between the matches.
     #[arg(long, value_name = "FILE.png")]

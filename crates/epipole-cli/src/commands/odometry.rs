@@ -1,18 +1,19 @@
 //! `epipole odometry`: the path of a camera, or of a stereo rig, from its frames.
 
 use super::sfm::growth::AcceptArguments;
-use super::sfm::photos;
 use super::sfm::refined::RefinedArguments;
 use crate::camera::{CameraArguments, Guess, sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
-use crate::known_camera::{name, tell_of_unseen};
+use crate::known_camera::tell_of_unseen;
 use crate::lens;
+use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
-use crate::photo::{KeptLens, Photo, SizeArguments};
+use crate::photo::{KeptLens, Photo};
 use crate::progress::Progress;
+use crate::reading::SizeArguments;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
@@ -40,7 +41,7 @@ use std::path::{Path, PathBuf};
     mut_arg("min_angle_deg", |argument| argument.default_value("0.3")),
     mut_arg("min_start_angle_deg", |argument| argument.default_value("1")),
     after_help = "Example: epipole odometry frames/ --k 718.9,718.9,607.2,185.2\n\n\
-    Frames are taken in the order of their names. The path of a single camera has no unit of\n\
+    Frames are taken in the order of their names, numbers as numbers. The path of a single camera has no unit of\n\
     length; that of a rectified stereo rig has the unit of its baseline:\n  \
     epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2\n\n\
     Where the focal length is but a guess it is refined at the end, by all frames together.\n\n\
@@ -52,6 +53,8 @@ pub(crate) struct Arguments {
     /// The folder of the frames; of the left camera, if there are two.
     #[arg(value_name = "FOLDER")]
     frames: PathBuf,
+    #[command(flatten)]
+    listing: ListingArguments,
     #[command(flatten)]
     camera: CameraArguments,
     /// Camera file written by `epipole calibrate`, for frames of its size. Frames stay distorted.
@@ -126,17 +129,21 @@ struct Frames {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let folder = |path: &PathBuf| photos(std::slice::from_ref(path));
-    let left_paths = folder(&arguments.frames)?;
-    let right_paths = arguments.right.as_ref().map(folder).transpose()?;
-    if let Some(right_paths) = &right_paths
-        && right_paths.len() != left_paths.len()
+    let folder = |path: &PathBuf| {
+        arguments
+            .listing
+            .photos(std::slice::from_ref(path), context)
+    };
+    let left_frames = folder(&arguments.frames)?;
+    let right_frames = arguments.right.as_ref().map(folder).transpose()?;
+    if let Some(right_frames) = &right_frames
+        && right_frames.len() != left_frames.len()
     {
         let message = format!(
             "the two cameras must have as many frames, but there are {} of the left one and {} of \
              the right one",
-            left_paths.len(),
-            right_paths.len()
+            left_frames.len(),
+            right_frames.len()
         );
         return Err(Failure::new("size-mismatch", message));
     }
@@ -151,10 +158,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         options,
         progress: Progress::new(context, "odometry"),
     };
-    let mut paths = left_paths.clone();
-    paths.extend(right_paths.unwrap_or_default());
-    let mut left = work.read(&paths)?;
-    let right = left.features.split_off(left_paths.len());
+    let mut all = left_frames.clone();
+    all.extend(right_frames.unwrap_or_default());
+    let mut left = work.read(&all)?;
+    let right = left.features.split_off(left_frames.len());
     let options = work.options(&left);
     let begun_with_px = left.camera.intrinsics.fu_px();
     let result = work.follow(left, right, &options)?;
@@ -167,7 +174,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .then_some(begun_with_px);
     Ok(report(
         &result,
-        &left_paths,
+        &left_frames,
         arguments.stereo_baseline_m.is_some(),
         refined_from,
     ))
@@ -194,14 +201,14 @@ impl Work<'_> {
     }
 
     /// The features of all pictures, one in memory at a time, and the camera that they share.
-    fn read(&self, paths: &[PathBuf]) -> Result<Frames, Failure> {
+    fn read(&self, listed: &[Listed]) -> Result<Frames, Failure> {
         let file = self.arguments.camera_file.as_ref();
         let camera = file.map(|file| lens::read(file, false)).transpose()?;
         if let Some(camera) = &camera {
             tell_of_unseen(camera, self.context)?;
         }
         let mut frames: Option<Frames> = None;
-        for (index, path) in paths.iter().enumerate() {
+        for (index, Listed { path, name }) in listed.iter().enumerate() {
             let photo = self.photo(path, camera.as_ref())?;
             let (width, height) = photo.color.dimensions();
             let first =
@@ -234,11 +241,11 @@ impl Work<'_> {
                 }
             };
             let photo = SfmPhoto {
-                name: name(path),
+                name: name.clone(),
                 image: photo.color,
                 ..SfmPhoto::default()
             };
-            let share = |done: usize| DETECTED * done as f32 / paths.len() as f32;
+            let share = |done: usize| DETECTED * done as f32 / listed.len() as f32;
             let watch = &mut |status| self.progress.show(status);
             let mut part = Part::new(watch, share(index), share(index + 1));
             (frames.features).push(photo_features(&photo, &self.options, &mut part)?);
@@ -250,9 +257,9 @@ impl Work<'_> {
     fn photo(&self, path: &Path, camera: Option<&Camera>) -> Result<Photo, Failure> {
         let size = self.arguments.size;
         let Some(camera) = camera else {
-            return Photo::prepared(path, size, None);
+            return Photo::prepared(path, size, None, self.context);
         };
-        let photo = Photo::by_camera(path, size, camera)?;
+        let photo = Photo::by_camera(path, size, camera, self.context)?;
         if photo.lens.is_none() {
             let message = format!(
                 "the camera of --camera was calibrated for {} × {}, but this frame is {} × {}",
@@ -316,16 +323,16 @@ impl Work<'_> {
 /// * `refined_from_px`: the focal length before it was refined, if it was
 fn report(
     result: &OdometryResult,
-    paths: &[PathBuf],
+    listed: &[Listed],
     metric: bool,
     refined_from_px: Option<f64>,
 ) -> Report {
-    let frames: Vec<serde_json::Value> = paths
+    let frames: Vec<serde_json::Value> = listed
         .iter()
         .zip(&result.world_from_cam)
-        .map(|(path, world_from_cam)| {
+        .map(|(Listed { name, .. }, world_from_cam)| {
             let motion = world_from_cam.as_ref().map(Motion::from);
-            json!({ "name": name(path), "world_from_cam": motion })
+            json!({ "name": name, "world_from_cam": motion })
         })
         .collect();
     let placed: Vec<&RigidTransform> = result.world_from_cam.iter().flatten().collect();
@@ -339,7 +346,7 @@ fn report(
         format!("{length:.3}, in a unit that one camera alone leaves open")
     };
     // Of the left camera, whose frames come first.
-    let cameras = result.reconstruction.cameras.iter().take(paths.len());
+    let cameras = result.reconstruction.cameras.iter().take(listed.len());
     let placed_camera = cameras.flatten().next();
     let mut report = Report::default()
         .field("frames", frames)
@@ -364,7 +371,7 @@ fn report(
         .field("complete", result.is_complete)
         .row(
             "frames placed",
-            format!("{} of {}", placed.len(), paths.len()),
+            format!("{} of {}", placed.len(), listed.len()),
         )
         .row("keyframes", result.keyframes.len())
         .row("points", result.reconstruction.points.len())

@@ -8,7 +8,8 @@ use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, matched_pixels};
 use crate::known_camera::{CameraFile, known_cameras, warn_of_unseen};
 use crate::matrices::{positive, row_major, share, size};
-use crate::photo::{Photo, SizeArguments, check_same_size};
+use crate::photo::{Photo, check_same_size};
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use crate::turn::{self, find_turn, left_open};
@@ -43,6 +44,8 @@ pub(crate) struct Arguments {
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
+    #[command(flatten)]
+    reading: ReadArguments,
     /// A stereo rig that `epipole calibrate --right` wrote, for photographs of its two cameras,
     /// left and right.
     #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
@@ -103,7 +106,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let (photos, found, num_matches) = match &arguments.rig {
         Some(file) => {
             let paths = [&*arguments.first, &*arguments.second];
-            let (photos, cameras, right_from_left) = rig::read(file, paths, context)?;
+            let (photos, cameras, right_from_left) =
+                rig::read(file, paths, arguments.reading, context)?;
             let found = calibrated(arguments, &cameras, &right_from_left, None)?;
             (photos, found, None)
         }
@@ -145,7 +149,7 @@ fn by_matches(
     context: &Context,
 ) -> Result<([Photo; 2], Found, Option<usize>), Failure> {
     let paths = [&*arguments.first, &*arguments.second];
-    let photos = (arguments.known).read(paths, SizeArguments::default(), context)?;
+    let photos = (arguments.known).read(paths, arguments.reading.into(), context)?;
     check_same_size(&photos)?;
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;

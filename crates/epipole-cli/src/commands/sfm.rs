@@ -8,7 +8,6 @@ pub(crate) mod refined;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;
-pub(crate) use self::input::photos;
 use self::output::{Pictures, write_model};
 use self::positions::{PositionArguments, rms_m};
 use crate::camera::{sentence, some_unknown};

@@ -9,6 +9,7 @@ use crate::files;
 use crate::matrices::positive;
 use crate::photo::{Photo, check_same_size};
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::stereo::{DisparityImage, fill_gaps, point_cloud, q_from_rig};
@@ -37,6 +38,8 @@ pub(crate) struct Arguments {
     left: PathBuf,
     /// The right one.
     right: PathBuf,
+    #[command(flatten)]
+    reading: ReadArguments,
     /// The smallest disparity looked for, pixels.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(i32).range(-8192..=8191), allow_hyphen_values = true)]
     min_disparity: i32,
@@ -102,8 +105,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Method::Bm => arguments.sgm.check_silent()?,
     }
     let photos = [
-        Photo::read(&arguments.left)?,
-        Photo::read(&arguments.right)?,
+        Photo::prepared(&arguments.left, arguments.reading, None, context)?,
+        Photo::prepared(&arguments.right, arguments.reading, None, context)?,
     ];
     check_same_size(&photos)?;
     let [left, right] = photos.each_ref().map(Photo::gray_u8);

@@ -2,7 +2,9 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::photo::{Photo, SizeArguments};
+use crate::listing::ListingArguments;
+use crate::photo::Photo;
+use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::{files, interrupt, lens, picture};
 use clap::{Args, ValueEnum};
@@ -31,6 +33,10 @@ pub(crate) struct Arguments {
     /// Photographs of the calibrated camera, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
     /// A file that `epipole calibrate` wrote.
     #[arg(long, value_name = "FILE")]
     camera: PathBuf,
@@ -51,12 +57,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Kept::All => Keep::All,
         Kept::Valid => Keep::Valid,
     };
-    let paths = super::sfm::photos(&arguments.photos)?;
+    let listed = arguments.listing.photos(&arguments.photos, context)?;
     let mut targets = Vec::new();
-    for path in &paths {
-        let target = arguments
-            .output
-            .join(path.with_extension("png").file_name().unwrap_or_default());
+    for one in &listed {
+        let target = arguments.output.join(&one.name).with_extension("png");
         if targets.contains(&target) {
             return Err(Failure::usage(format!(
                 "two photographs would be written to {}",
@@ -67,12 +71,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let flat = Undistortion::new(&camera, keep)?;
     let mut written = Vec::new();
-    for (path, target) in paths.iter().zip(&targets) {
+    for (one, target) in listed.iter().zip(&targets) {
+        let path = &one.path;
         if interrupt::requested() {
             context.warn(interrupt::ENDED_EARLY);
             break;
         }
-        let photo = Photo::prepared(path, SizeArguments::default(), Some(&flat))?;
+        let photo = Photo::prepared(path, arguments.reading, Some(&flat), context)?;
         if photo.k.is_none() {
             let (width, height) = photo.sensor_size;
             let upright = match (height, width) == (camera.width, camera.height) {
@@ -85,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             );
             return Err(Failure::new("size-mismatch", message).about(path));
         }
-        files::make_folder(&arguments.output)?;
+        files::make_folder_of(target)?;
         files::write(target, &picture::png(&photo.color)?)?;
         written.push(target.display().to_string());
     }

@@ -7,6 +7,7 @@ mod calibrate;
 mod common;
 mod depth;
 mod features;
+mod field;
 mod geometry;
 mod known_camera;
 mod lenses;

@@ -250,7 +250,9 @@ fn photographs_are_written_as_the_model_speaks_of_them() {
     let smaller = ["--max-megapixels", "0.03"];
     refused(&sfm(&given, &out, &smaller), "would write over it");
     assert_eq!(std::fs::read(&given[0]).unwrap(), before);
-    let twice = [files[0].clone(), given[0].clone()];
+    let beside = folder.file("0.jpg");
+    std::fs::copy(&given[0], &beside).unwrap();
+    let twice = [files[0].clone(), beside];
     let other = folder.file("other");
     refused(
         &sfm(&twice, &other, &smaller),

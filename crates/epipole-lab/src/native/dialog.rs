@@ -24,7 +24,12 @@ impl Wanted {
     /// Label and extensions of the files.
     fn kind(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Photographs => ("Photographs", &["jpg", "jpeg", "png"]),
+            Self::Photographs => (
+                "Photographs",
+                &[
+                    "jpg", "jpeg", "png", "webp", "tif", "tiff", "bmp", "pgm", "ppm",
+                ],
+            ),
             Self::Project => ("Projects", &["zip"]),
         }
     }

@@ -244,6 +244,6 @@ mod tests {
     fn files_that_are_none_are_refused_in_words() {
         let go_on = &mut |_: Told<'_>| ControlFlow::Continue(());
         let refused = file(b"no picture", 1000, None, go_on).expect_err("that is no picture");
-        assert_eq!(refused, "it is no PNG, JPEG or WebP file");
+        assert_eq!(refused, "it is no PNG, JPEG, WebP, TIFF, BMP or PNM file");
     }
 }

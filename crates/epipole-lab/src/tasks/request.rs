@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Source of a photograph.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Source {
-    /// The bytes of a PNG, JPEG or WebP file.
+    /// The bytes of an image file.
     File(Blob),
     /// A photograph of a sample, rendered.
     Rendered(Sample, u8),

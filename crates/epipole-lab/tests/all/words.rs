@@ -22,12 +22,15 @@ fn a_file_that_is_no_photograph_is_said_to_be_none_once() {
     ]));
     finish(&mut project);
     let words = |n: usize| project.fate_words(&project.document().photos[n]);
-    assert_eq!(words(0), "cannot be read: it is no PNG, JPEG or WebP file");
+    assert_eq!(
+        words(0),
+        "cannot be read: it is no PNG, JPEG, WebP, TIFF, BMP or PNM file"
+    );
     assert_eq!(words(1), "cannot be read: the file is empty");
     let features = said(&mut project, Step::Features);
     assert_eq!(
         features,
-        "letter.jpg: cannot be read: it is no PNG, JPEG or WebP file."
+        "letter.jpg: cannot be read: it is no PNG, JPEG, WebP, TIFF, BMP or PNM file."
     );
 }
 

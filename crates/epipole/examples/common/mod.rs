@@ -15,7 +15,7 @@ pub(crate) fn arguments() -> Vec<String> {
     std::env::args().skip(1).collect()
 }
 
-/// Gray values in [0, 1] of a PNG, JPEG or WebP file.
+/// Gray values in [0, 1] of an image file.
 pub(crate) fn read_gray(path: &str) -> Outcome<GrayImage32> {
     Ok(decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image)
 }

@@ -4,7 +4,7 @@
 use super::Undistortion;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics};
-use crate::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
+use crate::imaging::{DecodeOptions, PixelRange, decode_rgb, reduce_rgb};
 use crate::math::Geodetic;
 use derive_setters::Setters;
 use image::metadata::Orientation;
@@ -17,16 +17,25 @@ use image::{DynamicImage, RgbImage};
 pub struct PrepareOptions<'a> {
     /// Maximum number of pixels of the result.
     pub max_pixels: u64,
+    /// Maximum number of pixels of the file, which bounds memory.
+    pub max_file_pixels: u64,
+    /// Sample values that become black and white.
+    pub range: PixelRange,
     /// Undistortion for images of one camera, those with its sensor's size before they are turned
     /// upright.
     pub undistortion: Option<&'a Undistortion>,
 }
 
 impl Default for PrepareOptions<'_> {
-    /// Rotated upright, otherwise unchanged.
+    /// Rotated upright, otherwise unchanged; decoded as by [`DecodeOptions::default`].
     fn default() -> Self {
+        let DecodeOptions {
+            max_pixels, range, ..
+        } = DecodeOptions::default();
         Self {
             max_pixels: u64::MAX,
+            max_file_pixels: max_pixels,
+            range,
             undistortion: None,
         }
     }
@@ -49,7 +58,10 @@ pub struct PreparedPhoto {
     pub sensor_size: (u32, u32),
     /// Number of clockwise quarter turns that made it upright; `None` if it was mirrored.
     pub quarters: Option<u8>,
-    /// Whether the pixels are those of the file: not rotated, undistorted or downscaled.
+    /// Sample values that became black and white, where they are not those of the format.
+    pub range: Option<[f64; 2]>,
+    /// Whether the pixels are those of the file: not rotated, undistorted or downscaled, nor mapped
+    /// from a range.
     pub is_as_stored: bool,
 }
 
@@ -86,7 +98,7 @@ impl PreparedPhoto {
     }
 }
 
-/// Reads a PNG, JPEG or WebP file, undistorts it if it has the size of the undistortion's camera,
+/// Decodes a file as [`decode_rgb`], undistorts it if it has the size of the undistortion's camera,
 /// turns it upright, and downscales it.
 ///
 /// The lens is fixed to the sensor: a camera calibrated with photographs in the sensor's
@@ -109,8 +121,9 @@ impl PreparedPhoto {
 /// ```
 pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<PreparedPhoto> {
     let as_stored = DecodeOptions {
+        max_pixels: options.max_file_pixels,
         apply_orientation: false,
-        ..DecodeOptions::default()
+        range: options.range,
     };
     let decoded = decode_rgb(bytes, &as_stored)?;
     let sensor_size = decoded.image.dimensions();
@@ -138,8 +151,10 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
         full_size,
         sensor_size,
         quarters,
+        range: decoded.range,
         is_as_stored: decoded.orientation == Orientation::NoTransforms
             && redrawn.is_none()
+            && decoded.range.is_none()
             && size == full_size,
     };
     photo.focal_px = decoded.focal_px.map(|f| photo.reduced_focal_px(f));
@@ -250,6 +265,7 @@ mod tests {
         let options = PrepareOptions {
             max_pixels: 1200,
             undistortion: Some(&flat),
+            ..PrepareOptions::default()
         };
         // Upright pixels without a word of how they came to be so; and a mirrored photograph.
         let upright = image::imageops::rotate90(&smooth());

@@ -38,7 +38,7 @@ pub use border::Border;
 pub use bytes::gaussian_blur_u8;
 pub use correlate::{correlate, noise_gain};
 #[cfg(feature = "decode")]
-pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
+pub use decode::{DecodeOptions, Decoded, PixelRange, decode_gray, decode_rgb};
 pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{
     DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,

@@ -135,10 +135,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
         for word in &words[num_ids..] {
             match word.parse::<f64>() {
                 Ok(value) if value.is_finite() => numbers.push(value),
-                _ => {
-                    let why = format!("“{word}” is not a finite number");
-                    return Err(malformed(line, why));
-                }
+                _ => return Err(malformed(line, no_number(word))),
             }
         }
         let pose = T::read(&numbers[..T::NUMBERS]).map_err(|why| malformed(line, why.into()))?;
@@ -198,6 +195,38 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
     }
 }
 
+fn no_number(word: &str) -> String {
+    let has_point = word.replacen(',', ".", 1).parse::<f64>();
+    match word.contains(',') && has_point.is_ok_and(f64::is_finite) {
+        true => format!("“{word}” has a decimal comma, where g2o has a point"),
+        false => format!("“{word}” is not a finite number"),
+    }
+}
+
+/// Why a tag is not read.
+fn unknown(tag: &str) -> String {
+    if tag.contains("PRIOR") {
+        return format!(
+            "“{tag}” is a prior of one pose, which is not supported: fix the vertex by FIX, or measure it by an edge from a \
+             vertex that is fixed"
+        );
+    }
+    if ["XY", "POINT", "LANDMARK", "LINE", "PLANE"]
+        .iter()
+        .any(|one| tag.contains(one))
+    {
+        return format!(
+            "“{tag}” is of a landmark, but only poses are optimized: remove the lines of landmarks"
+        );
+    }
+    match tag {
+        "VERTEX2" | "EDGE2" | "VERTEX3" | "EDGE3" => {
+            format!("“{tag}” is of TORO's format: convert the file to g2o")
+        }
+        _ => format!("the tag “{tag}” is not known"),
+    }
+}
+
 fn parse_id(line: usize, word: &str) -> Result<u64> {
     word.parse()
         .map_err(|_| malformed(line, format!("“{word}” is not the number of a vertex")))
@@ -253,13 +282,13 @@ impl PoseGraph {
     ///
     /// The similarities are an extension: as SE(3), with the scale after the quaternion and an
     /// information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
-    /// information matrices are written as their upper triangles, row by row. Empty lines and
-    /// those that start with `#` are skipped.
+    /// information matrices are written as their upper triangles, row by row. Empty lines, those
+    /// that start with `#`, and `PARAMS_…` are skipped.
     ///
     /// # Errors
-    /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus
-    /// values, values that are not finite, vertices that are there twice or not at all, and
-    /// information matrices that are not positive semi-definite; [`Error::TooFew`] without
+    /// [`Error::Malformed`] with the line for unknown tags, priors, landmarks, mixed kinds, missing
+    /// or surplus values, values that are not finite, vertices that are there twice or not at all,
+    /// and information matrices that are not positive semi-definite; [`Error::TooFew`] without
     /// vertices.
     ///
     /// ```
@@ -284,7 +313,8 @@ impl PoseGraph {
             let Some((&tag, words)) = words.split_first() else {
                 continue;
             };
-            if tag.starts_with('#') {
+            // Only priors and landmarks have parameters, and those lines are refused.
+            if tag.starts_with('#') || tag.starts_with("PARAMS_") {
                 continue;
             }
             if tag == "FIX" {
@@ -300,7 +330,7 @@ impl PoseGraph {
             } else if sim3.accept(line, tag, words)? {
                 7
             } else {
-                return Err(malformed(line, format!("the tag “{tag}” is not known")));
+                return Err(malformed(line, unknown(tag)));
             };
             if *kind.get_or_insert(this) != this {
                 let why = format!("“{tag}” is of another kind than the lines before");
@@ -404,7 +434,15 @@ mod tests {
                 "another kind",
             ),
             ("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 0\n", 1, "zero"),
-            ("LANDMARK 1 2\n", 1, "not known"),
+            ("SOMETHING 1 2\n", 1, "not known"),
+            ("VERTEX_XY 1 2 3\n", 1, "landmark"),
+            ("VERTEX3 1 0 0 0 0 0 0\n", 1, "TORO"),
+            (
+                "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\nEDGE_SE3_PRIOR 1 0 5 0 0 0 0 0 1\n",
+                2,
+                "a prior of one pose",
+            ),
+            ("VERTEX_SE2 0 0,5 0 0\n", 1, "“0,5” has a decimal comma"),
             (
                 "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 7 1 0 0 4 0 0 4 0 4\n",
                 2,

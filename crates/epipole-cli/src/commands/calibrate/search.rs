@@ -3,11 +3,12 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::listing::Listed;
 use crate::photo::Photo;
 use crate::progress::Progress;
+use crate::reading::ReadArguments;
 use epipole::calibration::{Board, BoardView, find_board};
 use rayon::prelude::*;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Boards found in the photos of one camera, in their order.
@@ -21,30 +22,28 @@ pub(super) struct Photographs {
 
 /// Looks for the board in every photograph.
 pub(super) fn search(
-    paths: &[PathBuf],
+    photos: &[Listed],
+    reading: ReadArguments,
     board: &Board,
     context: &Context,
 ) -> Result<Photographs, Failure> {
     let progress = Progress::new(context, "looking for boards");
     let num_done = AtomicUsize::new(0);
-    let searched: Result<Vec<_>, Failure> = paths
+    let searched: Result<Vec<_>, Failure> = photos
         .par_iter()
-        .map(|path| {
+        .map(|photo| {
             if interrupt::requested() {
                 return Err(epipole::Error::Canceled.into());
             }
-            let gray = Photo::of_sensor(path)?;
+            let gray = Photo::of_sensor(&photo.path, reading, context)?;
             let found = find_board(&gray, board)?;
             let done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress.set(done as f64 / paths.len() as f64);
+            progress.set(done as f64 / photos.len() as f64);
             Ok((gray.dimensions(), found))
         })
         .collect();
     drop(progress);
-    let names: Vec<String> = paths
-        .iter()
-        .map(|path| crate::known_camera::name(path))
-        .collect();
+    let names: Vec<String> = photos.iter().map(|photo| photo.name.clone()).collect();
     let mut photographs = Photographs {
         names,
         views: Vec::new(),

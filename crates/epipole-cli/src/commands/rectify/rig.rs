@@ -4,7 +4,8 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::tell_of_unseen;
 use crate::lens;
-use crate::photo::{Photo, SizeArguments, check_same_size};
+use crate::photo::{Photo, check_same_size};
+use crate::reading::ReadArguments;
 use epipole::camera::{Camera, RigidTransform};
 use std::path::Path;
 
@@ -15,13 +16,14 @@ use std::path::Path;
 pub(super) fn read(
     file: &Path,
     paths: [&Path; 2],
+    reading: ReadArguments,
     context: &Context,
 ) -> Result<([Photo; 2], [Camera; 2], RigidTransform), Failure> {
     let (cameras, right_from_left) = lens::read_rig(file)?;
     let [left, right] = &cameras;
     let photos = [
-        photograph(paths[0], left, "left", context)?,
-        photograph(paths[1], right, "right", context)?,
+        photograph(paths[0], left, "left", reading, context)?,
+        photograph(paths[1], right, "right", reading, context)?,
     ];
     check_same_size(&photos)?;
     Ok((photos, cameras, right_from_left))
@@ -33,10 +35,11 @@ fn photograph(
     path: &Path,
     camera: &Camera,
     side: &str,
+    reading: ReadArguments,
     context: &Context,
 ) -> Result<Photo, Failure> {
     tell_of_unseen(camera, context)?;
-    let photo = Photo::by_camera(path, SizeArguments::default(), camera)?;
+    let photo = Photo::by_camera(path, reading, camera, context)?;
     let (width, height) = photo.sensor_size;
     let why = match photo.lens {
         Some(kept) if kept.quarters == 0 => return Ok(photo),

@@ -3,10 +3,11 @@
 use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::files;
-use crate::known_camera::{name, tell_of_others, tell_of_unseen};
+use crate::known_camera::{tell_of_others, tell_of_unseen};
 use crate::lens;
-use crate::photo::{KeptLens, Photo, SizeArguments};
+use crate::listing::{Listed, ListingArguments};
+use crate::photo::{KeptLens, Photo};
+use crate::reading::SizeArguments;
 use clap::Args;
 use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::Intrinsics;
@@ -20,6 +21,8 @@ pub(super) struct InputArguments {
     /// Photographs, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
     photos: Vec<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArguments,
     #[command(flatten)]
     camera: CameraArguments,
     /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for
@@ -64,7 +67,7 @@ pub(super) struct Input {
 
 /// The file of a photograph.
 pub(super) struct Used {
-    pub(super) path: PathBuf,
+    pub(super) listed: Listed,
     /// Whether it shows just the pixels that were used: neither turned nor redrawn nor reduced.
     pub(super) is_as_stored: bool,
 }
@@ -75,12 +78,12 @@ impl InputArguments {
     /// # Errors
     /// A sentence, for files that cannot be read and numbers that do not fit.
     pub(super) fn read(&self, context: &Context) -> Result<Input, Failure> {
-        let paths = photos(&self.photos)?;
-        if !self.focals_px.is_empty() && self.focals_px.len() != paths.len() {
+        let listed = self.listing.photos(&self.photos, context)?;
+        if !self.focals_px.is_empty() && self.focals_px.len() != listed.len() {
             return Err(Failure::usage(format!(
                 "--focals-px needs one for each photograph, but there are {} for {}",
                 self.focals_px.len(),
-                paths.len()
+                listed.len()
             )));
         }
         let camera = self.camera_file.as_ref();
@@ -101,35 +104,39 @@ impl InputArguments {
             used: Vec::new(),
         };
         let (mut sizes, mut others) = (Vec::new(), Vec::new());
-        for (index, path) in paths.iter().enumerate() {
+        let num_photos = listed.len();
+        for (index, listed) in listed.into_iter().enumerate() {
+            let path = &listed.path;
             let photo = match &camera {
-                Some(camera) if flat.is_none() => Photo::by_camera(path, self.size, camera)?,
-                _ => Photo::prepared(path, self.size, flat.as_ref())?,
+                Some(camera) if flat.is_none() => {
+                    Photo::by_camera(path, self.size, camera, context)?
+                }
+                _ => Photo::prepared(path, self.size, flat.as_ref(), context)?,
             };
             let (k, guess) = match self.focals_px.get(index) {
                 Some(Focal(Some(focal_px))) => (of_focal(*focal_px, &photo)?, None),
                 _ => self.camera.or_guess(&photo)?,
             };
             if photo.k.is_none() {
-                others.push((name(path), photo.sensor_size));
+                others.push((listed.name.clone(), photo.sensor_size));
             }
             sizes.push(photo.full_size);
             input.guesses.extend(guess);
             input.intrinsics.push(k);
             input.lenses.push(photo.lens);
             input.places.push(photo.place);
-            input.used.push(Used {
-                path: path.clone(),
-                is_as_stored: photo.is_as_stored,
-            });
             input.photos.push(SfmPhoto {
-                name: name(path),
+                name: listed.name.clone(),
                 image: photo.color,
                 ..SfmPhoto::default()
             });
+            input.used.push(Used {
+                listed,
+                is_as_stored: photo.is_as_stored,
+            });
         }
         if let Some(camera) = &camera {
-            tell_of_others(camera, &others, paths.len(), context);
+            tell_of_others(camera, &others, num_photos, context);
         }
         if self.camera.k.is_some()
             && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
@@ -142,38 +149,4 @@ impl InputArguments {
         }
         Ok(input)
     }
-}
-
-/// The files given, folders replaced by the photographs in them, sorted.
-pub(crate) fn photos(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut paths = Vec::new();
-    for path in given {
-        if !path.is_dir() {
-            // Told before files are counted: a name that is wrong is not a list that is too short.
-            path.metadata()
-                .map_err(|error| files::unreadable(path, &error))?;
-            paths.push(path.clone());
-            continue;
-        }
-        let unreadable = |error: std::io::Error| {
-            Failure::new("read", format!("the folder cannot be read: {error}")).about(path)
-        };
-        let mut found = Vec::new();
-        for entry in std::fs::read_dir(path).map_err(unreadable)? {
-            let file = entry.map_err(unreadable)?.path();
-            let extension = file.extension().and_then(|extension| extension.to_str());
-            let known = extension.map(str::to_lowercase);
-            if known.is_some_and(|e| ["png", "jpg", "jpeg", "webp"].contains(&&*e)) {
-                found.push(file);
-            }
-        }
-        if found.is_empty() {
-            return Err(
-                Failure::new("read", "there are no photographs in this folder").about(path),
-            );
-        }
-        found.sort();
-        paths.extend(found);
-    }
-    Ok(paths)
 }

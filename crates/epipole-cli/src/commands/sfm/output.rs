@@ -2,7 +2,6 @@
 
 use super::input::Used;
 use crate::failure::Failure;
-use crate::known_camera::name;
 use crate::{files, photo, picture};
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use std::collections::BTreeSet;
@@ -22,12 +21,15 @@ impl<'a> Pictures<'a> {
     pub(super) fn within(output: &Path, used: &'a [Used]) -> Result<Self, Failure> {
         let folder = output.join("images");
         let mut names = Vec::new();
-        for Used { path, is_as_stored } in used {
-            let path = match is_as_stored {
-                true => path.clone(),
-                false => path.with_extension("jpg"),
-            };
-            names.push(name(&path));
+        for Used {
+            listed,
+            is_as_stored,
+        } in used
+        {
+            names.push(match is_as_stored {
+                true => listed.name.clone(),
+                false => with_jpg(&listed.name),
+            });
         }
         let mut taken = BTreeSet::new();
         if let Some(twice) = names.iter().find(|name| !taken.insert(*name)) {
@@ -37,7 +39,10 @@ impl<'a> Pictures<'a> {
             )));
         }
         let whole = |path: &Path| path.canonicalize().ok();
-        let given: BTreeSet<PathBuf> = used.iter().filter_map(|used| whole(&used.path)).collect();
+        let given: BTreeSet<PathBuf> = used
+            .iter()
+            .filter_map(|used| whole(&used.listed.path))
+            .collect();
         let over = (names.iter().map(|name| folder.join(name)))
             .find(|target| whole(target).is_some_and(|target| given.contains(&target)));
         match over {
@@ -59,12 +64,24 @@ impl<'a> Pictures<'a> {
         files::make_folder(&self.folder)?;
         for ((used, photo), name) in self.used.iter().zip(photos).zip(&self.names) {
             let bytes = match used.is_as_stored {
-                true => photo::bytes(&used.path)?,
+                true => photo::bytes(&used.listed.path)?,
                 false => picture::jpeg(&photo.image)?,
             };
-            files::write(&self.folder.join(name), &bytes)?;
+            let target = self.folder.join(name);
+            files::make_folder_of(&target)?;
+            files::write(&target, &bytes)?;
         }
         Ok(())
+    }
+}
+
+/// A name with the extension of a JPEG file.
+fn with_jpg(name: &str) -> String {
+    let (folders, file) = name.rsplit_once('/').map_or(("", name), |(a, b)| (a, b));
+    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+    match folders {
+        "" => format!("{stem}.jpg"),
+        folders => format!("{folders}/{stem}.jpg"),
     }
 }
 

@@ -77,11 +77,8 @@ impl PositionArguments {
                 .map(|place| place.as_ref().map(line))
                 .collect()
         } else {
-            let mut lines = lines(&files::read_text(path)?, path, self.position_sigma_m)?;
-            photos
-                .iter()
-                .map(|photo| lines.remove(&photo.name))
-                .collect()
+            let lines = lines(&files::read_text(path)?, path, self.position_sigma_m)?;
+            of_photos(&lines, photos)
         };
         let num_known = told.iter().flatten().count();
         if num_known == 0 {
@@ -145,6 +142,20 @@ impl PositionArguments {
             ),
         ))
     }
+}
+
+/// The line of each photograph: of its name, or of its file without the folders, if no other has
+/// the same.
+fn of_photos(lines: &BTreeMap<String, Line>, photos: &[Photo]) -> Vec<Option<Line>> {
+    let file = |photo: &Photo| photo.name.rsplit('/').next().map(str::to_owned);
+    let mut counts = BTreeMap::new();
+    for photo in photos {
+        *counts.entry(file(photo)).or_insert(0) += 1;
+    }
+    let by_file = |photo: &Photo| lines.get(&file(photo).filter(|_| counts[&file(photo)] == 1)?);
+    (photos.iter())
+        .map(|photo| lines.get(&photo.name).or_else(|| by_file(photo)).copied())
+        .collect()
 }
 
 /// Positions farther from zero, meters, are no place on Earth, whatever its frame.

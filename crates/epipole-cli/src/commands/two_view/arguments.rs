@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::known_camera::CameraFile;
 use crate::matrices::positive;
-use crate::photo::SizeArguments;
+use crate::reading::SizeArguments;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::{Args, ValueEnum};
 use epipole::two_view::TwoViewOptions;
@@ -50,9 +50,9 @@ pub(super) enum Model {
     a turn; degenerate: no more than chance)."
 )]
 pub(crate) struct Arguments {
-    /// A PNG, JPEG or WebP file.
+    /// The first photograph.
     pub(super) first: PathBuf,
-    /// A PNG, JPEG or WebP file.
+    /// The second photograph.
     pub(super) second: PathBuf,
     /// Which model to look for.
     #[arg(long, value_enum, default_value = "auto")]

@@ -93,6 +93,20 @@ impl Drop for Folder {
     }
 }
 
+/// A file as people have it, or `None` with a printed line where it is absent.
+pub(crate) fn field(relative: &str) -> Option<PathBuf> {
+    let data = std::env::var_os("EPIPOLE_DATA").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
+        PathBuf::from,
+    );
+    let path = data.join("../field").join(relative);
+    if path.exists() {
+        return Some(path);
+    }
+    println!("skipped: no file at {}", path.display());
+    None
+}
+
 pub(crate) fn path(path: &Path) -> &str {
     path.to_str().unwrap()
 }

@@ -3,23 +3,41 @@
 use super::flaw::Flaw;
 use super::frame::Frame;
 use super::scan::Scan;
+use super::standard;
 use super::tables::Tables;
+use std::borrow::Cow;
 
-/// End of an intact file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::imaging) enum End {
-    /// With the marker that belongs there.
-    Marked,
-    /// Just behind the last block, here.
-    Unmarked(usize),
+/// Parts that an intact file leaves out, and its decoder needs.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(in crate::imaging) struct Missing {
+    /// End of the last block, where there is no end-of-image marker.
+    pub(super) end_at: Option<usize>,
+    /// Whether it has no Huffman tables, and is coded by the standard ones.
+    pub(super) tables: bool,
+}
+
+impl Missing {
+    /// The file with these parts.
+    pub(in crate::imaging) fn added_to(self, file: &[u8]) -> Cow<'_, [u8]> {
+        let mut whole = Cow::from(file);
+        if let Some(at) = self.end_at {
+            // The decoder would take the last rows for lost.
+            whole = [&file[..at], &[0xFF, 0xD9]].concat().into();
+        }
+        if self.tables {
+            whole = standard::inserted(&whole).into();
+        }
+        whole
+    }
 }
 
 /// Passes over a JPEG file; over its markers only if its picture is larger than `max_pixels`.
 ///
 /// # Errors
 /// The damage to its data in words, if there is any.
-pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, String> {
+pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, String> {
     let mut tables = Tables::default();
+    let mut missing = Missing::default();
     let mut frame: Option<Frame> = None;
     // Whether the data are of a kind that is known here.
     let mut known = true;
@@ -29,7 +47,7 @@ pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, Str
             (0xFF, 0xD9) => {
                 return match &frame {
                     Some(frame) if known && !frame.is_complete() => Err(ENDS.to_owned()),
-                    _ => Ok(End::Marked),
+                    _ => Ok(missing),
                 };
             }
             (0xFF, 0x00 | 0x01 | 0xD0..=0xD8) => {
@@ -57,6 +75,9 @@ pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, Str
             // Arithmetic coding, lossless files and files of several frames.
             0xC0..=0xCF => known = false,
             0xDA if known => {
+                if frame.as_ref().is_some_and(|frame| !frame.progressive) {
+                    missing.tables |= tables.complete();
+                }
                 let scan =
                     (frame.as_mut()).and_then(|frame| Some((Scan::read(segment, frame)?, frame)));
                 let passed = scan.and_then(|(scan, frame)| {
@@ -77,7 +98,8 @@ pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<End, Str
     match frame {
         // Progressive files could always go on.
         Some(frame) if known && !frame.progressive && frame.is_complete() => {
-            Ok(End::Unmarked(behind))
+            missing.end_at = Some(behind);
+            Ok(missing)
         }
         _ => Err(ENDS.to_owned()),
     }

@@ -17,8 +17,9 @@ mod check;
 mod flaw;
 mod frame;
 mod scan;
+mod standard;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use check::{End, check};
+pub(super) use check::check;

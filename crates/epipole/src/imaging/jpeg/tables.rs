@@ -1,6 +1,7 @@
 //! Tables that segments before a scan set.
 
 use super::bits::Huffman;
+use super::standard;
 
 /// Settings of the segments before a scan.
 #[derive(Default)]
@@ -16,6 +17,15 @@ impl Tables {
         if let Some(&[high, low]) = segment.first_chunk() {
             self.restart = u32::from(u16::from_be_bytes([high, low]));
         }
+    }
+
+    /// Sets the standard tables if no segment set any; returns whether it did.
+    pub(super) fn complete(&mut self) -> bool {
+        let is_empty = self.dc.iter().chain(&self.ac).all(Option::is_none);
+        if is_empty {
+            self.read_huffman(&standard::TABLES);
+        }
+        is_empty
     }
 
     pub(super) fn read_huffman(&mut self, mut segment: &[u8]) {

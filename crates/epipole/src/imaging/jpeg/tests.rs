@@ -1,8 +1,9 @@
 //! Files of 45 × 37 pixels, as `libjpeg` writes them with tables of their own, and damaged
 //! variants.
 
-use super::{End, check};
-use crate::imaging::{DecodeOptions, decode_rgb};
+use super::check::{Missing, check};
+use crate::imaging::{DecodeOptions, decode_rgb, fixture};
+use image::RgbImage;
 
 /// In one scan.
 const SEQUENTIAL: &str = "ffd8ffe000104a46494600010100000100010000ffdb004300100b0c0e0c0a100e0d0e1211101318281a181616\
@@ -62,7 +63,7 @@ fn data_at(file: &[u8]) -> usize {
     scan + 2 + usize::from(file[scan + 3])
 }
 
-fn check_all(file: &[u8]) -> Result<End, String> {
+fn check_all(file: &[u8]) -> Result<Missing, String> {
     check(file, u64::MAX)
 }
 
@@ -71,7 +72,7 @@ const END: [u8; 2] = [0xFF, 0xD9];
 #[test]
 fn sound_files_pass() {
     for hex in [SEQUENTIAL, RESTARTS, PROGRESSIVE] {
-        assert_eq!(check_all(&file(hex)), Ok(End::Marked));
+        assert_eq!(check_all(&file(hex)), Ok(Missing::default()));
     }
 }
 
@@ -196,11 +197,59 @@ fn what_is_unknown_is_left_to_the_decoder() {
     let at = data_at(&whole);
     whole.drain(at + 60..whole.len() - 2);
     assert!(check_all(&whole).is_err());
-    assert_eq!(check(&whole, 45 * 37 - 1), Ok(End::Marked));
+    assert_eq!(check(&whole, 45 * 37 - 1), Ok(Missing::default()));
     let frame = whole
         .windows(2)
         .position(|two| two == [0xFF, 0xC0])
         .unwrap();
     whole[frame + 1] = 0xC9;
-    assert_eq!(check_all(&whole), Ok(End::Marked));
+    assert_eq!(check_all(&whole), Ok(Missing::default()));
+}
+
+/// The file without its segments of tables.
+fn without_tables(file: &[u8]) -> Vec<u8> {
+    let mut bare = file[..2].to_vec();
+    let mut at = 2;
+    while file[at + 1] != 0xDA {
+        let length = usize::from(u16::from_be_bytes([file[at + 2], file[at + 3]]));
+        if file[at + 1] != 0xC4 {
+            bare.extend(&file[at..at + 2 + length]);
+        }
+        at += 2 + length;
+    }
+    bare.extend(&file[at..]);
+    bare
+}
+
+#[test]
+fn a_file_without_tables_is_read_by_the_standard_ones() {
+    let picture = RgbImage::from_fn(45, 37, |u, v| {
+        image::Rgb([(u * 5) as u8, (v * 6) as u8, ((u * v) % 251) as u8])
+    });
+    // The encoder writes the standard tables.
+    let mut whole = Vec::new();
+    let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut whole, 95);
+    picture.write_with_encoder(encoder).unwrap();
+    let bare = without_tables(&whole);
+    assert_eq!(bare.len() + 420 + 3 * 4, whole.len());
+    let options = DecodeOptions::default();
+    let expected = decode_rgb(&whole, &options).unwrap().image;
+    for file in [&bare[..], &bare[..bare.len() - 2]] {
+        assert!(check_all(file).unwrap().tables);
+        assert_eq!(decode_rgb(file, &options).unwrap().image, expected);
+    }
+    // Data by other tables make no sense.
+    assert!(check_all(&without_tables(&self::file(SEQUENTIAL))).is_err());
+    // Progressive files always have their own.
+    let progressive = check_all(&without_tables(&self::file(PROGRESSIVE)));
+    assert!(progressive.is_ok_and(|missing| !missing.tables));
+}
+
+#[test]
+fn a_frame_of_a_webcam_is_read() {
+    let Some(path) = fixture::field("28/mjpeg_no_dht.jpg") else {
+        return;
+    };
+    let image = decode_rgb(&std::fs::read(path).unwrap(), &DecodeOptions::default());
+    assert!(image.unwrap().image.pixels().any(|pixel| pixel.0[0] > 128));
 }

@@ -1,13 +1,15 @@
-//! PNG, JPEG and WebP, and the EXIF data in them.
+//! PNG, JPEG and WebP with the EXIF data in them, TIFF, BMP and PNM.
 
 use super::config;
 use super::damage::{damage_bytes, some_damage};
 use epipole::Error;
 use epipole::imaging::{DecodeOptions, decode_gray, decode_rgb};
 use image::codecs::{jpeg::JpegEncoder, png::PngEncoder, webp::WebPEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, RgbImage};
 use proptest::prelude::*;
+use std::io::Cursor;
 use std::sync::LazyLock;
+use tiff::encoder::{Compression, Predictor, TiffEncoder, colortype};
 
 const WIDTH: u32 = 13;
 const HEIGHT: u32 = 9;
@@ -38,11 +40,14 @@ fn exif() -> Vec<u8> {
     data
 }
 
+fn pixels() -> Vec<u8> {
+    let values = (0..WIDTH * HEIGHT * 3).map(|i| (i * 37 % 251) as u8);
+    values.collect()
+}
+
 /// A picture in one of the formats, with these EXIF data.
 fn encoded(format: usize, exif: Vec<u8>) -> Vec<u8> {
-    let pixels: Vec<u8> = (0..WIDTH * HEIGHT * 3)
-        .map(|i| (i * 37 % 251) as u8)
-        .collect();
+    let pixels = pixels();
     let mut bytes = Vec::new();
     let size = (WIDTH, HEIGHT, ExtendedColorType::Rgb8);
     match format {
@@ -65,6 +70,48 @@ fn write(
 
 static RIGHT: LazyLock<[Vec<u8>; 3]> =
     LazyLock::new(|| std::array::from_fn(|format| encoded(format, exif())));
+
+/// A BMP file, and a PNM file of 16 bits.
+static UNCOMPRESSED: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
+    let image = RgbImage::from_raw(WIDTH, HEIGHT, pixels()).unwrap();
+    let image = DynamicImage::from(image);
+    let deep = DynamicImage::from(image.to_rgb16());
+    [(image, ImageFormat::Bmp), (deep, ImageFormat::Pnm)].map(|(image, format)| {
+        let mut file = Cursor::new(Vec::new());
+        image.write_to(&mut file, format).unwrap();
+        file.into_inner()
+    })
+});
+
+/// TIFF files of bytes, words and floats, in all compressions that can be written.
+static TIFF: LazyLock<[Vec<u8>; 3]> = LazyLock::new(|| {
+    let compressions = [
+        Compression::Packbits,
+        Compression::Lzw,
+        Compression::Deflate(Default::default()),
+    ];
+    let mut files = compressions.map(|compression| (Cursor::new(Vec::new()), compression));
+    let (words, floats): (Vec<u16>, Vec<f32>) = pixels()
+        .into_iter()
+        .map(|v| (u16::from(v) * 9, f32::from(v) / 7.0))
+        .unzip();
+    for (depth, (file, compression)) in files.iter_mut().enumerate() {
+        let encoder = TiffEncoder::new(file)
+            .unwrap()
+            .with_compression(*compression);
+        let mut encoder = encoder.with_predictor(match depth {
+            1 => Predictor::Horizontal,
+            _ => Predictor::None,
+        });
+        match depth {
+            0 => encoder.write_image::<colortype::RGB8>(WIDTH, HEIGHT, &pixels()),
+            1 => encoder.write_image::<colortype::RGB16>(WIDTH, HEIGHT, &words),
+            _ => encoder.write_image::<colortype::RGB32Float>(WIDTH, HEIGHT, &floats),
+        }
+        .unwrap();
+    }
+    files.map(|(file, _)| file.into_inner())
+});
 
 static OPTIONS: LazyLock<DecodeOptions> =
     LazyLock::new(|| DecodeOptions::default().with_max_pixels(20_000));
@@ -98,6 +145,10 @@ fn the_pictures_to_damage_are_right() {
         assert_eq!(decoded.image.dimensions(), (HEIGHT, WIDTH));
         assert!(decoded.focal_px.is_some());
     }
+    for bytes in UNCOMPRESSED.iter().chain(TIFF.iter()) {
+        let decoded = decode_gray(bytes, &OPTIONS).unwrap();
+        assert_eq!(decoded.image.dimensions(), (WIDTH, HEIGHT));
+    }
 }
 
 proptest! {
@@ -116,6 +167,16 @@ proptest! {
     #[test]
     fn webp(changes in some_damage()) {
         check(&damage_bytes(&RIGHT[2], &changes))?;
+    }
+
+    #[test]
+    fn bmp_and_pnm(format in 0..2_usize, changes in some_damage()) {
+        check(&damage_bytes(&UNCOMPRESSED[format], &changes))?;
+    }
+
+    #[test]
+    fn tiff(depth in 0..3_usize, changes in some_damage()) {
+        check(&damage_bytes(&TIFF[depth], &changes))?;
     }
 
     /// The checksum of the file is right, so that the damage arrives where EXIF is read.

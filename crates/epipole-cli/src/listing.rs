@@ -1,0 +1,285 @@
+//! Photographs given by name or by folder: their order, and their names in results.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use clap::Args;
+use std::cmp::Ordering;
+use std::path::{Component, Path, PathBuf};
+
+/// Extensions of formats that are read.
+const READ: [&str; 10] = [
+    "png", "jpg", "jpeg", "webp", "tif", "tiff", "bmp", "pgm", "ppm", "pnm",
+];
+
+/// Extensions of photographs that are not.
+const UNREAD: [&str; 14] = [
+    "heic", "heif", "avif", "gif", "jxl", "jp2", "dng", "nef", "cr2", "cr3", "arw", "raf", "orf",
+    "rw2",
+];
+
+/// Folders of photographs.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Photographs")]
+pub(crate) struct ListingArguments {
+    /// Also take the photographs in folders of folders. Names in results are relative to the folder
+    /// that all have in common.
+    #[arg(long)]
+    recursive: bool,
+}
+
+/// A photograph.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Listed {
+    pub(crate) path: PathBuf,
+    /// Path from the folder that all have in common, with slashes.
+    pub(crate) name: String,
+}
+
+impl ListingArguments {
+    /// The files given, folders replaced by the photographs in them: frame2 before frame10, the
+    /// files of a folder before its folders. Warns of photographs that are left out for their
+    /// format.
+    ///
+    /// # Errors
+    /// A sentence, for files and folders that cannot be read, folders without photographs, and a
+    /// file that is given twice.
+    pub(crate) fn photos(
+        self,
+        given: &[PathBuf],
+        context: &Context,
+    ) -> Result<Vec<Listed>, Failure> {
+        let mut paths = Vec::new();
+        for path in given {
+            if path.is_dir() {
+                let mut found = Found::default();
+                found.look(path, self.recursive)?;
+                if found.photos.is_empty() {
+                    return Err(Failure::new("read", found.nothing()).about(path));
+                }
+                if let Some(unread) = found.unread_words() {
+                    context.warn(&format!("{}: left out are {unread}", path.display()));
+                }
+                paths.append(&mut found.photos);
+            } else {
+                // Told before files are counted: a name that is wrong is not a list too short.
+                path.metadata()
+                    .map_err(|error| files::unreadable(path, &error))?;
+                paths.push(path.clone());
+            }
+        }
+        named(paths)
+    }
+}
+
+/// Contents of a folder.
+#[derive(Default)]
+struct Found {
+    photos: Vec<PathBuf>,
+    unread: Vec<PathBuf>,
+    num_folders: usize,
+}
+
+impl Found {
+    fn look(&mut self, folder: &Path, recursive: bool) -> Result<(), Failure> {
+        let unreadable = |error: std::io::Error| {
+            Failure::new("read", format!("the folder cannot be read: {error}")).about(folder)
+        };
+        let (mut here, mut folders) = (Vec::new(), Vec::new());
+        for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?;
+            let path = entry.path();
+            // A link to a folder may lead back to this one.
+            if entry.file_type().map_err(unreadable)?.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let extension = path.extension().and_then(|extension| extension.to_str());
+            let extension = extension.map(str::to_lowercase).unwrap_or_default();
+            // Some systems write a file of their own beside each, its name behind a dot.
+            let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
+            if is_hidden || path.is_dir() {
+                continue;
+            }
+            if READ.contains(&&*extension) {
+                here.push(path);
+            } else if UNREAD.contains(&&*extension) {
+                self.unread.push(path);
+            }
+        }
+        here.sort_by(|a, b| natural(a, b));
+        folders.sort_by(|a, b| natural(a, b));
+        self.photos.append(&mut here);
+        self.num_folders += folders.len();
+        if recursive {
+            folders.iter().try_for_each(|one| self.look(one, true))?;
+        }
+        Ok(())
+    }
+
+    /// Photographs of formats that are not read, in words.
+    fn unread_words(&self) -> Option<String> {
+        let first = file_name(self.unread.first()?);
+        let count = self.unread.len();
+        Some(format!(
+            "photographs of a format that is not read ({count}, such as {first}): convert them to JPEG or PNG"
+        ))
+    }
+
+    /// Why there are no photographs.
+    fn nothing(&self) -> String {
+        if let Some(unread) = self.unread_words() {
+            return format!("there are only {unread}");
+        }
+        let nothing = "there are no photographs in this folder";
+        match self.num_folders {
+            0 => nothing.to_owned(),
+            count => format!("{nothing}, but {count} of its own: give --recursive to look there"),
+        }
+    }
+}
+
+/// Order of paths in which runs of digits are numbers.
+fn natural(a: &Path, b: &Path) -> Ordering {
+    let (a, b) = (a.to_string_lossy(), b.to_string_lossy());
+    let order = parts(&a).cmp(parts(&b));
+    // 1 and 01.
+    order.then_with(|| a.cmp(&b))
+}
+
+/// Parts of a name: characters, and numbers in the place of their digits, with their length and
+/// digits without zeros in front.
+fn parts(text: &str) -> impl Iterator<Item = (char, usize, &str)> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let end = rest.find(|c: char| !c.is_ascii_digit());
+        let (digits, behind) = rest.split_at(end.unwrap_or(rest.len()));
+        if digits.is_empty() {
+            rest = &rest[first.len_utf8()..];
+            return Some((first, 0, ""));
+        }
+        rest = behind;
+        let digits = digits.trim_start_matches('0');
+        Some(('0', digits.len(), digits))
+    })
+}
+
+/// Gives each file its name.
+fn named(paths: Vec<PathBuf>) -> Result<Vec<Listed>, Failure> {
+    let mut whole = Vec::with_capacity(paths.len());
+    for path in &paths {
+        let parent = match path.parent() {
+            Some(parent) if parent != Path::new("") => parent,
+            _ => Path::new("."),
+        };
+        let folder = (parent.canonicalize()).map_err(|error| files::unreadable(path, &error))?;
+        whole.push((folder, file_name(path)));
+    }
+    let mut common = whole.first().map(|(folder, _)| folder.clone());
+    for (folder, _) in &whole {
+        while common.as_ref().is_some_and(|all| !folder.starts_with(all)) {
+            common = common.and_then(|all| all.parent().map(Path::to_owned));
+        }
+    }
+    let common = common.unwrap_or_default();
+    let mut listed: Vec<Listed> = Vec::with_capacity(paths.len());
+    let mut taken = std::collections::BTreeSet::new();
+    for (path, (folder, file)) in paths.into_iter().zip(whole) {
+        let folders = folder.strip_prefix(&common).unwrap_or(&folder).components();
+        let mut parts: Vec<String> = folders
+            .filter_map(|part| match part {
+                Component::Normal(part) => Some(part.to_string_lossy().into_owned()),
+                _ => None,
+            })
+            .collect();
+        parts.push(file);
+        let name = parts.join("/");
+        if !taken.insert(name.clone()) {
+            return Err(Failure::usage(format!("{} is given twice", path.display())));
+        }
+        listed.push(Listed { path, name });
+    }
+    Ok(listed)
+}
+
+/// The name of a file without its folder.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    #[test]
+    fn numbers_in_names_are_ordered_as_numbers() {
+        let ordered = [
+            "01.png",
+            "1.png",
+            "2.png",
+            "10.png",
+            "a",
+            "a1b2",
+            "a1b10",
+            "a2",
+            "a10",
+            "b",
+            "frame",
+            "frame.jpg",
+            "frame2.jpg",
+            "frame10.jpg",
+            "frame10a.jpg",
+            "é1",
+            "é9",
+            "é18446744073709551616",
+            "é18446744073709551617",
+        ];
+        let mut shuffled: Vec<&str> = ordered.iter().rev().copied().collect();
+        shuffled.sort_by(|a, b| natural(Path::new(a), Path::new(b)));
+        assert_eq!(shuffled, ordered);
+    }
+
+    #[test]
+    fn names_are_relative_to_the_common_folder() {
+        let root = std::env::temp_dir().join(format!("epipole-listing-{}", std::process::id()));
+        for (folder, files) in [
+            ("x/A", ["2.JPG", "10.jpg"]),
+            ("x/B", ["2.jpg", "._2.jpg"]),
+            ("x/C", ["1.heic", "t.txt"]),
+        ] {
+            std::fs::create_dir_all(root.join(folder)).unwrap();
+            files
+                .iter()
+                .for_each(|file| std::fs::write(root.join(folder).join(file), "").unwrap());
+        }
+        let names = |given: &[&str], recursive| {
+            let given: Vec<PathBuf> = given.iter().map(|one| root.join(one)).collect();
+            let listed = ListingArguments { recursive }.photos(
+                &given,
+                &Context {
+                    quiet: true,
+                    seed: 0,
+                },
+            );
+            listed.map(|listed| listed.into_iter().map(|one| one.name).collect::<Vec<_>>())
+        };
+        let all = ["A/2.JPG", "A/10.jpg", "B/2.jpg"];
+        assert_eq!(names(&["x"], true).unwrap(), all);
+        assert_eq!(names(&["x/A", "x/B"], false).unwrap(), all);
+        assert_eq!(names(&["x/A"], false).unwrap(), ["2.JPG", "10.jpg"]);
+        assert_eq!(
+            names(&["x/B/2.jpg", "x/A/10.jpg"], false).unwrap(),
+            ["B/2.jpg", "A/10.jpg"]
+        );
+        let told = |given: &[&str], recursive| names(given, recursive).unwrap_err().message;
+        assert!(told(&["x"], false).contains("--recursive"));
+        assert!(told(&["x/C"], false).contains("such as 1.heic"));
+        assert!(told(&["x/B", "x/B/../B/2.jpg"], false).contains("is given twice"));
+        assert!(told(&["x/D"], false).contains("there is no such file"));
+        std::fs::remove_dir_all(&root).unwrap();
+    }
+}

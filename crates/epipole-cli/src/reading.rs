@@ -1,0 +1,111 @@
+//! Options of reading photographs: values, memory, size.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::matrices::positive;
+use clap::Args;
+use epipole::imaging::PixelRange;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Bytes of a pixel while a photograph is read: decoded, and once more turned upright.
+const BYTES_PER_PIXEL: f64 = 6.0;
+
+/// Reading of photos.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Photographs")]
+pub(crate) struct ReadArguments {
+    /// Values that become black and white, in the numbers of the file: those in use, if it has more
+    /// than 8 bits (auto); all that it could have (full); or two numbers.
+    #[arg(long, value_name = "auto|full|LOW,HIGH", default_value = "auto", value_parser = range, allow_hyphen_values = true)]
+    pub(crate) range: PixelRange,
+    /// Memory that a photograph may take while it is read, at 6 bytes a pixel. It is downscaled
+    /// after that.
+    #[arg(long, value_name = "GB", default_value_t = 2.0, value_parser = positive)]
+    max_memory_gb: f64,
+}
+
+impl ReadArguments {
+    /// Maximum number of pixels of a file.
+    pub(crate) fn max_file_pixels(self) -> u64 {
+        (self.max_memory_gb * 1e9 / BYTES_PER_PIXEL) as u64
+    }
+
+    /// A sentence about a photograph that cannot be read.
+    pub(crate) fn failure(self, error: epipole::Error, path: &Path) -> Failure {
+        let failure = match error {
+            epipole::Error::TooManyPixels { got, .. } => {
+                let needed_gb = got as f64 * BYTES_PER_PIXEL / 1e9;
+                let message = format!(
+                    "the image has {:.1} megapixels, more than --max-memory-gb {} holds: {:.1} would do",
+                    got as f64 / 1e6,
+                    self.max_memory_gb,
+                    needed_gb + 0.05
+                );
+                Failure::new("too-large", message)
+            }
+            error => error.into(),
+        };
+        failure.about(path)
+    }
+
+    /// Says once in a run which values became black and white, if nobody asked for them.
+    pub(crate) fn tell_of_range(self, range: Option<[f64; 2]>, path: &Path, context: &Context) {
+        static IS_TOLD: AtomicBool = AtomicBool::new(false);
+        let (PixelRange::Auto, Some([low, high])) = (self.range, range) else {
+            return;
+        };
+        if !IS_TOLD.swap(true, Ordering::Relaxed) {
+            context.warn(&format!(
+                "{} has more than 8 bits, of which the values from {low} to {high} are in use: these become black and \
+                 white. Each such image has its own range; --range {low},{high} is one for all",
+                path.display()
+            ));
+        }
+    }
+}
+
+/// Reads "auto", "full" or two numbers.
+fn range(text: &str) -> Result<PixelRange, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    match text {
+        "auto" => Ok(PixelRange::Auto),
+        "full" => Ok(PixelRange::Full),
+        _ => match text.split_once(',').map(|(a, b)| (number(a), number(b))) {
+            Some((Some(low), Some(high))) if low < high => Ok(PixelRange::Between(low, high)),
+            Some((Some(_), Some(_))) => Err("the second number must be above the first".to_owned()),
+            _ => Err("it must be auto, full, or two numbers: LOW,HIGH".to_owned()),
+        },
+    }
+}
+
+/// Size of photos.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Photographs")]
+pub(crate) struct SizeArguments {
+    /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k
+    /// and --focal-px are of the file.
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub(crate) max_megapixels: Option<f64>,
+    #[command(flatten)]
+    pub(crate) reading: ReadArguments,
+}
+
+impl From<ReadArguments> for SizeArguments {
+    /// As large as they are.
+    fn from(reading: ReadArguments) -> Self {
+        Self {
+            max_megapixels: None,
+            reading,
+        }
+    }
+}
+
+impl SizeArguments {
+    /// Maximum number of pixels of the result.
+    pub(crate) fn max_pixels(self) -> u64 {
+        // A number beyond all pixels becomes the largest there is.
+        let pixels = |megapixels: f64| (megapixels * 1e6).round().max(1.0) as u64;
+        self.max_megapixels.map_or(u64::MAX, pixels)
+    }
+}

@@ -1,0 +1,263 @@
+//! Files as people have them: photographs of telephones, webcams and thermal cameras, folders,
+//! spreadsheets.
+
+use crate::common::{Folder, epipole, fails, field, json, matrix, numbers, path};
+use image::{GrayImage, Luma};
+use nalgebra::{Point2, Vector3};
+
+/// Standard error of a command that succeeds.
+fn told(arguments: &[&str]) -> String {
+    let output = epipole(arguments);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{told}");
+    told
+}
+
+#[test]
+fn a_frame_of_a_webcam_has_features() {
+    let Some(file) = field("28/mjpeg_no_dht.jpg") else {
+        return;
+    };
+    let result = json(&["detect", path(&file)]);
+    assert!(result["keypoints"].as_array().unwrap().len() > 100);
+}
+
+#[test]
+fn thermal_pictures_are_as_their_twins_in_eight_bits() {
+    let folder = Folder::new("thermal");
+    let mut files = Vec::new();
+    for n in 0..5 {
+        let Some(file) = field(&format!("11/thermal0{n}.png")) else {
+            return;
+        };
+        files.push(file);
+    }
+    // Linear from the least value to the largest.
+    let deep = image::open(&files[0]).unwrap().into_luma16();
+    let (least, most) = (deep.iter().min().unwrap(), deep.iter().max().unwrap());
+    let share = |value: u16| f64::from(value - least) / f64::from(most - least);
+    let twin = GrayImage::from_fn(deep.width(), deep.height(), |u, v| {
+        Luma([(255.0 * share(deep.get_pixel(u, v).0[0])).round() as u8])
+    });
+    let twin_file = folder.file("twin.png");
+    twin.save(&twin_file).unwrap();
+    let features = json(&["detect", path(&files[0])]);
+    assert_eq!(
+        features["keypoints"],
+        json(&["detect", path(&twin_file)])["keypoints"]
+    );
+    assert!(features["keypoints"].as_array().unwrap().len() > 160);
+    let sentence = told(&["detect", path(&files[0])]);
+    assert!(
+        sentence.contains("the values from 51241 to 52181 are in use"),
+        "{sentence}"
+    );
+    let full = json(&["detect", path(&files[0]), "--range", "full"]);
+    assert!(full["keypoints"].as_array().unwrap().is_empty());
+    let given = ["detect", path(&files[0]), "--range", "51241,52181"];
+    assert_eq!(json(&given)["keypoints"], features["keypoints"]);
+    assert_eq!(told(&given), "");
+    fails(
+        &folder,
+        &["detect", path(&files[0]), "--range", "9,5"],
+        2,
+        "above the first",
+    );
+
+    let mut calibrate = vec!["calibrate", "--board", "7x5"];
+    calibrate.extend(files.iter().map(|file| path(file)));
+    let result = json(&calibrate);
+    let views = result["views"].as_array().unwrap();
+    assert_eq!(views.len(), 5);
+    assert!(views.iter().all(|view| view["found"] == true));
+}
+
+#[test]
+fn frames_follow_each_other_by_their_numbers() {
+    let (Some(frames), Some(truth)) = (field("09/frames"), field("09/truth_centers.txt")) else {
+        return;
+    };
+    let k = "320,320,159.5,119.5";
+    let result = json(&["odometry", path(&frames), "--k", k]);
+    let frames: Vec<_> = result["frames"].as_array().unwrap().iter().collect();
+    let expected: Vec<String> = (1..=12).map(|n| format!("frame{n}.jpg")).collect();
+    let names: Vec<&str> = frames
+        .iter()
+        .map(|one| one["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, expected);
+    let truth: Vec<Vector3<f64>> = (std::fs::read_to_string(truth).unwrap().lines())
+        .filter(|line| line.starts_with("frame"))
+        .map(|line| {
+            let words = line.split_whitespace().skip(1);
+            Vector3::from_iterator(words.map(|word| word.parse().unwrap()))
+        })
+        .collect();
+    let centers: Vec<Vector3<f64>> = (frames.iter())
+        .map(|one| Vector3::from_row_slice(&numbers(&one["world_from_cam"]["translation"])))
+        .collect();
+    let length = |centers: &[Vector3<f64>]| -> f64 {
+        centers.windows(2).map(|two| (two[1] - two[0]).norm()).sum()
+    };
+    // The path in units of the distance from its start to its end: no step leads back.
+    let shape = |centers: &[Vector3<f64>]| length(centers) / (centers[11] - centers[0]).norm();
+    assert!((length(&truth) - 1.49).abs() < 0.01);
+    assert!((shape(&centers) / shape(&truth) - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn photographs_of_two_folders_keep_their_names_apart() {
+    let Some(frames) = field("09/frames") else {
+        return;
+    };
+    let folder = Folder::new("two-folders");
+    for (part, first) in [("A", 1), ("B", 5)] {
+        std::fs::create_dir_all(folder.file(&format!("images/{part}"))).unwrap();
+        for n in 0..4 {
+            let copy = folder.file(&format!("images/{part}/00000{n}.jpg"));
+            std::fs::copy(frames.join(format!("frame{}.jpg", first + n)), copy).unwrap();
+        }
+    }
+    let (images, out) = (folder.file("images"), folder.file("out"));
+    let k = "320,320,159.5,119.5";
+    fails(
+        &folder,
+        &["sfm", path(&images), "--k", k, "-o", path(&out)],
+        1,
+        "--recursive",
+    );
+    let sfm = [
+        "sfm",
+        path(&images),
+        "--recursive",
+        "--k",
+        k,
+        "--images",
+        "-o",
+        path(&out),
+    ];
+    let result = json(&sfm);
+    assert_eq!(result["num_registered"], 8);
+    let names: Vec<String> = (result["images"].as_array().unwrap().iter())
+        .map(|image| image["name"].as_str().unwrap().to_owned())
+        .collect();
+    let expected: Vec<String> = ["A", "B"]
+        .iter()
+        .flat_map(|part| (0..4).map(move |n| format!("{part}/00000{n}.jpg")))
+        .collect();
+    assert_eq!(names, expected);
+    let model = std::fs::read_to_string(out.join("images.txt")).unwrap();
+    for name in &expected {
+        assert!(model.contains(&format!(" {name}\n")), "{name}");
+        let written = std::fs::read(out.join("images").join(name)).unwrap();
+        assert_eq!(written, std::fs::read(images.join(name)).unwrap());
+    }
+    let chosen = folder.file("chosen");
+    let frames = [
+        "frames",
+        path(&images),
+        "--recursive",
+        "--num-frames",
+        "8",
+        "-o",
+        path(&chosen),
+    ];
+    assert_eq!(json(&frames)["chosen"].as_array().unwrap().len(), 8);
+    assert!(chosen.join("B/000003.jpg").exists());
+}
+
+#[test]
+fn matches_are_read_as_spreadsheets_and_programs_write_them() {
+    let folder = Folder::new("spreadsheets");
+    let shift = |file: &str| {
+        let file = field(&format!("17/{file}"))?;
+        let result = json(&["fit", "--model", "similarity", path(&file)]);
+        let model = numbers(&result["model"]);
+        let expected = [1.0, 0.0, 10.0, 0.0, 1.0, -5.0, 0.0, 0.0, 1.0];
+        let off = model.iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-9, "{file:?}: {model:?}");
+        Some(())
+    };
+    for file in [
+        "fortran_d.txt",
+        "numpy_brackets.txt",
+        "pandas_index.csv",
+        "points.csv",
+        "quoted.csv",
+        "semicolon.csv",
+        "semicolon_comma.csv",
+        "tab_comma.txt",
+    ] {
+        if shift(file).is_none() {
+            return;
+        }
+    }
+    for (file, why) in [
+        ("index_no_header.csv", "the first column counts the rows"),
+        ("space_comma.txt", ":1: decimal comma in \"154,92\""),
+    ] {
+        let file = field(&format!("17/{file}")).unwrap();
+        fails(
+            &folder,
+            &["fit", "--model", "similarity", path(&file)],
+            1,
+            why,
+        );
+    }
+}
+
+#[test]
+fn four_matches_give_their_homography() {
+    let folder = Folder::new("four");
+    let text = "141 131 318 256\n480 159 534 372\n493 630 316 670\n64 601 73 473\n";
+    let file = folder.write("four.txt", text);
+    let fit = ["fit", "--model", "homography", path(&file)];
+    let h = matrix(&json(&fit)["model"]);
+    for line in text.lines() {
+        let row: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+        let mapped = h * Point2::new(row[0], row[1]).to_homogeneous();
+        let mapped = Point2::from_homogeneous(mapped).unwrap();
+        assert!(
+            (mapped - Point2::new(row[2], row[3])).norm() < 1e-9,
+            "{mapped}"
+        );
+    }
+    let sentence = told(&fit);
+    assert!(sentence.contains("nothing verifies it"), "{sentence}");
+    assert!(!sentence.contains("means nothing"), "{sentence}");
+    // A fifth one that does not agree is another matter.
+    let wrong = folder.write("five.txt", &format!("{text}300 300 900 20\n"));
+    let sentence = told(&["fit", "--model", "homography", path(&wrong)]);
+    assert!(sentence.contains("means nothing"), "{sentence}");
+}
+
+#[test]
+fn pose_graphs_that_are_not_read_name_the_cause() {
+    let folder = Folder::new("graphs");
+    for (file, why) in [
+        ("commas.g2o", "line 1: “0,000000” has a decimal comma"),
+        (
+            "prior.g2o",
+            "line 5: “EDGE_SE3_PRIOR” is a prior of one pose",
+        ),
+    ] {
+        let Some(file) = field(&format!("12/{file}")) else {
+            return;
+        };
+        fails(&folder, &["posegraph", path(&file)], 1, why);
+    }
+}
+
+#[test]
+fn the_photograph_of_a_telephone_is_downscaled_whatever_its_size() {
+    let folder = Folder::new("telephone");
+    // 64.1 megapixels.
+    let large = GrayImage::from_fn(9248, 6936, |u, v| Luma([(u / 64 * 31 + v / 64 * 57) as u8]));
+    let file = folder.file("photo.jpg");
+    large.save(&file).unwrap();
+    let result = json(&["detect", path(&file), "--max-megapixels", "1"]);
+    assert_eq!(result["image"]["width"], 1156);
+    let detect = ["detect", path(&file), "--max-memory-gb", "0.3"];
+    let why = "the image has 64.1 megapixels, more than --max-memory-gb 0.3 holds: 0.4 would do";
+    fails(&folder, &detect, 1, why);
+}

@@ -1,0 +1,138 @@
+//! Recognition of formats by the first bytes of a file.
+
+use crate::Error;
+use image::ImageFormat;
+
+/// A format that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Jpeg,
+    Tiff,
+    Pnm,
+    /// PNG, WebP or BMP.
+    Other(ImageFormat),
+}
+
+/// Formats that are not read: their name, and the offset and bytes that tell them.
+const UNSUPPORTED: [(&str, usize, &[u8]); 32] = [
+    ("HEIC", 4, b"ftyphei"),
+    ("HEIC", 4, b"ftyphev"),
+    ("HEIF", 4, b"ftypmif1"),
+    ("HEIF", 4, b"ftypmsf1"),
+    ("AVIF", 4, b"ftypavi"),
+    ("camera raw (CR3)", 4, b"ftypcrx"),
+    ("camera raw (CR2)", 8, b"CR\x02"),
+    ("camera raw (RAF)", 0, b"FUJIFILMCCD-RAW"),
+    ("camera raw (ORF)", 0, b"IIRO"),
+    ("camera raw (ORF)", 0, b"IIRS"),
+    ("camera raw (ORF)", 0, b"MMOR"),
+    ("camera raw (RW2)", 0, b"IIU\0"),
+    ("camera raw (X3F)", 0, b"FOVb"),
+    ("GIF", 0, b"GIF8"),
+    ("JPEG XL", 0, b"\xFF\x0A"),
+    ("JPEG XL", 4, b"JXL \r\n\x87\n"),
+    ("JPEG 2000", 4, b"jP  \r\n\x87\n"),
+    ("JPEG 2000", 0, b"\xFF\x4F\xFF\x51"),
+    ("Photoshop", 0, b"8BPS"),
+    ("OpenEXR", 0, b"\x76\x2F\x31\x01"),
+    ("Radiance HDR", 0, b"#?RADIANCE"),
+    ("PFM", 0, b"PF\n"),
+    ("PFM", 0, b"Pf\n"),
+    ("QOI", 0, b"qoif"),
+    ("DDS", 0, b"DDS "),
+    ("ICO", 0, b"\0\0\x01\0"),
+    ("PDF", 0, b"%PDF"),
+    ("SVG", 0, b"<svg"),
+    (VIDEO, 8, b"AVI "),
+    (VIDEO, 0, b"\x1A\x45\xDF\xA3"),
+    (VIDEO, 4, b"ftyp"),
+    ("ZIP", 0, b"PK\x03\x04"),
+];
+
+const VIDEO: &str = "video";
+
+/// Formats of images in words.
+const READ: &str = "PNG, JPEG, WebP, TIFF, BMP or PNM";
+
+/// # Errors
+/// [`Error::BadImage`] with the name of another format, where it is known.
+pub(super) fn recognize(bytes: &[u8]) -> Result<Format, Error> {
+    if bytes.is_empty() {
+        return Err(bad("the file is empty"));
+    }
+    let starts =
+        |at: usize, with: &[u8]| bytes.get(at..).is_some_and(|rest| rest.starts_with(with));
+    let other = UNSUPPORTED.iter().find(|(_, at, with)| starts(*at, with));
+    if let Some((name, ..)) = other {
+        return Err(unsupported(name));
+    }
+    match image::guess_format(bytes) {
+        Ok(ImageFormat::Jpeg) => Ok(Format::Jpeg),
+        Ok(ImageFormat::Pnm) => Ok(Format::Pnm),
+        Ok(format @ (ImageFormat::Png | ImageFormat::WebP | ImageFormat::Bmp)) => {
+            Ok(Format::Other(format))
+        }
+        // BigTIFF, for files beyond 4 GB, has a number of its own.
+        Ok(ImageFormat::Tiff) => Ok(Format::Tiff),
+        _ if starts(0, b"II\x2B\0") || starts(0, b"MM\0\x2B") => Ok(Format::Tiff),
+        _ => Err(bad(format!("it is no {READ} file"))),
+    }
+}
+
+/// Error for a file of another format.
+pub(super) fn unsupported(name: &str) -> Error {
+    let advice = match name {
+        VIDEO => "take single frames out of it, as JPEG or PNG files",
+        name if name.starts_with("camera raw") => "develop it to TIFF, JPEG or PNG",
+        "ZIP" => "unpack it",
+        _ => "convert it to JPEG or PNG",
+    };
+    let article = match ["AVIF", "ICO", "OpenEXR", "SVG"].contains(&name) {
+        true => "an",
+        false => "a",
+    };
+    bad(format!(
+        "it is {article} {name} file, which is not supported; {advice}"
+    ))
+}
+
+pub(super) fn bad(why: impl Into<String>) -> Error {
+    Error::BadImage { why: why.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(bytes: &[u8]) -> String {
+        recognize(bytes).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn other_formats_are_named_with_advice() {
+        let heic = told(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic");
+        let expected = "it is a HEIC file, which is not supported; convert it to JPEG or PNG";
+        assert!(heic.ends_with(expected), "{heic}");
+        let avif = told(b"\0\0\0\x1cftypavif\0\0\0\0");
+        assert!(avif.contains("it is an AVIF file"), "{avif}");
+        let gif = told(b"GIF89a\x01\0\x01\0\0\0\0");
+        assert!(gif.contains("a GIF file"), "{gif}");
+        let raw = told(b"II\x2a\0\x10\0\0\0CR\x02\0");
+        assert!(raw.ends_with("develop it to TIFF, JPEG or PNG"), "{raw}");
+        let video = told(b"\0\0\0\x20ftypisom\0\0\x02\0");
+        assert!(video.contains("a video file"), "{video}");
+        assert!(told(b"Dear reader").ends_with("it is no PNG, JPEG, WebP, TIFF, BMP or PNM file"));
+        assert!(told(b"").ends_with("the file is empty"));
+    }
+
+    #[test]
+    fn formats_that_are_read_are_recognized() {
+        assert_eq!(recognize(b"\xFF\xD8\xFF\xE0"), Ok(Format::Jpeg));
+        for start in [b"II\x2a\0", b"MM\0\x2a", b"II\x2b\0", b"MM\0\x2b"] {
+            assert_eq!(recognize(start), Ok(Format::Tiff));
+        }
+        assert_eq!(recognize(b"P5 4 4 255\n"), Ok(Format::Pnm));
+        let bmp = Format::Other(ImageFormat::Bmp);
+        assert_eq!(recognize(b"BM\x36\0\0\0"), Ok(bmp));
+    }
+}

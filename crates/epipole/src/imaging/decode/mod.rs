@@ -1,0 +1,251 @@
+//! Photographs from the bytes of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
+
+mod format;
+mod range;
+mod raster;
+#[cfg(test)]
+mod tests;
+mod tiff;
+
+pub use self::range::PixelRange;
+
+use self::format::{Format, bad, recognize};
+use self::raster::Raster;
+use super::exif::Facts;
+use super::gray::GrayImage32;
+use super::jpeg;
+use crate::math::Geodetic;
+use crate::{Error, Result};
+use derive_setters::Setters;
+use image::codecs::pnm::PnmDecoder;
+use image::metadata::Orientation;
+use image::{
+    DynamicImage, ImageBuffer, ImageDecoder, ImageFormat, ImageReader, Limits, Pixel, RgbImage,
+    imageops,
+};
+use std::borrow::Cow;
+use std::io::Cursor;
+
+/// Maximum memory for data of a PNG file beside its pixels, bytes. A color profile that unpacks to
+/// more is ignored; larger stored data are an error.
+const MAX_METADATA_BYTES: u64 = 64 << 20;
+
+/// Options of [`decode_gray`] and [`decode_rgb`].
+#[derive(Debug, Clone, Copy, PartialEq, Setters)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[setters(prefix = "with_")]
+#[non_exhaustive]
+pub struct DecodeOptions {
+    /// The largest width × height; a file that promises more is refused before memory is taken.
+    pub max_pixels: u64,
+    /// Whether to turn the image upright by its EXIF orientation.
+    pub apply_orientation: bool,
+    /// Sample values that become black and white.
+    pub range: PixelRange,
+}
+
+impl Default for DecodeOptions {
+    /// At most 64 megapixels, turned upright, samples of more than 8 bits by the range in use.
+    fn default() -> Self {
+        Self {
+            max_pixels: 64_000_000,
+            apply_orientation: true,
+            range: PixelRange::Auto,
+        }
+    }
+}
+
+/// An image and its file's data about the camera.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decoded<I> {
+    /// The pixels.
+    pub image: I,
+    /// Initial guess of the focal length from the EXIF data, pixels of this image; `None` without
+    /// these data. With the principal point in the middle it gives an initial K.
+    pub focal_px: Option<f64>,
+    /// Position of the camera, if the file has GPS data.
+    pub place: Option<Geodetic>,
+    /// Rotation to upright that the file asks for, applied or not.
+    pub orientation: Orientation,
+    /// Sample values that became black and white, where they are not those of the format.
+    pub range: Option<[f64; 2]>,
+}
+
+/// The gray image in [0, 1] of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
+///
+/// Colors become gray as in [`rgb_to_gray`](super::rgb_to_gray); gray of more than eight bits keeps
+/// its depth; transparency is ignored. Of a TIFF file the first image is read: gray or RGB,
+/// integers or floats, in any compression but JPEG 2000, WebP and Zstandard.
+///
+/// # Errors
+/// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
+/// [`Error::TooManyPixels`] beyond the limit; [`Error::NotFinite`] and [`Error::OutOfRange`] for an
+/// empty range.
+///
+/// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or have
+/// more blocks than the image. There is no checksum: changed data that still decode are another
+/// image. Extra bytes between its parts or at the end do no harm, nor does a missing end-of-image
+/// marker behind the last block. Without Huffman tables it is read by the standard ones.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::imaging::{DecodeOptions, PixelRange, decode_gray};
+/// // Twelve bits, of which the sensor used a few values.
+/// let file = b"P2 3 1 4095 1000 1010 1040";
+/// let gray = decode_gray(file, &DecodeOptions::default())?;
+/// assert_eq!(gray.image.as_raw(), &[0.0, 0.25, 1.0]);
+/// assert_eq!(gray.range, Some([1000.0, 1040.0]));
+/// let options = DecodeOptions::default().with_range(PixelRange::Between(0.0, 2000.0));
+/// assert_eq!(decode_gray(file, &options)?.image.as_raw()[0], 0.5);
+/// # Ok(()) }
+/// ```
+pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<GrayImage32>> {
+    decode(bytes, options, Raster::into_gray)
+}
+
+/// The color image of the same files; gray files give three equal channels.
+///
+/// # Errors
+/// As [`decode_gray`].
+///
+/// ```
+/// use epipole::imaging::{DecodeOptions, decode_rgb};
+/// assert!(decode_rgb(&[], &DecodeOptions::default()).is_err());
+/// ```
+pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbImage>> {
+    decode(bytes, options, Raster::into_rgb)
+}
+
+/// An image with the given kind of pixels.
+type Buffer<P> = ImageBuffer<P, Vec<<P as Pixel>::Subpixel>>;
+
+/// * `make`: the image of samples, given the values of black and white
+fn decode<P: Pixel + 'static>(
+    bytes: &[u8],
+    options: &DecodeOptions,
+    make: impl FnOnce(Raster, Option<[f64; 2]>) -> Buffer<P>,
+) -> Result<Decoded<Buffer<P>>> {
+    options.range.check()?;
+    let File {
+        raster,
+        orientation,
+        facts,
+    } = read(bytes, options.max_pixels)?;
+    let (width, height) = (raster.width, raster.height);
+    let range = raster.mapped(options.range);
+    let mut image = make(raster, range);
+    if options.apply_orientation {
+        turn_upright(&mut image, orientation);
+    }
+    Ok(Decoded {
+        image,
+        focal_px: (facts.as_ref()).and_then(|facts| facts.focal_length_px(width, height)),
+        place: facts.and_then(|facts| facts.place()),
+        orientation,
+        range,
+    })
+}
+
+/// Contents of a file.
+struct File {
+    raster: Raster,
+    orientation: Orientation,
+    facts: Option<Facts>,
+}
+
+fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
+    let mut whole = Cow::from(bytes);
+    let format = match recognize(bytes)? {
+        Format::Tiff => {
+            let (raster, orientation) = tiff::read(bytes, max_pixels)?;
+            return Ok(File {
+                raster,
+                orientation,
+                // EXIF data are TIFF themselves.
+                facts: Facts::read(bytes),
+            });
+        }
+        Format::Jpeg => {
+            let missing = jpeg::check(bytes, max_pixels);
+            whole = missing.map_err(bad)?.added_to(bytes);
+            ImageFormat::Jpeg
+        }
+        Format::Pnm => ImageFormat::Pnm,
+        Format::Other(format) => format,
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(&*whole), format);
+    reader.limits(limits());
+    let mut decoder = reader.into_decoder().map_err(|error| said(&error))?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height, max_pixels)?;
+    // Unreadable metadata are treated as absent: the image matters more.
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let exif = decoder.exif_metadata().unwrap_or(None);
+    let image = DynamicImage::from_decoder(decoder).map_err(|error| said(&error))?;
+    let mut raster = Raster::from_dynamic(image)?;
+    if format == ImageFormat::Pnm
+        && let Ok(decoder) = PnmDecoder::new(Cursor::new(bytes))
+        && let Ok(white) = u16::try_from(decoder.into_inner().1.maximal_sample())
+    {
+        raster.unscale(white);
+    }
+    Ok(File {
+        raster,
+        orientation,
+        facts: exif.and_then(|data| Facts::read(&data)),
+    })
+}
+
+/// Limits of the decoder: none for pixels, which are checked against the caller's own.
+fn limits() -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_METADATA_BYTES);
+    limits
+}
+
+/// # Errors
+/// For no pixels, and for more than the limit.
+fn check_size(width: u32, height: u32, max_pixels: u64) -> Result<()> {
+    match u64::from(width) * u64::from(height) {
+        0 => Err(bad("it has no pixels")),
+        got if got > max_pixels => Err(Error::TooManyPixels {
+            got,
+            limit: max_pixels,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Error of a decoder in words.
+fn said(error: &image::ImageError) -> Error {
+    use image::ImageError::{Limits, Unsupported};
+    match error {
+        // A size beyond memory, before the caller's limit can be checked, or MAX_METADATA_BYTES.
+        Limits(_) => bad("its pixels or the data beside them need too much memory"),
+        Unsupported(what) => bad(format!("{what}; convert it to PNG")),
+        other => bad(other.to_string()),
+    }
+}
+
+fn turn_upright<P: Pixel + 'static>(image: &mut Buffer<P>, orientation: Orientation) {
+    match orientation {
+        Orientation::NoTransforms => (),
+        Orientation::Rotate90 => *image = imageops::rotate90(image),
+        Orientation::Rotate180 => imageops::rotate180_in_place(image),
+        Orientation::Rotate270 => *image = imageops::rotate270(image),
+        Orientation::FlipHorizontal => imageops::flip_horizontal_in_place(image),
+        Orientation::FlipVertical => imageops::flip_vertical_in_place(image),
+        Orientation::Rotate90FlipH => {
+            *image = imageops::rotate90(image);
+            imageops::flip_horizontal_in_place(image);
+        }
+        Orientation::Rotate270FlipH => {
+            *image = imageops::rotate270(image);
+            imageops::flip_horizontal_in_place(image);
+        }
+    }
+}
