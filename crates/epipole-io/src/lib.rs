@@ -11,5 +11,6 @@ mod bytes;
 mod error;
 pub mod model;
 mod text;
+mod tree;
 
 pub use error::{Error, Result};
