@@ -1,6 +1,6 @@
 //! Models: cameras, posed images and points.
 
-mod colmap_binary;
+pub(crate) mod colmap_binary;
 pub(crate) mod colmap_camera;
 mod colmap_parts;
 pub(crate) mod colmap_text;
