@@ -10,8 +10,11 @@
 mod bytes;
 pub mod camera;
 mod error;
+#[cfg(test)]
+mod fuzz;
 pub mod model;
 mod text;
+pub mod trajectory;
 mod tree;
 
 pub use error::{Error, Result};
