@@ -31,7 +31,8 @@ pub(crate) struct Arguments {
     /// Photographs of the calibrated camera, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    /// A file that `epipole calibrate` wrote.
+    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
+    /// MATLAB (FILE#NAME: one of several).
     #[arg(long, value_name = "FILE")]
     camera: PathBuf,
     /// The photographs are by the right camera of the file.
@@ -46,12 +47,16 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let camera = lens::read(&arguments.camera, arguments.right)?;
     let keep = match arguments.keep {
         Kept::All => Keep::All,
         Kept::Valid => Keep::Valid,
     };
     let paths = super::sfm::photos(&arguments.photos)?;
+    let first = paths.first().map(PathBuf::as_path);
+    let camera = match arguments.right {
+        true => lens::read_right(&arguments.camera, first)?,
+        false => lens::read(&arguments.camera, first)?,
+    };
     let mut targets = Vec::new();
     for path in &paths {
         let target = arguments

@@ -4,6 +4,7 @@
 
 mod basics;
 mod calibrate;
+mod camera_files;
 mod common;
 mod depth;
 mod features;

@@ -17,7 +17,7 @@ pub(super) fn read(
     paths: [&Path; 2],
     context: &Context,
 ) -> Result<([Photo; 2], [Camera; 2], RigidTransform), Failure> {
-    let (cameras, right_from_left) = lens::read_rig(file)?;
+    let (cameras, right_from_left) = lens::read_rig(file, Some(paths[0]))?;
     let [left, right] = &cameras;
     let photos = [
         photograph(paths[0], left, "left", context)?,
