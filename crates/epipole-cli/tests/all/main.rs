@@ -6,6 +6,7 @@ mod basics;
 mod calibrate;
 mod camera_files;
 mod common;
+mod compare;
 mod depth;
 mod features;
 mod geometry;
