@@ -3,8 +3,8 @@
 //!
 //! Pixel centers count from 1, so 1 is subtracted. `K` is `[fx s cx; 0 fy cy; 0 0 1]`,
 //! `IntrinsicMatrix` its transpose, and `RotationOfCamera2` the transpose of R in
-//! `x_in_camera2 = R x_in_camera1 + t`. Radial and tangential coefficients are OpenCV's. `ImageSize`
-//! is rows, columns.
+//! `x_in_camera2 = R x_in_camera1 + t`. Radial and tangential coefficients are OpenCV's.
+//! `ImageSize` is rows, columns.
 //!
 //! Source: MathWorks, documentation of `cameraParameters`, `stereoParameters`,
 //! `cameraIntrinsicsToOpenCV`.
@@ -31,13 +31,10 @@ fn is_own(field: &Field) -> bool {
 
 /// The parameters, which may be the only value of a variable's name.
 fn unwrapped<'a>(root: &Field<'a>) -> Field<'a> {
-    let inner = root.entries().into_iter().map(|(_, field)| field);
+    let mut inner = root.entries().into_iter().map(|(_, field)| field);
     match is_own(root) {
         true => root.clone(),
-        false => inner
-            .into_iter()
-            .find(is_own)
-            .unwrap_or_else(|| root.clone()),
+        false => inner.find(is_own).unwrap_or_else(|| root.clone()),
     }
 }
 

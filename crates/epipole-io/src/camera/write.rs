@@ -11,8 +11,8 @@ use crate::{Error, Result};
 /// Numbers have all digits: reading gives equal cameras. COLMAP's has no names and no motion.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for another format, for a lens or a number of cameras that it cannot hold,
-/// and without a camera.
+/// [`Error::Unsupported`] for another format, for a lens or a number of cameras that it cannot
+/// hold, and without a camera.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

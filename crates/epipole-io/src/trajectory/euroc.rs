@@ -3,7 +3,8 @@
 //!
 //! The poses are of the body, the IMU, in the world; `sensor.yaml` of a camera has `T_BS`.
 //!
-//! Source: Burri et al. 2016, "The EuRoC micro aerial vehicle datasets"; `state_groundtruth_estimate0`.
+//! Source: Burri et al. 2016, "The EuRoC micro aerial vehicle datasets", the files of
+//! `state_groundtruth_estimate0`.
 
 use super::path::Trajectory;
 use super::stamp::check_order;

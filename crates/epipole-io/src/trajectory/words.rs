@@ -8,7 +8,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 /// Smallest norm of a quaternion that has a direction.
 const MIN_NORM: f64 = 1e-6;
 
-/// Words between blanks, commas and semicolons. A comma or semicolon ends a word, also an empty one.
+/// Words between blanks, or else between commas and semicolons, where a word may be empty.
 pub(super) fn words(line: &str) -> Vec<&str> {
     let fields = line.split([',', ';']).map(str::trim);
     match line.contains([',', ';']) {
