@@ -2,6 +2,7 @@
 
 mod ba;
 mod calibrate;
+mod compare;
 mod detect;
 mod figure;
 mod fit;
@@ -34,6 +35,7 @@ pub(crate) enum Command {
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
+    Compare(compare::Arguments),
     Calibrate(calibrate::Arguments),
     Undistort(undistort::Arguments),
     Frames(frames::Arguments),
@@ -54,6 +56,7 @@ impl Command {
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),
+            Self::Compare(arguments) => compare::run(&arguments, context),
             Self::Calibrate(arguments) => calibrate::run(&arguments, context),
             Self::Undistort(arguments) => undistort::run(&arguments, context),
             Self::Frames(arguments) => frames::run(&arguments, context),

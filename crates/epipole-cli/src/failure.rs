@@ -68,6 +68,19 @@ impl From<epipole::Error> for Failure {
     }
 }
 
+impl From<epipole_io::Error> for Failure {
+    fn from(error: epipole_io::Error) -> Self {
+        use epipole_io::Error as E;
+        let kind = match error {
+            E::Invalid(error) => return error.into(),
+            E::Malformed { .. } => "malformed",
+            E::Unsupported { .. } => "unsupported",
+            _ => "failed",
+        };
+        Self::new(kind, error.to_string())
+    }
+}
+
 impl From<epipole_widgets::contract::Problem> for Failure {
     fn from(problem: epipole_widgets::contract::Problem) -> Self {
         Self::new("figure", problem.to_string())

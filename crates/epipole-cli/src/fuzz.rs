@@ -9,18 +9,11 @@ mod damage;
 
 use crate::commands::sfm::positions;
 use crate::failure::Failure;
-use crate::{lens, rows};
+use crate::rows;
 use damage::{config, damage_text, some_damage};
 use proptest::prelude::*;
 use std::path::Path;
 
-const CAMERA: &str = r#"{ "image": { "width": 640, "height": 480 },
- "k": [ 532.8 , 532.9 , 342.5 , 233.9 ],
- "distortion": { "model": "brown", "coefficients": [ -0.28 , 0.03 , 0.001 , -0.0001 , 0.1 ] },
- "right": { "image": { "width": 640, "height": 480 }, "k": [ 530 , 531 , 320 , 240 ],
- "distortion": { "model": "fisheye", "coefficients": [ 0.1 , 0 , 0 , 0 ] } },
- "stereo": { "right_from_left": { "rotation": [ 1 , 0 , 0 , 0 , 1 , 0 , 0 , 0 , 1 ], "translation": [ -0.1 , 0.01 , 2e-3 ] } } }
-"#;
 const MATCHES: &str = "# u1 v1 u2 v2\n1 2 3 4\n1e2, -2.5, 3 , 4 # and more\n\n10 20 30.25 40 7\n";
 const POSITIONS: &str = "# name\na.jpg 1 2 3\nb c.jpg -1.5 2e2 3 0.5\n17 1 2 3\n";
 
@@ -33,8 +26,6 @@ fn is_told(failure: &Failure) -> bool {
 #[test]
 fn the_texts_to_damage_are_right() {
     let path = Path::new("file");
-    assert!(lens::parse(CAMERA, path, false).is_ok() && lens::parse(CAMERA, path, true).is_ok());
-    assert!(lens::parse_rig(CAMERA, path).is_ok());
     assert_eq!(rows::parse(MATCHES, path, 4).unwrap().len(), 3);
     let lines = positions::lines(POSITIONS, path, 5.0).unwrap();
     assert_eq!(lines["b c.jpg"].sigma_m, 0.5);
@@ -46,27 +37,6 @@ fn the_texts_to_damage_are_right() {
 
 proptest! {
     #![proptest_config(config())]
-
-    #[test]
-    fn cameras(changes in some_damage(), is_right: bool) {
-        match lens::parse(&damage_text(CAMERA, &changes), Path::new("file"), is_right) {
-            Ok(camera) => {
-                prop_assert!(camera.intrinsics.fu_px().is_finite() && camera.intrinsics.fv_px() > 0.0);
-                prop_assert!(camera.lens.coefficients().iter().all(|k| k.is_finite()));
-            }
-            Err(failure) => prop_assert!(is_told(&failure), "{}", failure),
-        }
-    }
-
-    #[test]
-    fn rigs(changes in some_damage()) {
-        match lens::parse_rig(&damage_text(CAMERA, &changes), Path::new("file")) {
-            Ok((_, right_from_left)) => {
-                prop_assert!(right_from_left.to_matrix().iter().all(|x| x.is_finite()));
-            }
-            Err(failure) => prop_assert!(is_told(&failure), "{}", failure),
-        }
-    }
 
     #[test]
     fn matches(changes in some_damage(), columns in 2..6_usize) {

@@ -66,8 +66,9 @@ pub(crate) fn tell_of_others(
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
-    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images
-    /// stay distorted, and results are of rays.
+    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
+    /// MATLAB (FILE#NAME: one of several), for images of its size or turned by 90°. Images stay
+    /// distorted, and results are of rays.
     #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
     camera_file: Option<PathBuf>,
 }
@@ -91,7 +92,7 @@ impl CameraFile {
             let [first, second] = paths.map(|path| Photo::prepared(path, size, None, context));
             return Ok([first?, second?]);
         };
-        let camera = lens::read(file, false)?;
+        let camera = lens::read(file, Some(paths[0]))?;
         tell_of_unseen(&camera, context)?;
         let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera, context));
         let photos = [first?, second?];

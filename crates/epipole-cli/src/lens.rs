@@ -4,9 +4,9 @@ use crate::failure::Failure;
 use crate::files;
 use crate::matrices::FAR;
 use clap::ValueEnum;
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
-use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
-use serde_json::{Value, json};
+use epipole::camera::{Camera, LensKind, RigidTransform};
+use epipole_io::camera::{Cameras, read_cameras};
+use nalgebra::Point2;
 use std::path::Path;
 
 /// The model of a lens, as a word.
@@ -33,23 +33,6 @@ impl From<Model> for LensKind {
     }
 }
 
-/// `image`, `k` and `distortion`, as they stand in results and in files.
-pub(crate) fn fields(camera: &Camera) -> [(&'static str, Value); 3] {
-    let k = &camera.intrinsics;
-    let center = k.principal_point();
-    [
-        (
-            "image",
-            json!({ "width": camera.width, "height": camera.height }),
-        ),
-        ("k", json!([k.fu_px(), k.fv_px(), center.x, center.y])),
-        (
-            "distortion",
-            json!({ "model": camera.lens.kind().name(), "coefficients": camera.lens.coefficients() }),
-        ),
-    ]
-}
-
 /// Share of an image that has no rays: beyond the fold of its model, or beyond straight backwards.
 pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     const SIDE: u32 = 24;
@@ -62,110 +45,101 @@ pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     unseen as f64 / f64::from(SIDE * SIDE)
 }
 
-/// Reads a stereo rig, left camera, right camera and right_from_left, from a file that
-/// `epipole calibrate --right` wrote.
+/// Reads a camera from a file of any format, `FILE` or `FILE#NAME`. Of several cameras without a
+/// name, it is the first whose size is the photograph's, or else the first.
 ///
-/// # Errors
-/// As [`read`].
-pub(crate) fn read_rig(path: &Path) -> Result<([Camera; 2], RigidTransform), Failure> {
-    parse_rig(&files::read_text(path)?, path)
-}
-
-/// As [`read_rig`], from the text of the file.
-///
-/// # Errors
-/// As [`read`].
-pub(crate) fn parse_rig(text: &str, path: &Path) -> Result<([Camera; 2], RigidTransform), Failure> {
-    let cameras = [parse(text, path, false)?, parse(text, path, true)?];
-    let malformed = |why: &str| Failure::new("malformed", why).about(path);
-    let whole: Value = serde_json::from_str(text).map_err(|error| malformed(&error.to_string()))?;
-    let motion = &whole["stereo"]["right_from_left"];
-    let numbers = |name: &str| -> Option<Vec<f64>> {
-        (motion[name].as_array()?.iter())
-            .map(Value::as_f64)
-            .collect()
-    };
-    let rotation = numbers("rotation")
-        .filter(|numbers| numbers.len() == 9)
-        .map(|numbers| Matrix3::from_row_slice(&numbers))
-        .filter(|r| {
-            (r.transpose() * r - Matrix3::identity()).amax() < 1e-6 && r.determinant() > 0.0
-        })
-        .ok_or_else(|| {
-            malformed("stereo.right_from_left.rotation is not nine numbers of a rotation")
-        })?;
-    let translation = numbers("translation")
-        .filter(|numbers| numbers.len() == 3 && numbers.iter().all(|x| x.abs() <= *FAR.end()))
-        .ok_or_else(|| {
-            malformed("stereo.right_from_left.translation is not three numbers of meters")
-        })?;
-    let rotation = Rotation3::from_matrix_unchecked(rotation);
-    let right_from_left = RigidTransform::from_parts(
-        Vector3::from_column_slice(&translation).into(),
-        UnitQuaternion::from_rotation_matrix(&rotation),
-    );
-    Ok((cameras, right_from_left))
-}
-
-/// Reads a camera from a file that `epipole calibrate` wrote.
+/// * `photo`: a photograph of the camera; its size is the camera's where the file has none
 ///
 /// # Errors
 /// A sentence that names the file and what is wrong in it.
-pub(crate) fn read(path: &Path, is_right: bool) -> Result<Camera, Failure> {
-    parse(&files::read_text(path)?, path, is_right)
+pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
+    let (path, name) = split_name(path);
+    let size = photo.and_then(sensor_size);
+    let cameras = read_all(path, size)?;
+    if let Some(name) = name {
+        return cameras.named(name).copied().ok_or_else(|| {
+            let names: Vec<&str> = cameras.cameras.iter().map(|c| &*c.name).take(12).collect();
+            let message = format!(
+                "there is no camera {name} in it; there are {}",
+                names.join(", ")
+            );
+            Failure::new("malformed", message).about(path)
+        });
+    }
+    let fits = |camera: &Camera| {
+        let (width, height) = (camera.width, camera.height);
+        size.is_some_and(|size| size == (width, height) || size == (height, width))
+    };
+    let mut all = cameras.cameras.iter().map(|named| named.camera);
+    let first = all.clone().next();
+    let chosen = all.find(fits).or(first);
+    chosen.ok_or_else(|| Failure::new("malformed", "there is no camera in it").about(path))
 }
 
-/// As [`read`], from the text of the file.
+/// Reads the right camera of a stereo rig.
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn parse(text: &str, path: &Path, is_right: bool) -> Result<Camera, Failure> {
-    let malformed = |why: String| Failure::new("malformed", why).about(path);
-    let whole: Value = serde_json::from_str(text)
-        .map_err(|error| malformed(format!("this is not JSON: {error}")))?;
-    let camera = if is_right { &whole["right"] } else { &whole };
-    if camera.is_null() {
-        return Err(malformed(
-            "there is no right camera in it; calibrate with --right".to_owned(),
-        ));
+pub(crate) fn read_right(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
+    let cameras = read_all(path, photo.and_then(sensor_size))?;
+    let right = cameras.cameras.get(1).ok_or_else(|| no_right(path))?;
+    Ok(right.camera)
+}
+
+/// Reads a stereo rig: left camera, right camera and right_from_left.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn read_rig(
+    path: &Path,
+    photo: Option<&Path>,
+) -> Result<([Camera; 2], RigidTransform), Failure> {
+    let rig = read_all(path, photo.and_then(sensor_size))?;
+    let [left, right] = &rig.cameras[..] else {
+        return Err(match rig.cameras.len() {
+            1 => no_right(path),
+            count => {
+                Failure::new("malformed", format!("a rig has two cameras, not {count}")).about(path)
+            }
+        });
+    };
+    let right_from_left = rig.right_from_left.ok_or_else(|| {
+        let message = "there are two cameras in it, but no motion between them (such as R and T)";
+        Failure::new("malformed", message).about(path)
+    })?;
+    let translation = right_from_left.translation.vector;
+    if translation.iter().any(|x| x.abs() > *FAR.end()) {
+        let message = "the translation between the cameras is not three numbers of meters";
+        return Err(Failure::new("malformed", message).about(path));
     }
-    let side = |name: &str| {
-        let side = camera["image"][name].as_u64();
-        side.and_then(|side| u32::try_from(side).ok())
-            .ok_or_else(|| malformed(format!("image.{name} is not a whole number")))
-    };
-    let numbers = |list: &Value, name: &str| -> Result<Vec<f64>, Failure> {
-        let list = list.as_array().map(|l| l.iter().map(Value::as_f64));
-        list.and_then(Iterator::collect)
-            .ok_or_else(|| malformed(format!("{name} is not a list of numbers")))
-    };
-    let k = numbers(&camera["k"], "k")?;
-    let [fx, fy, cx, cy] = k[..] else {
-        return Err(malformed("k is not [fx, fy, cx, cy]".to_owned()));
-    };
-    let model = camera["distortion"]["model"].as_str().unwrap_or_default();
-    let kinds = [
-        LensKind::Brown,
-        LensKind::Rational,
-        LensKind::Fisheye,
-        LensKind::Division,
-    ];
-    let kind = (kinds.into_iter())
-        .find(|kind| kind.name() == model)
-        .ok_or_else(|| {
-            malformed(
-                "distortion.model is none of brown, rational, fisheye and division".to_owned(),
-            )
-        })?;
-    let coefficients = numbers(
-        &camera["distortion"]["coefficients"],
-        "distortion.coefficients",
-    )?;
-    let about = |error: epipole::Error| Failure::from(error).about(path);
-    Ok(Camera {
-        intrinsics: Intrinsics::new(fx, fy, cx, cy).map_err(about)?,
-        lens: Lens::from_coefficients(kind, &coefficients).map_err(about)?,
-        width: side("width")?,
-        height: side("height")?,
-    })
+    Ok(([left.camera, right.camera], right_from_left))
+}
+
+fn no_right(path: &Path) -> Failure {
+    Failure::new(
+        "malformed",
+        "there is no right camera in it; calibrate with --right",
+    )
+    .about(path)
+}
+
+fn read_all(path: &Path, size: Option<(u32, u32)>) -> Result<Cameras, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
+    let read = read_cameras(&bytes, size);
+    let (_, cameras) = read.map_err(|error| Failure::from(error).about(path))?;
+    Ok(cameras)
+}
+
+/// The file and the name behind the last `#`, if no file has the whole name.
+fn split_name(path: &Path) -> (&Path, Option<&str>) {
+    match path.to_str().and_then(|text| text.rsplit_once('#')) {
+        Some((file, name)) if !path.exists() => (Path::new(file), Some(name)),
+        _ => (path, None),
+    }
+}
+
+/// Width and height of a photograph as stored, if its header can be read.
+fn sensor_size(photo: &Path) -> Option<(u32, u32)> {
+    let reader = image::ImageReader::open(photo).ok()?;
+    reader.with_guessed_format().ok()?.into_dimensions().ok()
 }

@@ -7,7 +7,14 @@
 
 #![allow(dead_code, reason = "readers follow")]
 
+mod bytes;
+pub mod camera;
 mod error;
+#[cfg(test)]
+mod fuzz;
+pub mod model;
 mod text;
+pub mod trajectory;
+mod tree;
 
 pub use error::{Error, Result};

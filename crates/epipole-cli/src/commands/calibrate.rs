@@ -6,7 +6,7 @@ use self::search::{Photographs, search};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::lens::{self, Model};
+use crate::lens::Model;
 use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
 use crate::progress::Progress;
@@ -16,6 +16,7 @@ use clap::{Args, ValueEnum};
 use epipole::calibration::{
     Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate, calibrate_rig,
 };
+use epipole_io::camera::camera_fields;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -168,7 +169,7 @@ impl Side {
     fn fields(&self) -> Map<String, Value> {
         let found = &self.found;
         let mut fields = Map::new();
-        for (name, value) in lens::fields(&found.camera) {
+        for (name, value) in camera_fields(&found.camera) {
             fields.insert(name.to_owned(), value);
         }
         let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();

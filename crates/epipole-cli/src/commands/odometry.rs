@@ -57,8 +57,9 @@ pub(crate) struct Arguments {
     listing: ListingArguments,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Camera file written by `epipole calibrate`, for frames of its size. Frames stay distorted.
-    /// Not for rigs, whose frames are rectified.
+    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
+    /// MATLAB (FILE#NAME: one of several), for frames of its size. Frames stay distorted. Not for
+    /// rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
     #[command(flatten)]
@@ -203,7 +204,8 @@ impl Work<'_> {
     /// The features of all pictures, one in memory at a time, and the camera that they share.
     fn read(&self, listed: &[Listed]) -> Result<Frames, Failure> {
         let file = self.arguments.camera_file.as_ref();
-        let camera = file.map(|file| lens::read(file, false)).transpose()?;
+        let first = paths.first().map(PathBuf::as_path);
+        let camera = file.map(|file| lens::read(file, first)).transpose()?;
         if let Some(camera) = &camera {
             tell_of_unseen(camera, self.context)?;
         }

@@ -46,8 +46,8 @@ pub(crate) struct Arguments {
     known: CameraFile,
     #[command(flatten)]
     reading: ReadArguments,
-    /// A stereo rig that `epipole calibrate --right` wrote, for photographs of its two cameras,
-    /// left and right.
+    /// File of a stereo rig, of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB, for
+    /// photographs of its two cameras, left and right.
     #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
     rig: Option<PathBuf>,
     /// Distance of the two cameras; the unit of Q. That of --rig is in meters.

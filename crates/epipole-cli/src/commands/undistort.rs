@@ -37,7 +37,8 @@ pub(crate) struct Arguments {
     listing: ListingArguments,
     #[command(flatten)]
     reading: ReadArguments,
-    /// A file that `epipole calibrate` wrote.
+    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
+    /// MATLAB (FILE#NAME: one of several).
     #[arg(long, value_name = "FILE")]
     camera: PathBuf,
     /// The photographs are by the right camera of the file.
@@ -52,12 +53,16 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let camera = lens::read(&arguments.camera, arguments.right)?;
     let keep = match arguments.keep {
         Kept::All => Keep::All,
         Kept::Valid => Keep::Valid,
     };
     let listed = arguments.listing.photos(&arguments.photos, context)?;
+    let first = listed.first().map(|one| one.path.as_path());
+    let camera = match arguments.right {
+        true => lens::read_right(&arguments.camera, first)?,
+        false => lens::read(&arguments.camera, first)?,
+    };
     let mut targets = Vec::new();
     for one in &listed {
         let target = arguments.output.join(&one.name).with_extension("png");

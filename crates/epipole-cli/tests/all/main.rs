@@ -4,7 +4,9 @@
 
 mod basics;
 mod calibrate;
+mod camera_files;
 mod common;
+mod compare;
 mod depth;
 mod features;
 mod field;

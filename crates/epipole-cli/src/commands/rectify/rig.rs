@@ -19,7 +19,7 @@ pub(super) fn read(
     reading: ReadArguments,
     context: &Context,
 ) -> Result<([Photo; 2], [Camera; 2], RigidTransform), Failure> {
-    let (cameras, right_from_left) = lens::read_rig(file)?;
+    let (cameras, right_from_left) = lens::read_rig(file, Some(paths[0]))?;
     let [left, right] = &cameras;
     let photos = [
         photograph(paths[0], left, "left", reading, context)?,

@@ -29,8 +29,9 @@ pub(super) struct InputArguments {
     /// one that is to be told by --camera, by its EXIF data, or to be guessed.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
-    /// Camera file written by `epipole calibrate`, for images of its size or turned by 90°. Images
-    /// stay distorted, and cameras.txt has the lens.
+    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
+    /// MATLAB (FILE#NAME: one of several), for images of its size or turned by 90°. Images stay
+    /// distorted, and cameras.txt has the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
     /// Undistort the images of --camera first: cameras.txt then has pinhole cameras, for programs
@@ -87,7 +88,8 @@ impl InputArguments {
             )));
         }
         let camera = self.camera_file.as_ref();
-        let camera = camera.map(|path| lens::read(path, false)).transpose()?;
+        let first = paths.first().map(PathBuf::as_path);
+        let camera = camera.map(|file| lens::read(file, first)).transpose()?;
         let flat = (camera.as_ref())
             .filter(|_| self.undistort)
             .map(|camera| Undistortion::new(camera, Keep::Valid));

@@ -1,0 +1,169 @@
+//! `epipole compare`: how far an estimated trajectory is from the true one.
+
+mod associate;
+mod errors;
+
+use self::associate::{Association, associate};
+use self::errors::{PoseErrors, Statistics, absolute_errors, relative_errors};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::matrices::{Motion, positive};
+use crate::report::Report;
+use crate::{files, known_camera};
+use clap::{Args, ValueEnum};
+use epipole::camera::RigidTransform;
+use epipole::sfm::{AlignmentKind, align_points};
+use epipole_io::trajectory::{Trajectory, read_trajectory};
+use nalgebra::{Point3, Similarity3};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+/// Transformation of the estimate before errors are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Align {
+    /// Position and orientation.
+    Se3,
+    /// Position, orientation and scale, for one moving camera.
+    Sim3,
+    /// None: both are in one frame.
+    None,
+}
+
+/// Compare an estimated trajectory with the true one.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole compare groundtruth.txt estimate.txt --align sim3\n\n\
+    Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), by their content. A pose\n\
+    of the trajectory with fewer poses is compared with the nearest in time of the other; without times, poses of\n\
+    equal number. Errors are those of evo: APE after the alignment, RPE over all pairs that are --step poses apart.\n\n\
+    JSON: ate_rmse_m, rpe_rmse (translation), scale and truth_from_estimate of the alignment, ape and rpe\n\
+    (translation_m and rotation_deg with rmse, mean, median, std, min, max, sse), num_pairs, num_poses (of both),\n\
+    associated_by (time or index), formats."
+)]
+pub(crate) struct Arguments {
+    /// The true trajectory.
+    truth: PathBuf,
+    /// The estimated trajectory.
+    estimate: PathBuf,
+    /// Alignment of the estimate with the truth.
+    #[arg(long, value_enum, default_value = "se3")]
+    align: Align,
+    /// Largest difference in time of two poses that are compared, seconds.
+    #[arg(long, default_value_t = 0.01, value_name = "S", value_parser = positive)]
+    max_difference_s: f64,
+    /// Compare poses of equal number, whatever their times.
+    #[arg(long)]
+    by_index: bool,
+    /// Poses between the two ends of a motion of the RPE.
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    step: u32,
+}
+
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let paths = [&arguments.truth, &arguments.estimate];
+    let [(truth_format, truth), (format, estimate)] = [read(paths[0])?, read(paths[1])?];
+    let max_difference_s = (!arguments.by_index).then_some(arguments.max_difference_s);
+    let Association { pairs, by } = associate(&truth, &estimate, max_difference_s)?;
+    let fewer = truth
+        .world_from_cam
+        .len()
+        .min(estimate.world_from_cam.len());
+    if pairs.len() < fewer {
+        context.warn(&format!(
+            "{} of {fewer} poses have no other within {} s, and are left out",
+            fewer - pairs.len(),
+            arguments.max_difference_s
+        ));
+    }
+    let truths: Vec<RigidTransform> = pairs
+        .iter()
+        .map(|&(i, _)| truth.world_from_cam[i])
+        .collect();
+    let estimates: Vec<RigidTransform> =
+        (pairs.iter().map(|&(_, j)| estimate.world_from_cam[j])).collect();
+    let alignment = align(&estimates, &truths, arguments.align)?;
+    let aligned: Vec<RigidTransform> = (estimates.iter())
+        .map(|pose| {
+            let center = alignment * Point3::from(pose.translation.vector);
+            let rotation = alignment.isometry.rotation * pose.rotation;
+            RigidTransform::from_parts(center.coords.into(), rotation)
+        })
+        .collect();
+    let ape = absolute_errors(&truths, &aligned);
+    let step = arguments.step as usize;
+    let rpe = relative_errors(&truths, &aligned, step).ok_or_else(|| epipole::Error::TooFew {
+        what: "a relative pose error from poses",
+        needed: step.saturating_add(1),
+        got: pairs.len(),
+    })?;
+    let report = Report::default()
+        .field("ate_rmse_m", ape.translation_m.rmse)
+        .field("rpe_rmse", rpe.translation_m.rmse)
+        .field("scale", alignment.scaling())
+        .field("truth_from_estimate", Motion::from(&alignment.isometry))
+        .field("ape", &ape)
+        .field("rpe", &rpe)
+        .field("num_pairs", pairs.len())
+        .field(
+            "num_poses",
+            [truth.world_from_cam.len(), estimate.world_from_cam.len()],
+        )
+        .field("associated_by", by)
+        .field("formats", json!([truth_format, format]))
+        .row(
+            "compared",
+            format!(
+                "{} poses by {by}: {} of {}, {} of {}",
+                pairs.len(),
+                truth.world_from_cam.len(),
+                known_camera::name(paths[0]),
+                estimate.world_from_cam.len(),
+                known_camera::name(paths[1])
+            ),
+        )
+        .row("scale", format!("{:.6}", alignment.scaling()));
+    Ok(rows(rows(report, "APE", &ape), "RPE", &rpe))
+}
+
+fn rows(report: Report, name: &str, errors: &PoseErrors) -> Report {
+    let row = |s: &Statistics, unit: &str| {
+        format!(
+            "rmse {:.6} {unit}, mean {:.6}, median {:.6}, std {:.6}, {:.6} to {:.6}",
+            s.rmse, s.mean, s.median, s.std, s.min, s.max
+        )
+    };
+    report
+        .row(name, row(&errors.translation_m, "m"))
+        .row(&format!("{name} rotation"), row(&errors.rotation_deg, "°"))
+}
+
+fn read(path: &Path) -> Result<(&'static str, Trajectory), Failure> {
+    let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
+    let read = read_trajectory(&bytes);
+    let (format, trajectory) = read.map_err(|error| Failure::from(error).about(path))?;
+    Ok((format.name(), trajectory))
+}
+
+/// `truth_from_estimate`.
+fn align(
+    estimates: &[RigidTransform],
+    truths: &[RigidTransform],
+    align: Align,
+) -> Result<Similarity3<f64>, Failure> {
+    let kind = match align {
+        Align::Se3 => AlignmentKind::Rigid,
+        Align::Sim3 => AlignmentKind::Similarity,
+        Align::None => return Ok(Similarity3::identity()),
+    };
+    let centers = |poses: &[RigidTransform]| -> Vec<Point3<f64>> {
+        poses
+            .iter()
+            .map(|pose| pose.translation.vector.into())
+            .collect()
+    };
+    align_points(&centers(estimates), &centers(truths), kind).map_err(|error| {
+        let failure = Failure::from(error);
+        let message = format!("{}; --align none compares without", failure.message);
+        Failure::new(failure.kind, message)
+    })
+}

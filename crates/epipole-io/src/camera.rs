@@ -1,0 +1,27 @@
+//! Cameras: intrinsics and lenses as other programs store them.
+//!
+//! [`read_cameras`] recognizes the format by its content; [`write_cameras`] writes the formats that
+//! have one text for a camera. Pixels are converted to centers at integers.
+
+mod colmap;
+mod epipole_json;
+mod format;
+mod kalibr;
+mod matlab;
+mod metashape;
+mod named;
+mod nerfstudio;
+mod opencv;
+mod opencv_write;
+mod parts;
+mod read;
+mod ros;
+mod ros_write;
+mod write;
+mod yaml_number;
+
+pub use epipole_json::camera_fields;
+pub use format::CameraFormat;
+pub use named::{Cameras, NamedCamera};
+pub use read::read_cameras;
+pub use write::write_cameras;

@@ -1,0 +1,51 @@
+//! COLMAP's cameras alone: `cameras.txt` or `cameras.bin`. A camera's name is its ID.
+//!
+//! Source: COLMAP's documentation, "Output format".
+
+use super::named::{Cameras, NamedCamera};
+use crate::Result;
+use crate::model::colmap_binary::read_cameras_binary;
+use crate::model::colmap_text::{read_cameras_text, write_cameras_text};
+use epipole::camera::Camera;
+
+/// Whether a first line with content is `ID MODEL WIDTH …`.
+pub(super) fn is_text(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    let mut words = first.unwrap_or_default().split_whitespace();
+    let is_model = |word: &str| word.bytes().all(|b| b.is_ascii_uppercase() || b == b'_');
+    words.next().is_some_and(|id| id.parse::<u32>().is_ok())
+        && words.next().is_some_and(is_model)
+        && words.next().is_some()
+}
+
+/// Whether bytes begin with a number of cameras that they have room for.
+pub(super) fn is_binary(bytes: &[u8]) -> bool {
+    let count = bytes.first_chunk().map(|first| u64::from_le_bytes(*first));
+    let room = (bytes.len() / 24) as u64;
+    bytes.contains(&0) && count.is_some_and(|count| (1..=room).contains(&count))
+}
+
+pub(super) fn read_text(text: &str) -> Result<Cameras> {
+    read_cameras_text(text).map(named)
+}
+
+pub(super) fn read_binary(bytes: &[u8]) -> Result<Cameras> {
+    read_cameras_binary(bytes).map(named)
+}
+
+fn named(cameras: Vec<(u32, Camera)>) -> Cameras {
+    let named = cameras.into_iter();
+    Cameras {
+        cameras: named
+            .map(|(id, camera)| NamedCamera::new(id.to_string(), camera))
+            .collect(),
+        right_from_left: None,
+    }
+}
+
+/// `cameras.txt`; IDs count from 1, names are lost.
+pub(super) fn write(cameras: &Cameras) -> String {
+    let cameras: Vec<Camera> = cameras.cameras.iter().map(|named| named.camera).collect();
+    write_cameras_text(&cameras)
+}

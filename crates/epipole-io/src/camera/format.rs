@@ -1,0 +1,39 @@
+//! The formats of camera files.
+
+/// Format of a file of cameras.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CameraFormat {
+    /// JSON of `epipole calibrate`.
+    Epipole,
+    /// OpenCV's `FileStorage`: YAML, XML or JSON.
+    OpenCv,
+    /// ROS `camera_info`, YAML.
+    Ros,
+    /// Kalibr's camera chain, YAML.
+    Kalibr,
+    /// COLMAP's `cameras.txt` or `cameras.bin`.
+    Colmap,
+    /// `transforms.json` of nerfstudio and instant-ngp.
+    NerfStudio,
+    /// XML of Agisoft Metashape.
+    Metashape,
+    /// MATLAB's `cameraParameters` or `stereoParameters`, as JSON.
+    Matlab,
+}
+
+impl CameraFormat {
+    /// Name of the program.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Epipole => "Epipole",
+            Self::OpenCv => "OpenCV",
+            Self::Ros => "ROS",
+            Self::Kalibr => "Kalibr",
+            Self::Colmap => "COLMAP",
+            Self::NerfStudio => "nerfstudio",
+            Self::Metashape => "Metashape",
+            Self::Matlab => "MATLAB",
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Cameras with names.
+
+use epipole::camera::{Camera, RigidTransform};
+
+/// A camera and its name in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCamera {
+    /// Name, number or image that the file gives; "camera", or "left" and "right", without one.
+    pub name: String,
+    /// Size, intrinsics and lens, pixel centers at integers.
+    pub camera: Camera,
+}
+
+/// Content of a file of cameras.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cameras {
+    /// At least one after reading, in the order of the file.
+    pub cameras: Vec<NamedCamera>,
+    /// Motion of a rig, from the first camera to the second: `x_in_right = R x_in_left + t`, in the
+    /// unit of the file.
+    pub right_from_left: Option<RigidTransform>,
+}
+
+impl Cameras {
+    /// One camera, named "camera".
+    pub fn of(camera: Camera) -> Self {
+        Self {
+            cameras: vec![NamedCamera::new("camera", camera)],
+            right_from_left: None,
+        }
+    }
+
+    /// A stereo rig, its cameras named "left" and "right".
+    pub fn of_rig([left, right]: [Camera; 2], right_from_left: RigidTransform) -> Self {
+        Self {
+            cameras: vec![
+                NamedCamera::new("left", left),
+                NamedCamera::new("right", right),
+            ],
+            right_from_left: Some(right_from_left),
+        }
+    }
+
+    /// The camera of a name.
+    pub fn named(&self, name: &str) -> Option<&Camera> {
+        let found = self.cameras.iter().find(|named| named.name == name);
+        found.map(|named| &named.camera)
+    }
+}
+
+impl NamedCamera {
+    /// A camera with a name.
+    pub fn new(name: impl Into<String>, camera: Camera) -> Self {
+        Self {
+            name: name.into(),
+            camera,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Recognition of camera files.
+
+use super::format::CameraFormat;
+use super::named::Cameras;
+use super::{colmap, epipole_json, kalibr, matlab, metashape, nerfstudio, opencv, ros};
+use crate::text::decode;
+use crate::tree::{Field, Syntax};
+use crate::{Error, Result};
+
+/// Maximum number of keys that a message lists.
+const MAX_KEYS: usize = 8;
+
+/// Reads the cameras of a file, and tells its format by its content.
+///
+/// * `bytes`: content of the file
+/// * `size`: width and height of the images, pixels, for a file without them
+///
+/// Pixels are converted to centers at integers; see [`CameraFormat`] for the formats.
+///
+/// # Errors
+/// [`Error::Malformed`] for another file, and for wrong or missing values, with key and line;
+/// [`Error::Unsupported`] for lenses that the library does not have; [`Error::Invalid`] for a focal
+/// length ≤ 0.
+///
+/// ```
+/// # fn main() -> Result<(), epipole_io::Error> {
+/// use epipole_io::camera::{CameraFormat, read_cameras};
+/// let text = "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   \
+///     data: [ 500., 0., 320., 0., 500., 240., 0., 0., 1. ]\n";
+/// let (format, cameras) = read_cameras(text.as_bytes(), Some((640, 480)))?;
+/// assert_eq!(format, CameraFormat::OpenCv);
+/// assert_eq!(cameras.cameras[0].camera.intrinsics.fu_px(), 500.0);
+/// # Ok(()) }
+/// ```
+pub fn read_cameras(bytes: &[u8], size: Option<(u32, u32)>) -> Result<(CameraFormat, Cameras)> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(Error::malformed("the text is UTF-16: save it as UTF-8"));
+    }
+    let (format, cameras) = if colmap::is_binary(bytes) {
+        (CameraFormat::Colmap, colmap::read_binary(bytes)?)
+    } else {
+        let text = decode(bytes)?;
+        match colmap::is_text(text) {
+            true => (CameraFormat::Colmap, colmap::read_text(text)?),
+            false => of_tree(text, size)?,
+        }
+    };
+    match cameras.cameras.is_empty() {
+        true => Err(Error::malformed("there is no camera in it")),
+        false => Ok((format, cameras)),
+    }
+}
+
+fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Cameras)> {
+    let syntax = Syntax::of(text);
+    let node = syntax.parse(text)?;
+    let whole = Field::root(&node);
+    let storage = whole.get("opencv_storage");
+    let root = storage.as_ref().unwrap_or(&whole);
+    let format = recognize(syntax, root, storage.is_some())?;
+    let cameras = match format {
+        CameraFormat::Epipole => epipole_json::read(root),
+        CameraFormat::NerfStudio => nerfstudio::read(root, size),
+        CameraFormat::Matlab => matlab::read(root, size),
+        CameraFormat::Metashape => metashape::read(root),
+        CameraFormat::Kalibr => kalibr::read(root),
+        CameraFormat::Ros => ros::read(root, size),
+        CameraFormat::OpenCv | CameraFormat::Colmap => opencv::read(root, size),
+    }?;
+    Ok((format, cameras))
+}
+
+fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFormat> {
+    type Candidate = (CameraFormat, fn(&Field) -> bool);
+    const OPENCV: Candidate = (CameraFormat::OpenCv, opencv::is_it);
+    const OF_JSON: [Candidate; 5] = [
+        (CameraFormat::Epipole, epipole_json::is_it),
+        (CameraFormat::NerfStudio, nerfstudio::is_it),
+        (CameraFormat::Matlab, matlab::is_it),
+        (CameraFormat::Ros, ros::is_it),
+        OPENCV,
+    ];
+    const OF_YAML: [Candidate; 3] = [
+        (CameraFormat::Kalibr, kalibr::is_it),
+        (CameraFormat::Ros, ros::is_it),
+        OPENCV,
+    ];
+    const OF_XML: [Candidate; 2] = [(CameraFormat::Metashape, metashape::is_it), OPENCV];
+    let candidates: &[Candidate] = match syntax {
+        Syntax::Json => &OF_JSON,
+        Syntax::Yaml => &OF_YAML,
+        Syntax::Xml if is_storage => &OF_XML[1..],
+        Syntax::Xml => &OF_XML,
+    };
+    let found = candidates.iter().find(|(_, is_it)| is_it(root));
+    found.map(|(format, _)| *format).ok_or_else(|| {
+        let keys: Vec<String> = (root.entries().iter().take(MAX_KEYS))
+            .map(|(key, _)| format!("{key:.30}"))
+            .collect();
+        let keys = match keys.is_empty() {
+            true => "it has no keys".to_owned(),
+            false => format!("its keys are {}", keys.join(", ")),
+        };
+        Error::malformed(format!(
+            "no camera that epipole calibrate, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
+        ))
+    })
+}

@@ -1,0 +1,18 @@
+//! Trajectories: poses of one camera over time.
+//!
+//! [`read_trajectory`] recognizes the format by its content; [`write_trajectory`] writes it.
+
+mod euroc;
+mod format;
+mod kitti;
+mod path;
+mod read;
+mod stamp;
+mod tum;
+mod words;
+mod write;
+
+pub use format::TrajectoryFormat;
+pub use path::Trajectory;
+pub use read::read_trajectory;
+pub use write::write_trajectory;

@@ -1,0 +1,167 @@
+//! Recognition of trajectories.
+
+use super::format::TrajectoryFormat;
+use super::path::Trajectory;
+use super::words::words;
+use super::{euroc, kitti, tum};
+use crate::text::{decode, lines};
+use crate::{Error, Result};
+
+/// Reads a trajectory, and tells its format by its content.
+///
+/// Twelve numbers a line are KITTI's. Eight values and more are EuRoC's if commas separate them and
+/// times are whole numbers, else TUM's: the order of the quaternion follows from that. Quaternions
+/// are normalized, matrices replaced by the nearest rotation.
+///
+/// # Errors
+/// [`Error::Malformed`] for another file, and with the line for wrong numbers, zero quaternions,
+/// matrices that are no rotation, and times that go backwards.
+///
+/// ```
+/// # fn main() -> Result<(), epipole_io::Error> {
+/// use epipole_io::trajectory::{TrajectoryFormat, read_trajectory};
+/// let text = "# t tx ty tz qx qy qz qw\n1305031102.175304 1.5 0 0 0 0 0 1\n";
+/// let (format, trajectory) = read_trajectory(text.as_bytes())?;
+/// assert_eq!(format, TrajectoryFormat::Tum);
+/// assert_eq!(trajectory.stamps_ns, Some(vec![1_305_031_102_175_304_000]));
+/// assert_eq!(trajectory.world_from_cam[0].translation.x, 1.5);
+/// # Ok(()) }
+/// ```
+pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
+    let text = decode(bytes)?;
+    let format = recognize(text)?;
+    let trajectory = match format {
+        TrajectoryFormat::Tum => tum::read(text),
+        TrajectoryFormat::Kitti => kitti::read(text),
+        TrajectoryFormat::EuRoC => euroc::read(text),
+    }?;
+    match trajectory.world_from_cam.is_empty() {
+        true => Err(Error::malformed("the trajectory has no poses")),
+        false => Ok((format, trajectory)),
+    }
+}
+
+/// Format of the first line of numbers.
+fn recognize(text: &str) -> Result<TrajectoryFormat> {
+    let is_header = |content: &str| content.starts_with(|c: char| c.is_alphabetic());
+    let mut rows = lines(text).skip_while(|(_, content)| is_header(content));
+    let Some((line, content)) = rows.next() else {
+        return Err(Error::malformed("the trajectory has no poses"));
+    };
+    let words = words(content);
+    let is_whole = words.first().is_some_and(|t| t.parse::<i64>().is_ok());
+    let has_commas = content.contains([',', ';']);
+    match (words.len(), has_commas && is_whole) {
+        (12, false) => Ok(TrajectoryFormat::Kitti),
+        (8.., true) => Ok(TrajectoryFormat::EuRoC),
+        (8, _) => Ok(TrajectoryFormat::Tum),
+        (count, _) => Err(Error::at(
+            line,
+            format!(
+                "{count} values are no pose: 8 are expected of TUM (t tx ty tz qx qy qz qw) and EuRoC, 12 of KITTI"
+            ),
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::write_trajectory;
+    use super::*;
+    use epipole::camera::RigidTransform;
+    use nalgebra::Vector3;
+
+    fn read(text: &str) -> Result<(TrajectoryFormat, Trajectory)> {
+        read_trajectory(text.as_bytes())
+    }
+
+    fn path() -> Trajectory {
+        let pose = |i: i64| {
+            let i = i as f64;
+            let turn = Vector3::new(0.1 * i, -0.2, 0.05 * i * i);
+            RigidTransform::new(Vector3::new(0.1 * i, 1.0 / 3.0, -1e-7 * i), turn)
+        };
+        Trajectory {
+            stamps_ns: Some(
+                (0..20)
+                    .map(|i| 1_403_636_579_763_555_584 + i * 50_000_001)
+                    .collect(),
+            ),
+            world_from_cam: (0..20).map(pose).collect(),
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let path = path();
+        for format in [
+            TrajectoryFormat::Tum,
+            TrajectoryFormat::EuRoC,
+            TrajectoryFormat::Kitti,
+        ] {
+            let text = write_trajectory(format, &path).unwrap();
+            let (found, again) = read(&text).unwrap();
+            assert_eq!(found, format);
+            if format != TrajectoryFormat::Kitti {
+                assert_eq!(again.stamps_ns, path.stamps_ns);
+            }
+            for (a, b) in again.world_from_cam.iter().zip(&path.world_from_cam) {
+                assert_eq!(a.translation, b.translation);
+                assert!((a.to_homogeneous() - b.to_homogeneous()).amax() < 1e-15);
+            }
+        }
+        let (_, kitti) = read(&write_trajectory(TrajectoryFormat::Kitti, &path).unwrap()).unwrap();
+        let error = write_trajectory(TrajectoryFormat::Tum, &kitti).unwrap_err();
+        assert!(matches!(error, Error::Unsupported { .. }));
+    }
+
+    #[test]
+    fn the_quaternion_of_euroc_begins_with_w() {
+        let text = "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v\n\
+            1403636580838555648,4.688319,-1.786938,0.783338,0.534108,-0.153029,-0.827383,-0.082152,-0.027876,0.033207,0.800006,-0.003172,0.021267,0.078502,-0.025266,0.136696,0.075593\r\n";
+        let (format, path) = read(text).unwrap();
+        assert_eq!(format, TrajectoryFormat::EuRoC);
+        let q = path.world_from_cam[0].rotation;
+        assert!((q.w - 0.534108).abs() < 1e-6 && (q.j + 0.827383).abs() < 1e-6);
+        // Commas alone do not make it EuRoC's.
+        let (format, path) = read("0.5,1,2,3,0,0,0,1\n").unwrap();
+        assert_eq!(
+            (format, path.world_from_cam[0].rotation.w),
+            (TrajectoryFormat::Tum, 1.0)
+        );
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        for (text, message) in [
+            ("", "the trajectory has no poses"),
+            (
+                "1 2 3\n",
+                "line 1: 3 values are no pose: 8 are expected of TUM (t tx ty tz qx qy qz qw) and EuRoC, 12 of KITTI",
+            ),
+            (
+                "# t\n0 0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n",
+                "line 3: not the eight values t tx ty tz qx qy qz qw: \"1 0 0 0 0 0 1\"",
+            ),
+            ("0 0 0 x 0 0 0 1\n", "line 1: \"x\" is not a number"),
+            (
+                "0 0 0 0 0 0 0 0\n",
+                "line 1: the quaternion is zero: it is no rotation",
+            ),
+            (
+                "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
+                "line 2: time goes backwards, from 2.0 s to 1.0 s: sort the poses by time",
+            ),
+            (
+                "1 0 0 0 0 1 0 0 0 0 -1 0\n",
+                "line 1: columns 1 to 3, 5 to 7 and 9 to 11 are not a rotation",
+            ),
+            (
+                "5,0,0,0,1,0,0,0\n6.5,0,0,0,1,0,0,0\n",
+                "line 2: \"6.5\" is not a whole number of nanoseconds",
+            ),
+        ] {
+            assert_eq!(read(text).unwrap_err().to_string(), message, "{text}");
+        }
+    }
+}

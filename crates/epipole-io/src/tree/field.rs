@@ -1,0 +1,229 @@
+//! Values by their keys, with errors that name key and line.
+
+use super::{Node, Value};
+use crate::{Error, Result};
+
+/// A node and the keys that lead to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Field<'a> {
+    /// Keys from the root, joined by dots; empty for the root.
+    path: String,
+    node: &'a Node,
+}
+
+impl<'a> Field<'a> {
+    pub(crate) fn root(node: &'a Node) -> Self {
+        Self {
+            path: String::new(),
+            node,
+        }
+    }
+
+    fn child(&self, key: &str, node: &'a Node) -> Self {
+        let path = match self.path.is_empty() {
+            true => key.to_owned(),
+            false => format!("{}.{key}", self.path),
+        };
+        Self { path, node }
+    }
+
+    /// The value of a key; `None` without it and where it is null.
+    pub(crate) fn get(&self, key: &str) -> Option<Self> {
+        self.all(key).next()
+    }
+
+    /// All values of a key, of which XML may have several.
+    pub(crate) fn all(&self, key: &str) -> impl Iterator<Item = Self> {
+        let entries: &'a [(String, Node)] = match &self.node.value {
+            Value::Map(entries) => entries,
+            _ => &[],
+        };
+        entries
+            .iter()
+            .filter(move |(name, node)| name == key && node.value != Value::Null)
+            .map(|(name, node)| self.child(name, node))
+    }
+
+    /// The value of the first key that is there, whatever its case and without `_` and `-`.
+    ///
+    /// * `keys`: lower case, without `_` and `-`
+    pub(crate) fn any(&self, keys: &[&str]) -> Option<Self> {
+        let entries = self.entries();
+        keys.iter().find_map(|key| {
+            let of_key = |entry: &&(String, Self)| {
+                let letters = entry.0.chars().filter(|c| !matches!(c, '_' | '-' | ' '));
+                letters.flat_map(char::to_lowercase).eq(key.chars())
+            };
+            let (_, field) = entries.iter().find(of_key)?;
+            Some(field.clone())
+        })
+    }
+
+    /// The value of a key.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] if there is none.
+    ///
+    /// * `expected`: what it should be, such as "width in pixels"
+    pub(crate) fn need(&self, key: &str, expected: &str) -> Result<Self> {
+        self.get(key).ok_or_else(|| self.missing(key, expected))
+    }
+
+    /// Error for a key that is missing here.
+    pub(crate) fn missing(&self, key: &str, expected: &str) -> Error {
+        let place = match self.path.is_empty() {
+            true => key.to_owned(),
+            false => format!("{}.{key}", self.path),
+        };
+        Error::Malformed {
+            line: self.node.line.filter(|_| !self.path.is_empty()),
+            message: format!("{place} is missing: {expected}"),
+        }
+    }
+
+    /// Error for a value that is wrong: `what` follows the key, as in "is not a number".
+    pub(crate) fn wrong(&self, what: &str) -> Error {
+        Error::Malformed {
+            line: self.node.line,
+            message: format!("{} {what}", self.path),
+        }
+    }
+
+    /// Error for a value that is valid, but not supported.
+    pub(crate) fn unsupported(&self, what: &str) -> Error {
+        Error::unsupported(format!("{} {what}", self.path))
+    }
+
+    /// Keys and values that are not null.
+    pub(crate) fn entries(&self) -> Vec<(String, Self)> {
+        match &self.node.value {
+            Value::Map(entries) => (entries.iter())
+                .filter(|(_, node)| node.value != Value::Null)
+                .map(|(name, node)| (name.clone(), self.child(name, node)))
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Elements of a list; `None` for what is none.
+    pub(crate) fn items(&self) -> Option<Vec<Self>> {
+        match &self.node.value {
+            Value::List(list) => {
+                let item = |(index, node)| Self {
+                    path: format!("{}[{index}]", self.path),
+                    node,
+                };
+                Some(list.iter().enumerate().map(item).collect())
+            }
+            _ => None,
+        }
+    }
+
+    pub(crate) fn is_map(&self) -> bool {
+        matches!(self.node.value, Value::Map(_))
+    }
+
+    /// A word or string, without the quotes that OpenCV writes into XML; `None` for lists and maps.
+    pub(crate) fn text(&self) -> Option<&'a str> {
+        match &self.node.value {
+            Value::Scalar(text) => Some(text.trim().trim_matches('"')),
+            _ => None,
+        }
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&self) -> Result<f64> {
+        let number = self.text().and_then(|text| text.parse::<f64>().ok());
+        number
+            .filter(|number| number.is_finite())
+            .ok_or_else(|| self.wrong(&format!("is not a finite number{}", self.shown())))
+    }
+
+    /// A whole number of pixels.
+    pub(crate) fn pixels(&self) -> Result<u32> {
+        let number = self.text().and_then(|text| text.parse::<f64>().ok());
+        let is_whole =
+            |number: &f64| number.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(number);
+        match number.filter(is_whole) {
+            Some(number) => Ok(number as u32),
+            None => Err(self.wrong(&format!("is not a whole number above 0{}", self.shown()))),
+        }
+    }
+
+    /// All numbers of a list, of nested lists row by row, of a matrix of OpenCV (its `data`) or of
+    /// a text with blanks or commas. A number alone is a list of one.
+    pub(crate) fn numbers(&self) -> Result<Vec<f64>> {
+        let mut numbers = Vec::new();
+        self.collect(self.node, &mut numbers)?;
+        Ok(numbers)
+    }
+
+    /// * `node`: this one or one inside of it
+    fn collect(&self, node: &Node, numbers: &mut Vec<f64>) -> Result<()> {
+        let not_numbers = || self.wrong("is not a list of numbers");
+        match &node.value {
+            Value::Scalar(text) => {
+                let words = text.split(|c: char| c.is_whitespace() || c == ',');
+                for word in words.filter(|word| !word.is_empty()) {
+                    let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
+                    numbers.push(number.ok_or_else(|| {
+                        self.wrong(&format!("is not a list of finite numbers: \"{word:.40}\""))
+                    })?);
+                }
+                Ok(())
+            }
+            Value::List(list) => (list.iter()).try_for_each(|node| self.collect(node, numbers)),
+            Value::Map(entries) => match entries.iter().find(|(key, _)| key == "data") {
+                Some((_, data)) => self.collect(data, numbers),
+                None => Err(not_numbers()),
+            },
+            Value::Null => Err(not_numbers()),
+        }
+    }
+
+    /// A short value, to be shown behind a message.
+    fn shown(&self) -> String {
+        match self.text() {
+            Some(text) => format!(": \"{text:.40}\""),
+            None => String::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Syntax;
+    use super::*;
+
+    #[test]
+    fn values_are_found_and_errors_name_them() {
+        let text = "Camera-Matrix: {rows: 1, data: [1, [2., 3]]}\nwide: 5.5\nnone: ~\nt: [1, x]\n";
+        let node = Syntax::Yaml.parse(text).unwrap();
+        let root = Field::root(&node);
+        let matrix = root.any(&["k", "cameramatrix"]).unwrap();
+        assert_eq!(matrix.numbers().unwrap(), [1.0, 2.0, 3.0]);
+        assert!(root.get("none").is_none() && root.get("other").is_none());
+        let wide = root.get("wide").unwrap();
+        assert_eq!(wide.number().unwrap(), 5.5);
+        for (error, message) in [
+            (
+                wide.pixels().unwrap_err(),
+                "line 2: wide is not a whole number above 0: \"5.5\"",
+            ),
+            (
+                root.get("t").unwrap().numbers().unwrap_err(),
+                "line 4: t is not a list of finite numbers: \"x\"",
+            ),
+            (
+                root.need("fl_x", "focal length").unwrap_err(),
+                "fl_x is missing: focal length",
+            ),
+            (
+                matrix.need("cols", "columns").unwrap_err(),
+                "line 1: Camera-Matrix.cols is missing: columns",
+            ),
+        ] {
+            assert_eq!(error.to_string(), message);
+        }
+    }
+}
