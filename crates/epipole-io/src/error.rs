@@ -40,6 +40,33 @@ impl Error {
         }
     }
 
+    /// Adds the line to an error without one.
+    pub(crate) fn on_line(self, line: usize) -> Self {
+        match self {
+            Self::Malformed {
+                line: None,
+                message,
+            } => Self::at(line, message),
+            Self::Invalid(error) => Self::at(line, error.to_string()),
+            other => other,
+        }
+    }
+
+    /// Adds the file to an error of a format that consists of several files.
+    pub(crate) fn in_file(self, name: &str) -> Self {
+        match self {
+            Self::Malformed {
+                line: Some(line),
+                message,
+            } => Self::malformed(format!("{name}, line {line}: {message}")),
+            Self::Malformed {
+                line: None,
+                message,
+            } => Self::malformed(format!("{name}: {message}")),
+            other => other,
+        }
+    }
+
     /// Something that is not supported.
     pub(crate) fn unsupported(message: impl Into<String>) -> Self {
         Self::Unsupported {

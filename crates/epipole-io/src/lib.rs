@@ -7,7 +7,9 @@
 
 #![allow(dead_code, reason = "readers follow")]
 
+mod bytes;
 mod error;
+pub mod model;
 mod text;
 
 pub use error::{Error, Result};

@@ -1,0 +1,186 @@
+//! COLMAP's binary model: `cameras.bin`, `images.bin` and `points3D.bin`.
+//!
+//! The same values as in text, little-endian; names end with a byte 0, so they may hold blanks.
+//!
+//! Source: COLMAP's documentation, "Output format", "Binary file format"; COLMAP 4,
+//! `src/colmap/scene/reconstruction_io_binary.cc`.
+
+use super::colmap_camera::{camera_from_colmap, colmap_from_camera, model_of_id};
+use super::colmap_parts::{ImagePart, Parts, PointPart};
+use super::{Model, ModelFile};
+use crate::bytes::Bytes;
+use crate::{Error, Result};
+use epipole::camera::{Camera, pixel_from_colmap, pixel_to_colmap};
+use nalgebra::{Point2, Point3};
+
+/// Point ID of a keypoint without one.
+const NO_POINT: u64 = u64::MAX;
+
+/// Cameras of `cameras.bin` with their IDs.
+///
+/// # Errors
+/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a model that the library does
+/// not have.
+pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<(u32, Camera)>> {
+    let mut bytes = Bytes::new(bytes);
+    let mut cameras = Vec::new();
+    for _ in 0..bytes.count("cameras", 24)? {
+        let id = bytes.u32()?;
+        let (name, num_params) = model_of_id(bytes.i32()?)?;
+        let [width, height] = [bytes.u64()?, bytes.u64()?];
+        let params = (0..num_params).map(|_| bytes.f64());
+        let params = params.collect::<Result<Vec<f64>>>()?;
+        let camera = camera_from_colmap(name, width, height, &params);
+        cameras.push((id, camera.map_err(|error| in_camera(id, error))?));
+    }
+    bytes.end()?;
+    Ok(cameras)
+}
+
+fn in_camera(id: u32, error: Error) -> Error {
+    match error {
+        Error::Unsupported { message } => Error::Unsupported { message },
+        other => Error::malformed(format!("camera {id}: {other}")),
+    }
+}
+
+/// Bytes of `cameras.bin`; IDs count from 1.
+pub(crate) fn write_cameras_binary(cameras: &[Camera]) -> Vec<u8> {
+    let mut bytes = (cameras.len() as u64).to_le_bytes().to_vec();
+    for (index, camera) in cameras.iter().enumerate() {
+        let model = colmap_from_camera(camera);
+        bytes.extend((index as u32 + 1).to_le_bytes());
+        bytes.extend(model.id.to_le_bytes());
+        bytes.extend(u64::from(camera.width).to_le_bytes());
+        bytes.extend(u64::from(camera.height).to_le_bytes());
+        extend(&mut bytes, &model.params);
+    }
+    bytes
+}
+
+fn extend(bytes: &mut Vec<u8>, values: &[f64]) {
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+}
+
+fn read_images(bytes: &[u8]) -> Result<Vec<ImagePart>> {
+    let mut bytes = Bytes::new(bytes);
+    let mut images = Vec::new();
+    for _ in 0..bytes.count("images", 73)? {
+        let id = bytes.u32()?;
+        let quaternion = bytes.f64s()?;
+        let translation = bytes.f64s()?;
+        let camera = bytes.u32()?;
+        let name = bytes.terminated()?;
+        let mut keypoints = Vec::new();
+        for _ in 0..bytes.count("keypoints", 24)? {
+            let [x, y] = bytes.f64s()?;
+            bytes.u64()?;
+            if !(x.is_finite() && y.is_finite()) {
+                return Err(Error::malformed(format!(
+                    "a keypoint of image {id} ({name}) is at ({x}, {y})"
+                )));
+            }
+            keypoints.push(pixel_from_colmap(&Point2::new(x, y)));
+        }
+        images.push(ImagePart {
+            id,
+            name,
+            camera,
+            quaternion,
+            translation,
+            keypoints,
+        });
+    }
+    bytes.end()?;
+    Ok(images)
+}
+
+fn read_points(bytes: &[u8]) -> Result<Vec<PointPart>> {
+    let mut bytes = Bytes::new(bytes);
+    let mut points = Vec::new();
+    for _ in 0..bytes.count("points", 51)? {
+        bytes.u64()?;
+        let position = Point3::from(bytes.f64s::<3>()?);
+        let color = [bytes.u8()?, bytes.u8()?, bytes.u8()?];
+        let error_px = bytes.f64()?;
+        let mut track = Vec::new();
+        for _ in 0..bytes.count("observations", 8)? {
+            track.push((bytes.u32()?, bytes.u32()?));
+        }
+        points.push(PointPart {
+            position,
+            color,
+            error_px,
+            track,
+        });
+    }
+    bytes.end()?;
+    Ok(points)
+}
+
+/// Reads a binary model.
+///
+/// Returned with it: sentences on what was left out.
+pub(super) fn read(
+    cameras: &[u8],
+    images: &[u8],
+    points: Option<&[u8]>,
+) -> Result<(Model, Vec<String>)> {
+    let parts = Parts {
+        cameras: read_cameras_binary(cameras).map_err(|error| error.in_file("cameras.bin"))?,
+        images: read_images(images).map_err(|error| error.in_file("images.bin"))?,
+        points: match points {
+            Some(points) => read_points(points).map_err(|error| error.in_file("points3D.bin"))?,
+            None => Vec::new(),
+        },
+    };
+    parts.join()
+}
+
+impl Model {
+    /// COLMAP's binary model: `cameras.bin`, `images.bin` and `points3D.bin`, with the cameras and
+    /// IDs of [`to_colmap_text`](Self::to_colmap_text). Names may hold blanks; a byte 0 in them
+    /// becomes `_`.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] if an index of the model is wrong.
+    pub fn to_colmap_binary(&self) -> Result<Vec<ModelFile>> {
+        self.check()?;
+        let mut images = (self.images.len() as u64).to_le_bytes().to_vec();
+        for (image, point_of_keypoint) in self.images.iter().zip(self.point_of_keypoint()) {
+            let (q, t) = (
+                image.cam_from_world.rotation,
+                image.cam_from_world.translation.vector,
+            );
+            images.extend(image.id.to_le_bytes());
+            extend(&mut images, &[q.w, q.i, q.j, q.k, t.x, t.y, t.z]);
+            images.extend((image.camera as u32 + 1).to_le_bytes());
+            images.extend(image.name.replace('\0', "_").as_bytes());
+            images.push(0);
+            images.extend((image.keypoints.len() as u64).to_le_bytes());
+            for (keypoint, point) in image.keypoints.iter().zip(point_of_keypoint) {
+                let pixel = pixel_to_colmap(keypoint);
+                extend(&mut images, &[pixel.x, pixel.y]);
+                let id = point.map_or(NO_POINT, |point| point as u64 + 1);
+                images.extend(id.to_le_bytes());
+            }
+        }
+        let mut points = (self.points.len() as u64).to_le_bytes().to_vec();
+        for (index, point) in self.points.iter().enumerate() {
+            points.extend((index as u64 + 1).to_le_bytes());
+            extend(&mut points, point.position.coords.as_slice());
+            points.extend(point.color);
+            extend(&mut points, &[point.error_px.unwrap_or(-1.0)]);
+            points.extend((point.track.len() as u64).to_le_bytes());
+            for &(image, keypoint) in &point.track {
+                points.extend(self.images[image].id.to_le_bytes());
+                points.extend((keypoint as u32).to_le_bytes());
+            }
+        }
+        Ok(vec![
+            ModelFile::new("cameras.bin", write_cameras_binary(&self.cameras)),
+            ModelFile::new("images.bin", images),
+            ModelFile::new("points3D.bin", points),
+        ])
+    }
+}

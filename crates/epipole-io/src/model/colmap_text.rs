@@ -1,0 +1,279 @@
+//! COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
+//!
+//! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads a
+//! name up to its first blank; here it takes the rest of its line.
+//!
+//! Source: COLMAP's documentation, "Output format", "Text format".
+
+use super::colmap_camera::{camera_from_colmap, colmap_from_camera};
+use super::colmap_parts::{ImagePart, Parts, PointPart};
+use super::{Model, ModelFile};
+use crate::text::number;
+use crate::{Error, Result, text};
+use epipole::camera::{Camera, pixel_from_colmap, pixel_to_colmap};
+use nalgebra::{Point2, Point3};
+use std::fmt::Write;
+use std::str::SplitAsciiWhitespace;
+
+/// Words of a line, taken one by one.
+struct Words<'a> {
+    line: usize,
+    words: SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Words<'a> {
+    fn new(line: usize, text: &'a str) -> Self {
+        let words = text.split_ascii_whitespace();
+        Self { line, words }
+    }
+
+    /// * `what`: the value, for the error if it is missing
+    fn word(&mut self, what: &str) -> Result<&'a str> {
+        (self.words.next()).ok_or_else(|| Error::at(self.line, format!("{what} is missing")))
+    }
+
+    fn number(&mut self, what: &str) -> Result<f64> {
+        let word = self.word(what)?;
+        number(self.line, word)
+    }
+
+    fn numbers<const N: usize>(&mut self, what: &str) -> Result<[f64; N]> {
+        let mut numbers = [0.0; N];
+        for value in &mut numbers {
+            *value = self.number(what)?;
+        }
+        Ok(numbers)
+    }
+
+    /// A number that may be NaN or infinite.
+    fn any_number(&mut self, what: &str) -> Result<f64> {
+        let word = self.word(what)?;
+        (word.parse()).map_err(|_| Error::at(self.line, format!("\"{word}\" is not a number")))
+    }
+
+    fn whole<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
+        let word = self.word(what)?;
+        (word.parse()).map_err(|_| Error::at(self.line, format!("{what} cannot be \"{word}\"")))
+    }
+}
+
+/// Whether COLMAP skips a line.
+fn is_skipped(line: &str) -> bool {
+    let line = line.trim();
+    line.is_empty() || line.starts_with('#')
+}
+
+/// The lines with content and their numbers, counted from 1.
+fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+    lines.filter(|(_, line)| !is_skipped(line))
+}
+
+/// Cameras of `cameras.txt` with their IDs.
+///
+/// # Errors
+/// [`Error::Malformed`] with the line, [`Error::Unsupported`] for a model that the library does not
+/// have.
+pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<(u32, Camera)>> {
+    let mut cameras = Vec::new();
+    for (line, content) in content(text) {
+        let mut words = Words::new(line, content);
+        let id = words.whole("the camera ID")?;
+        let name = words.word("the camera model")?;
+        let [width, height] = [words.whole("the width")?, words.whole("the height")?];
+        let params = words.words.map(|word| number(line, word));
+        let params = params.collect::<Result<Vec<f64>>>()?;
+        let camera = camera_from_colmap(name, width, height, &params)
+            .map_err(|error| error.on_line(line))?;
+        cameras.push((id, camera));
+    }
+    Ok(cameras)
+}
+
+/// Text of `cameras.txt`; IDs count from 1.
+pub(crate) fn write_cameras_text(cameras: &[Camera]) -> String {
+    // Writing to a string cannot fail.
+    let mut text = String::from("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n");
+    for (index, camera) in cameras.iter().enumerate() {
+        let Camera { width, height, .. } = camera;
+        let model = colmap_from_camera(camera);
+        let _ = write!(text, "{} {} {width} {height}", index + 1, model.name);
+        for param in &model.params {
+            let _ = write!(text, " {param}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The name behind the first nine words.
+fn name_of(line: &str) -> &str {
+    let mut rest = line.trim();
+    for _ in 0..9 {
+        let end = rest.find(|c: char| c.is_ascii_whitespace());
+        rest = rest[end.unwrap_or(rest.len())..].trim_start();
+    }
+    rest
+}
+
+fn read_images(text: &str) -> Result<Vec<ImagePart>> {
+    let mut images = Vec::new();
+    let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+    while let Some((line, head)) = lines.next() {
+        if is_skipped(head) {
+            continue;
+        }
+        let mut words = Words::new(line, head);
+        let id = words.whole("the image ID")?;
+        let quaternion = words.numbers("the quaternion")?;
+        let translation = words.numbers("the translation")?;
+        let camera = words.whole("the camera ID")?;
+        words.word("the image name")?;
+        // The line of keypoints may be empty.
+        let (line, second) = lines.next().unwrap_or((line, ""));
+        let mut words = Words::new(line, second);
+        let mut keypoints = Vec::new();
+        while let Some(u) = words.words.next() {
+            let pixel = Point2::new(number(line, u)?, words.number("y of a keypoint")?);
+            words.whole::<i64>("the point ID of a keypoint")?;
+            keypoints.push(pixel_from_colmap(&pixel));
+        }
+        images.push(ImagePart {
+            id,
+            name: name_of(head).to_owned(),
+            camera,
+            quaternion,
+            translation,
+            keypoints,
+        });
+    }
+    Ok(images)
+}
+
+fn read_points(text: &str) -> Result<Vec<PointPart>> {
+    let mut points = Vec::new();
+    for (line, content) in content(text) {
+        let mut words = Words::new(line, content);
+        words.whole::<u64>("the point ID")?;
+        let mut position = [0.0; 3];
+        for value in &mut position {
+            *value = words.any_number("the position")?;
+        }
+        let mut color = [0; 3];
+        for value in &mut color {
+            *value = words.whole("the color")?;
+        }
+        let error_px = words.any_number("the error")?;
+        let mut track = Vec::new();
+        while let Some(image) = words.words.next() {
+            let image = (image.parse())
+                .map_err(|_| Error::at(line, format!("an image ID cannot be \"{image}\"")))?;
+            track.push((image, words.whole("the keypoint of an observation")?));
+        }
+        points.push(PointPart {
+            position: Point3::from(position),
+            color,
+            error_px,
+            track,
+        });
+    }
+    Ok(points)
+}
+
+/// Reads a text model.
+///
+/// Returned with it: sentences on what was left out.
+pub(super) fn read(
+    cameras: &[u8],
+    images: &[u8],
+    points: Option<&[u8]>,
+) -> Result<(Model, Vec<String>)> {
+    let parts = Parts {
+        cameras: read_cameras_text(text::decode(cameras)?)
+            .map_err(|error| error.in_file("cameras.txt"))?,
+        images: read_images(text::decode(images)?).map_err(|error| error.in_file("images.txt"))?,
+        points: match points {
+            Some(points) => {
+                read_points(text::decode(points)?).map_err(|error| error.in_file("points3D.txt"))?
+            }
+            None => Vec::new(),
+        },
+    };
+    parts.join()
+}
+
+impl Model {
+    /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
+    ///
+    /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
+    /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
+    /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
+    /// more off the axis of a fisheye to be behind the camera. IDs of cameras and points start at
+    /// 1. A name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads
+    /// it up to the first blank, in text files only.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] if an index of the model is wrong.
+    pub fn to_colmap_text(&self) -> Result<Vec<ModelFile>> {
+        self.check()?;
+        let point_of_keypoint = self.point_of_keypoint();
+        let mut images = String::from(
+            "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n# POINTS2D[] as (X, Y, POINT3D_ID)\n",
+        );
+        for (image, point_of_keypoint) in self.images.iter().zip(&point_of_keypoint) {
+            let (q, t) = (
+                image.cam_from_world.rotation,
+                image.cam_from_world.translation.vector,
+            );
+            let _ = writeln!(
+                images,
+                "{} {} {} {} {} {} {} {} {} {}",
+                image.id,
+                q.w,
+                q.i,
+                q.j,
+                q.k,
+                t.x,
+                t.y,
+                t.z,
+                image.camera + 1,
+                image.name.replace(['\n', '\r'], "_")
+            );
+            for (n, (keypoint, point)) in image.keypoints.iter().zip(point_of_keypoint).enumerate()
+            {
+                let space = if n == 0 { "" } else { " " };
+                let pixel = pixel_to_colmap(keypoint);
+                let (x, y) = (pixel.x, pixel.y);
+                let _ = match point {
+                    Some(point) => write!(images, "{space}{x} {y} {}", point + 1),
+                    None => write!(images, "{space}{x} {y} -1"),
+                };
+            }
+            images.push('\n');
+        }
+        let mut points = String::from(
+            "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n",
+        );
+        for (index, point) in self.points.iter().enumerate() {
+            let ([r, g, b], p) = (point.color, point.position);
+            let error_px = point.error_px.unwrap_or(-1.0);
+            let _ = write!(
+                points,
+                "{} {} {} {} {r} {g} {b} {error_px}",
+                index + 1,
+                p.x,
+                p.y,
+                p.z
+            );
+            for &(image, keypoint) in &point.track {
+                let _ = write!(points, " {} {keypoint}", self.images[image].id);
+            }
+            points.push('\n');
+        }
+        Ok(vec![
+            ModelFile::new("cameras.txt", write_cameras_text(&self.cameras)),
+            ModelFile::new("images.txt", images),
+            ModelFile::new("points3D.txt", points),
+        ])
+    }
+}

@@ -1,0 +1,111 @@
+//! Models: cameras, posed images and points.
+
+mod colmap_binary;
+pub(crate) mod colmap_camera;
+mod colmap_parts;
+pub(crate) mod colmap_text;
+
+use crate::{Error, Result};
+use epipole::camera::{Camera, RigidTransform};
+use nalgebra::{Point2, Point3};
+
+/// Cameras, the images that they took, and points of the scene.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Model {
+    /// The cameras.
+    pub cameras: Vec<Camera>,
+    /// The images with a known pose.
+    pub images: Vec<ModelImage>,
+    /// The points.
+    pub points: Vec<ModelPoint>,
+}
+
+/// An image with a known pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelImage {
+    /// Number of the image in files that number them; no two are equal.
+    pub id: u32,
+    /// Name, mostly the path of its file within a folder of images.
+    pub name: String,
+    /// Index of its camera.
+    pub camera: usize,
+    /// `x_in_cam = cam_from_world * x_in_world`.
+    pub cam_from_world: RigidTransform,
+    /// Keypoints, pixels.
+    pub keypoints: Vec<Point2<f64>>,
+}
+
+/// A point of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelPoint {
+    /// Position in the world.
+    pub position: Point3<f64>,
+    /// Red, green, blue.
+    pub color: [u8; 3],
+    /// Mean reprojection error, pixels, if the file has one.
+    pub error_px: Option<f64>,
+    /// Observations: index of the image, index of its keypoint.
+    pub track: Vec<(usize, usize)>,
+}
+
+/// A file of a model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ModelFile {
+    /// Usual name.
+    pub name: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+impl ModelFile {
+    pub(crate) fn new(name: &str, content: impl Into<Vec<u8>>) -> Self {
+        Self {
+            name: name.to_owned(),
+            bytes: content.into(),
+        }
+    }
+}
+
+impl Model {
+    /// # Errors
+    /// [`Error::Malformed`] if an index is wrong or two images have the same number.
+    fn check(&self) -> Result<()> {
+        let mut ids = std::collections::BTreeSet::new();
+        for image in &self.images {
+            if image.camera >= self.cameras.len() {
+                return Err(Error::malformed(format!(
+                    "image {} has camera {} of {}",
+                    image.name,
+                    image.camera,
+                    self.cameras.len()
+                )));
+            }
+            if !ids.insert(image.id) {
+                return Err(Error::malformed(format!("two images have ID {}", image.id)));
+            }
+        }
+        for (index, point) in self.points.iter().enumerate() {
+            let is_there = |&(image, keypoint): &(usize, usize)| {
+                (self.images.get(image)).is_some_and(|image| keypoint < image.keypoints.len())
+            };
+            if !point.track.iter().all(is_there) {
+                return Err(Error::malformed(format!(
+                    "point {index} is observed at a keypoint that is not there"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Index of the point of each keypoint of each image.
+    fn point_of_keypoint(&self) -> Vec<Vec<Option<usize>>> {
+        let none = |image: &ModelImage| vec![None; image.keypoints.len()];
+        let mut all: Vec<Vec<_>> = self.images.iter().map(none).collect();
+        for (index, point) in self.points.iter().enumerate() {
+            for &(image, keypoint) in &point.track {
+                all[image][keypoint] = Some(index);
+            }
+        }
+        all
+    }
+}
