@@ -8,6 +8,7 @@
 #![allow(dead_code, reason = "readers follow")]
 
 mod bytes;
+pub mod cloud;
 mod error;
 pub mod model;
 mod text;

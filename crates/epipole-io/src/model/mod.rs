@@ -1,10 +1,22 @@
 //! Models: cameras, posed images and points.
 
-mod colmap_binary;
+mod bundler;
+pub(crate) mod colmap_binary;
 pub(crate) mod colmap_camera;
 mod colmap_parts;
 pub(crate) mod colmap_text;
+mod format;
+mod json;
+mod nerfstudio;
+mod notes;
+mod openmvg;
+mod reconstruction;
+mod rotation;
 
+pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
+pub(crate) use rotation::half_turn;
+
+use crate::cloud::ColoredPoint;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3};
@@ -35,6 +47,14 @@ pub struct ModelImage {
     pub keypoints: Vec<Point2<f64>>,
 }
 
+impl ModelImage {
+    /// The camera's center in the world.
+    pub fn center_in_world(&self) -> Point3<f64> {
+        self.cam_from_world
+            .inverse_transform_point(&Point3::origin())
+    }
+}
+
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPoint {
@@ -46,6 +66,38 @@ pub struct ModelPoint {
     pub error_px: Option<f64>,
     /// Observations: index of the image, index of its keypoint.
     pub track: Vec<(usize, usize)>,
+}
+
+impl From<ColoredPoint> for ModelPoint {
+    fn from(point: ColoredPoint) -> Self {
+        Self {
+            position: point.position,
+            color: point.color,
+            error_px: None,
+            track: Vec::new(),
+        }
+    }
+}
+
+/// Content of a file of the same folder, by its name.
+type Beside<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+
+/// Cameras in the order in which they come, each once.
+#[derive(Default)]
+struct CameraList(Vec<Camera>);
+
+impl CameraList {
+    fn number_of(&mut self, camera: Camera) -> usize {
+        let place = self.0.iter().position(|known| *known == camera);
+        place.unwrap_or_else(|| {
+            self.0.push(camera);
+            self.0.len() - 1
+        })
+    }
+
+    fn into_list(self) -> Vec<Camera> {
+        self.0
+    }
 }
 
 /// A file of a model.
@@ -69,7 +121,7 @@ impl ModelFile {
 impl Model {
     /// # Errors
     /// [`Error::Malformed`] if an index is wrong or two images have the same number.
-    fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let mut ids = std::collections::BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {
