@@ -68,6 +68,17 @@ impl From<epipole::Error> for Failure {
     }
 }
 
+impl From<epipole_io::Error> for Failure {
+    fn from(error: epipole_io::Error) -> Self {
+        let kind = match error {
+            epipole_io::Error::Invalid(error) => return error.into(),
+            epipole_io::Error::Unsupported { .. } => "unsupported",
+            _ => "malformed",
+        };
+        Self::new(kind, error.to_string())
+    }
+}
+
 impl From<epipole_widgets::contract::Problem> for Failure {
     fn from(problem: epipole_widgets::contract::Problem) -> Self {
         Self::new("figure", problem.to_string())

@@ -16,6 +16,8 @@ mod interrupt;
 mod known_camera;
 mod lens;
 mod matrices;
+mod model;
+mod output_folder;
 mod photo;
 mod picture;
 mod progress;

@@ -9,6 +9,9 @@
 
 mod bytes;
 pub mod cloud;
+#[cfg(test)]
+#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
+mod damage;
 mod error;
 pub mod model;
 mod text;

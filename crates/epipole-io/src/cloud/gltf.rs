@@ -208,3 +208,65 @@ fn container(mut json: Vec<u8>, binary: Vec<u8>) -> Vec<u8> {
     bytes.extend(chunks);
     bytes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use epipole::camera::{Intrinsics, RigidTransform};
+
+    fn chunks(glb: &[u8]) -> (Value, &[u8]) {
+        let word = |at: usize| u32::from_le_bytes(glb[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&glb[..4], word(4), word(8)), (&b"glTF"[..], 2, glb.len()));
+        let length = word(12);
+        assert_eq!((&glb[16..20], length % 4), (&b"JSON"[..], 0));
+        let json = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+        let rest = &glb[20 + length..];
+        (json, rest.get(8..).unwrap_or_default())
+    }
+
+    #[test]
+    fn corners_of_an_image_are_those_of_its_frustum() {
+        let intrinsics = Intrinsics::new(100.0, 100.0, 99.5, 49.5).unwrap();
+        let camera = Camera::pinhole(intrinsics, 200, 100);
+        let corners = frustum(&camera, 2.0);
+        assert_eq!(corners[1], Point3::new(-2.0, 1.0, -2.0));
+        assert_eq!(corners[3], Point3::new(2.0, -1.0, -2.0));
+    }
+
+    #[test]
+    fn views_follow_each_other() {
+        let intrinsics = Intrinsics::new(100.0, 100.0, 99.5, 49.5).unwrap();
+        let model = Model {
+            cameras: vec![Camera::pinhole(intrinsics, 200, 100)],
+            images: vec![ModelImage {
+                id: 1,
+                name: "a \"b\".png".to_owned(),
+                camera: 0,
+                cam_from_world: RigidTransform::translation(0.0, 0.0, 3.0),
+                keypoints: Vec::new(),
+            }],
+            points: vec![crate::model::ModelPoint {
+                position: Point3::new(1.0, 2.0, 3.0),
+                color: [1, 2, 3],
+                error_px: None,
+                track: Vec::new(),
+            }],
+        };
+        let glb = model.to_glb().unwrap();
+        let (json, binary) = chunks(&glb);
+        assert_eq!(json["nodes"][2]["name"], "a \"b\".png");
+        assert_eq!(json["nodes"][2]["translation"], json!([0.0, 0.0, -3.0]));
+        assert_eq!(json["nodes"][0]["children"], json!([1, 2]));
+        assert_eq!(json["accessors"][0]["max"], json!([1.0, 2.0, 3.0]));
+        let views = json["bufferViews"].as_array().unwrap();
+        let last = &views[views.len() - 1];
+        let end = last["byteOffset"].as_u64().unwrap() + last["byteLength"].as_u64().unwrap();
+        assert_eq!(end as usize, binary.len());
+        assert_eq!(json["buffers"][0]["byteLength"], binary.len());
+        assert_eq!(binary[..4], 1f32.to_le_bytes());
+        // An empty model has no empty lists.
+        let empty = Model::default().to_glb().unwrap();
+        let (json, binary) = chunks(&empty);
+        assert!(json.get("meshes").is_none() && json.get("buffers").is_none() && binary.is_empty());
+    }
+}

@@ -271,3 +271,48 @@ fn beyond(lens: &Lens) -> Error {
         lens.coefficients()
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "# Bundle file v0.3\n2 1\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n\
+                        100 0.1 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n\
+                        0.5 1 -2\n10 20 30\n1 1 3 26.5625 53.125\n";
+
+    #[test]
+    fn a_camera_looks_along_minus_z_with_y_up() {
+        let list =
+            |name: &str| (name == "list.txt").then(|| b"a b.jpg 0 532.5\nc d.jpg\n".to_vec());
+        let (model, notes) = read(FILE.as_bytes(), &["list.txt".to_owned()], &list).unwrap();
+        assert_eq!(model.images.len(), 1);
+        assert_eq!((model.images[0].id, &*model.images[0].name), (2, "c d.jpg"));
+        assert_eq!((model.cameras[0].width, model.cameras[0].height), (54, 108));
+        // r² = 0.3125, so the ray (0.25, −0.5) bends to 1.03125 times as much; the file is off.
+        let pixel = model.cameras[0]
+            .project(&(model.images[0].cam_from_world * model.points[0].position))
+            .unwrap();
+        assert!((pixel - Point2::new(26.5 + 25.78125, 53.5 - 51.5625)).norm() < 1e-12);
+        let seen = model.images[0].keypoints[0];
+        assert_eq!(seen, Point2::new(26.5 + 26.5625, 53.5 - 53.125));
+        assert_eq!(model.points[0].track, [(0, 0)]);
+        assert_eq!(notes.len(), 2, "{notes:?}");
+        assert_eq!(
+            names("x 0 5\ny 1 5\nz 0 q\n\n")[..],
+            ["x", "y 1 5", "z 0 q"]
+        );
+    }
+
+    #[test]
+    fn wrong_values_are_named() {
+        let of = |text: &str| {
+            let read = read(text.as_bytes(), &["list.txt".to_owned()], &|_| None);
+            read.unwrap_err().to_string()
+        };
+        assert!(of(&FILE[..60]).contains("the file ends"));
+        assert!(of(&FILE.replace("1 1 3", "1 0 3")).contains("camera 0, which is not there"));
+        assert!(of(&FILE.replace("1 0 0", "1 1 0")).contains("camera 1 has no rotation"));
+        assert!(of(&FILE.replace("26.5625", "1e300")).contains("off the middle"));
+        assert!(of(&FILE.replace("2 1\n", "2 x\n")).starts_with("line 2"));
+    }
+}

@@ -5,7 +5,11 @@ pub(crate) mod colmap_binary;
 pub(crate) mod colmap_camera;
 mod colmap_parts;
 pub(crate) mod colmap_text;
+#[cfg(test)]
+mod example;
 mod format;
+#[cfg(test)]
+mod fuzz;
 mod json;
 mod nerfstudio;
 mod notes;

@@ -255,3 +255,53 @@ impl Model {
         Ok(files)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Point3;
+
+    #[test]
+    fn a_camera_looks_along_minus_z() {
+        let text = r#"{ "camera_angle_x": 1.5707963267948966, "w": 640, "h": 480.0, "k1": 0.1,
+            "applied_transform": [], "ply_file_path": "./none.ply",
+            "frames": [
+              { "file_path": "./images/a b.png", "colmap_im_id": 7, "transform_matrix":
+                [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]] },
+              { "file_path": "c.png", "colmap_im_id": 5, "fl_x": 400, "fl_y": 410, "cx": 300.5,
+                "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] } ] }"#;
+        let (model, notes) = read(text.as_bytes(), &|_| None).unwrap();
+        let first = &model.images[0];
+        assert_eq!((first.id, &*first.name), (7, "./images/a b.png"));
+        assert_eq!(first.center_in_world(), Point3::new(1.0, 2.0, 3.0));
+        // In front of it, above it, right of it.
+        let seen = first.cam_from_world * Point3::new(1.5, 3.0, 1.0);
+        assert!((seen - Point3::new(0.5, -1.0, 2.0)).norm() < 1e-15);
+        let k = model.cameras[first.camera].intrinsics;
+        assert!((k.fu_px() - 320.0).abs() < 1e-12 && k.principal_point().y == 239.5);
+        let k = model.cameras[model.images[1].camera].intrinsics;
+        assert_eq!(
+            (k.fu_px(), k.fv_px(), k.principal_point().x),
+            (400.0, 410.0, 300.0)
+        );
+        assert_eq!(notes.len(), 2);
+    }
+
+    #[test]
+    fn missing_and_wrong_values_are_named() {
+        let of = |text: &str| read(text.as_bytes(), &|_| None).unwrap_err().to_string();
+        let frame = r#"{ "frames": [ { "file_path": "a", "transform_matrix": [] } ]"#;
+        assert!(of("{}").contains("frames is missing"));
+        assert!(of(&format!("{frame} }}")).contains("w is missing"));
+        let sized = format!("{frame}, \"w\": 4, \"h\": 4");
+        assert!(of(&format!("{sized} }}")).contains("camera_angle_x"));
+        assert!(
+            of(&format!("{sized}, \"fl_x\": 4 }}"))
+                .contains("frames[0].transform_matrix has 0 rows")
+        );
+        let model = r#", "fl_x": 4, "camera_model": "EQUIRECTANGULAR" }"#;
+        assert!(of(&format!("{sized}{model}")).contains("EQUIRECTANGULAR is not supported"));
+        assert!(of(&format!("{sized}, \"fl_x\": 4, \"k4\": 1 }}")).contains("k4"));
+        assert!(of("{ \"frames\": [ }").starts_with("line 1"));
+    }
+}

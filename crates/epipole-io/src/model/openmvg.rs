@@ -297,3 +297,71 @@ impl Model {
         )])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = r#"{ "sfm_data_version": "0.3", "root_path": "/x", "views": [
+        { "key": 0, "value": { "polymorphic_id": 1073741824, "ptr_wrapper": { "id": 2147483649, "data": {
+            "local_path": "left/", "filename": "a b.JPG", "width": 640, "height": 480,
+            "id_view": 0, "id_intrinsic": 1, "id_pose": 5 } } } },
+        { "key": 1, "value": { "polymorphic_id": 1073741824, "ptr_wrapper": { "id": 2147483650, "data": {
+            "local_path": "", "filename": "c.JPG", "width": 640, "height": 480,
+            "id_view": 1, "id_intrinsic": 0, "id_pose": 1 } } } } ],
+      "intrinsics": [
+        { "key": 0, "value": { "polymorphic_id": 2147483649, "polymorphic_name": "pinhole_radial_k3",
+            "ptr_wrapper": { "id": 2147483651, "data": { "width": 640, "height": 480,
+            "focal_length": 500.0, "principal_point": [320.0, 240.0], "disto_k3": [0.1, 0.2, 0.3] } } } },
+        { "key": 1, "value": { "polymorphic_id": 1,
+            "ptr_wrapper": { "id": 2147483652, "data": { "value0": { "width": 640, "height": 480,
+            "focal_length": 600.0, "principal_point": [321.0, 240.0] }, "disto_k3": [0.0, 0.0, 0.5] } } } } ],
+      "extrinsics": [ { "key": 5, "value": {
+        "rotation": [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], "center": [1.0, 2.0, 3.0] } } ],
+      "structure": [ { "key": 0, "value": { "X": [1.0, 2.0, 5.0], "observations": [
+        { "key": 0, "value": { "id_feat": 9, "x": [321.5, 240.0] } },
+        { "key": 1, "value": { "id_feat": 2, "x": [1.0, 2.0] } } ] } } ],
+      "control_points": [] }"#;
+
+    #[test]
+    fn types_are_named_once() {
+        let (model, notes) = read(FILE.as_bytes()).unwrap();
+        assert_eq!(model.cameras.len(), 2);
+        assert_eq!(
+            model.cameras[0].lens.coefficients(),
+            [0.1, 0.2, 0.0, 0.0, 0.3]
+        );
+        assert_eq!(model.cameras[1].lens.coefficients()[4], 0.5);
+        let [image] = &model.images[..] else {
+            panic!("one view has a pose");
+        };
+        assert_eq!(
+            (image.id, &*image.name, image.camera),
+            (0, "left/a b.JPG", 1)
+        );
+        let seen = image.cam_from_world * Point3::new(1.0, 3.0, 5.0);
+        assert!((seen - Point3::new(1.0, 0.0, 2.0)).norm() < 1e-15);
+        assert_eq!(model.points[0].track, [(0, 0)]);
+        assert!((model.mean_reprojection_px().unwrap().unwrap() - 0.5).abs() < 1e-12);
+        assert_eq!(notes.len(), 2, "{notes:?}");
+    }
+
+    #[test]
+    fn wrong_values_are_named() {
+        let of = |from: &str, to: &str| {
+            let text = FILE.replacen(from, to, 1);
+            read(text.as_bytes()).unwrap_err().to_string()
+        };
+        assert!(of("pinhole_radial_k3", "spherical").contains("spherical is not supported"));
+        assert!(of("\"disto_k3\": [0.1, ", "\"disto_k3\": [").contains("has 2 numbers, not 3"));
+        assert!(of("[0.0, 1.0, 0.0]", "[0.0, 2.0, 0.0]").contains("extrinsics[0].value.rotation"));
+        assert!(of("\"polymorphic_id\": 1,", "\"polymorphic_id\": 2,").contains("names no camera"));
+        assert!(
+            of(
+                "\"width\": 640, \"height\": 480,\n            \"focal",
+                "\"focal"
+            )
+            .contains("width")
+        );
+    }
+}
