@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
     after_help = "Example: epipole convert reconstruction/ model/ --to colmap-binary\n\n\
     A may be a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) or a\n\
     PLY file. B names the format: model.glb, points.ply, transforms.json, sfm_data.json or bundle.out; a folder is\n\
-    COLMAP's, binary unless A is, and written again without the files of the conversion before.\n\n\
+    COLMAP's, binary unless A is. Files of an earlier conversion to the same format are removed, others stay.\n\n\
     COLMAP cuts names at their first blank in text files, not in binary ones.\n\n\
     JSON: read (format of A), written (files), kind (format of B), counts (cameras, images, points), notes (what\n\
     was left out)."
@@ -160,22 +160,25 @@ fn write_folder(
     format: ModelFormat,
     files: Vec<ModelFile>,
 ) -> Result<Vec<String>, Failure> {
-    files::make_folder(folder)?;
-    let mut output = OutputFolder::new(folder);
-    let mut written = Vec::new();
-    for file in &files {
-        written.push(output.write(&file.name, &file.bytes)?.display().to_string());
-    }
-    output.finish()?;
+    let owner = match format {
+        ModelFormat::ColmapText | ModelFormat::ColmapBinary => "convert-colmap",
+        other => other.name(),
+    };
+    let mut output = OutputFolder::new(folder, owner);
     // COLMAP reads binary files first, whatever is beside them.
-    let other = folder.join("cameras.bin");
-    if format == ModelFormat::ColmapText && other.exists() {
+    if format == ModelFormat::ColmapText && output.holds_foreign("cameras.bin") {
         return Err(Failure::new(
             "write",
-            "stands beside the text files now, is not of this command, and is what COLMAP reads: \
-             choose another folder, or --to colmap-binary",
+            "COLMAP would read this file and not the text beside it: choose another folder, or \
+             --to colmap-binary",
         )
-        .about(&other));
+        .about(&folder.join("cameras.bin")));
     }
+    let mut written = Vec::new();
+    for file in &files {
+        let path = output.write(&file.name, &file.bytes)?;
+        written.push(path.display().to_string());
+    }
+    output.finish()?;
     Ok(written)
 }

@@ -153,7 +153,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             .collect()
     };
     let registered = registered(largest);
-    let mut output = OutputFolder::new(&arguments.output);
+    let mut output = OutputFolder::new(&arguments.output, "sfm");
     if let Some(pictures) = &pictures {
         pictures.write(&photos, &mut output)?;
         for (image, name) in input.images.iter_mut().zip(&pictures.names) {
@@ -165,7 +165,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         let folder = format!("component{}/", index + 1);
         written.extend(write_model(&mut output, &folder, component, &input.images)?);
     }
-    output.finish()?;
+    output.finish_anew()?;
     let components: Vec<serde_json::Value> = result
         .components
         .iter()

@@ -10,6 +10,7 @@ mod features;
 mod geometry;
 mod known_camera;
 mod lenses;
+mod models;
 mod odometry;
 mod optimize;
 mod pairs;
