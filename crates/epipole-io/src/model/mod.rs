@@ -24,6 +24,7 @@ use crate::cloud::ColoredPoint;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3};
+use std::collections::{BTreeSet, HashMap};
 
 /// Cameras, the images that they took, and points of the scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -88,19 +89,29 @@ type Beside<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
 
 /// Cameras in the order in which they come, each once.
 #[derive(Default)]
-struct CameraList(Vec<Camera>);
+struct CameraList {
+    cameras: Vec<Camera>,
+    place_of_key: HashMap<(u32, u32, &'static str, Vec<u64>), usize>,
+}
 
 impl CameraList {
     fn number_of(&mut self, camera: Camera) -> usize {
-        let place = self.0.iter().position(|known| *known == camera);
-        place.unwrap_or_else(|| {
-            self.0.push(camera);
-            self.0.len() - 1
-        })
+        let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
+        let mut numbers = vec![k.fu_px(), k.fv_px(), center.x, center.y];
+        numbers.extend(camera.lens.coefficients());
+        // −0 equals 0.
+        let bits = numbers.into_iter().map(|number| (number + 0.0).to_bits());
+        let (width, height, kind) = (camera.width, camera.height, camera.lens.kind().name());
+        let key = (width, height, kind, bits.collect());
+        let place = self.place_of_key.entry(key).or_insert(self.cameras.len());
+        if *place == self.cameras.len() {
+            self.cameras.push(camera);
+        }
+        *place
     }
 
     fn into_list(self) -> Vec<Camera> {
-        self.0
+        self.cameras
     }
 }
 
@@ -126,7 +137,7 @@ impl Model {
     /// # Errors
     /// [`Error::Malformed`] if an index is wrong or two images have the same number.
     pub(crate) fn check(&self) -> Result<()> {
-        let mut ids = std::collections::BTreeSet::new();
+        let mut ids = BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {
                 return Err(Error::malformed(format!(

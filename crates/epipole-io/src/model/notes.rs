@@ -71,7 +71,8 @@ impl Model {
             ));
         }
         let mut seen = BTreeSet::new();
-        let twice: Vec<&str> = names.filter(|name| !seen.insert(*name)).collect();
+        let twice: BTreeSet<&str> = names.filter(|name| !seen.insert(*name)).collect();
+        let twice: Vec<&str> = twice.into_iter().collect();
         if !twice.is_empty() {
             notes.push(format!(
                 "several images have the same name: {}",
