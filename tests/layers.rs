@@ -27,7 +27,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("epipole-cli", &["epipole", "epipole-io", "epipole-widgets"]),
     (
         "epipole-lab",
-        &["epipole", "epipole-scenes", "epipole-canvas"],
+        &["epipole", "epipole-io", "epipole-scenes", "epipole-canvas"],
     ),
 ];
 

@@ -3,10 +3,12 @@
 mod ba;
 mod calibrate;
 mod compare;
+mod convert;
 mod detect;
 mod figure;
 mod fit;
 mod frames;
+mod inspect;
 mod manual;
 mod matching;
 mod odometry;
@@ -39,6 +41,8 @@ pub(crate) enum Command {
     Calibrate(calibrate::Arguments),
     Undistort(undistort::Arguments),
     Frames(frames::Arguments),
+    Convert(convert::Arguments),
+    Inspect(inspect::Arguments),
     Figure(figure::Arguments),
     Manual(manual::Arguments),
 }
@@ -60,6 +64,8 @@ impl Command {
             Self::Calibrate(arguments) => calibrate::run(&arguments, context),
             Self::Undistort(arguments) => undistort::run(&arguments, context),
             Self::Frames(arguments) => frames::run(&arguments, context),
+            Self::Convert(arguments) => convert::run(&arguments, context),
+            Self::Inspect(arguments) => inspect::run(&arguments, context),
             Self::Figure(arguments) => figure::run(&arguments, context),
             Self::Manual(arguments) => manual::run(&arguments),
         }

@@ -17,6 +17,8 @@ mod known_camera;
 mod lens;
 mod listing;
 mod matrices;
+mod model;
+mod output_folder;
 mod photo;
 mod picture;
 mod progress;

@@ -1,12 +1,9 @@
 //! Any bytes give cameras or poses with finite numbers, or an error, never a panic. A thousand
 //! cases each, or `EPIPOLE_FUZZ_CASES`.
 
-#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
-mod damage;
-
 use crate::camera::{CameraFormat, read_cameras};
+use crate::damage::{config, damage_bytes, some_damage};
 use crate::trajectory::read_trajectory;
-use damage::{config, damage_bytes, some_damage};
 use proptest::prelude::*;
 
 const OPENCV: &str = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   \

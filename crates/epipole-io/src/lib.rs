@@ -5,10 +5,12 @@
 //! are converted to the conventions of [`epipole`]: pixel centers at integers, `cam_from_world`,
 //! x right, y down, z forward.
 
-#![allow(dead_code, reason = "readers follow")]
-
 mod bytes;
 pub mod camera;
+pub mod cloud;
+#[cfg(test)]
+#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
+mod damage;
 mod error;
 #[cfg(test)]
 mod fuzz;

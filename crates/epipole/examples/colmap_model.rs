@@ -7,6 +7,7 @@ mod common;
 
 use common::{Outcome, photos};
 use epipole::prelude::*;
+use epipole_io::model::Model;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
@@ -31,13 +32,8 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     );
     if let Some(folder) = arguments.first() {
         std::fs::create_dir_all(folder)?;
-        let files = model.to_colmap(&input.images);
-        for (name, text) in [
-            ("cameras.txt", files.cameras),
-            ("images.txt", files.images),
-            ("points3D.txt", files.points),
-        ] {
-            std::fs::write(Path::new(folder).join(name), text)?;
+        for file in Model::from_reconstruction(model, &input.images).to_colmap_text()? {
+            std::fs::write(Path::new(folder).join(file.name), file.bytes)?;
         }
     } else {
         assert_eq!(model.num_registered(), 3);

@@ -16,6 +16,7 @@ use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
 use crate::matrices::Motion;
+use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
@@ -40,7 +41,8 @@ use std::path::PathBuf;
     ).default_value(PHOTO_MAX_ERROR)),
     after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
     Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply, with --images also the\n\
-    photographs, in images/.\n\n\
+    photographs, in images/. If names have blanks, where COLMAP cuts them in text, its binary model is added. Files\n\
+    of an earlier run in OUT are removed, others stay.\n\n\
     cameras.txt has PINHOLE cameras, or OPENCV, FULL_OPENCV, OPENCV_FISHEYE or DIVISION, as the lens is: that of\n\
     --camera, or one whose distortion was refined. Give --undistort for programs that know PINHOLE alone.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
@@ -154,17 +156,19 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             .collect()
     };
     let registered = registered(largest);
+    let mut output = OutputFolder::new(&arguments.output, "sfm");
     if let Some(pictures) = &pictures {
-        pictures.write(&photos)?;
+        pictures.write(&photos, &mut output)?;
         for (image, name) in input.images.iter_mut().zip(&pictures.names) {
             image.name.clone_from(name);
         }
     }
-    let mut written = write_model(&arguments.output, largest, &input.images)?;
+    let mut written = write_model(&mut output, "", largest, &input.images)?;
     for (index, component) in result.components.iter().enumerate().skip(1) {
-        let folder = arguments.output.join(format!("component{}", index + 1));
-        written.extend(write_model(&folder, component, &input.images)?);
+        let folder = format!("component{}/", index + 1);
+        written.extend(write_model(&mut output, &folder, component, &input.images)?);
     }
+    output.finish_anew()?;
     let components: Vec<serde_json::Value> = result
         .components
         .iter()

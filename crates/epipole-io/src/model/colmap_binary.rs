@@ -184,3 +184,43 @@ impl Model {
         ])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `cameras.bin` of one SIMPLE_RADIAL camera with ID 12.
+    fn cameras() -> Vec<u8> {
+        let mut bytes = vec![1, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 0, 2, 0, 0, 0];
+        bytes.extend(640u64.to_le_bytes());
+        bytes.extend(480u64.to_le_bytes());
+        extend(&mut bytes, &[500.0, 320.0, 240.0, 0.1]);
+        bytes
+    }
+
+    #[test]
+    fn bytes_are_those_of_the_definition() {
+        let [(id, camera)] = read_cameras_binary(&cameras()).unwrap()[..] else {
+            panic!("one camera");
+        };
+        assert_eq!((id, camera.width, camera.height), (12, 640, 480));
+        assert_eq!(camera.intrinsics.principal_point().y, 239.5);
+        let written = write_cameras_binary(&[camera]);
+        // ID 1, OPENCV, eight parameters.
+        assert_eq!(written[8..16], [1, 0, 0, 0, 4, 0, 0, 0]);
+        assert_eq!(written.len(), 8 + 24 + 8 * 8);
+    }
+
+    #[test]
+    fn counts_are_checked_against_the_file() {
+        let of = |bytes: &[u8]| read_cameras_binary(bytes).unwrap_err().to_string();
+        let mut many = cameras();
+        many[7] = 255;
+        assert!(of(&many).contains("cameras do not fit in the remaining 56 bytes"));
+        assert!(of(&cameras()[..60]).contains("the file ends"));
+        assert!(of(&[cameras(), vec![0]].concat()).contains("1 bytes follow"));
+        let mut other = cameras();
+        other[12] = 7;
+        assert!(of(&[other, vec![0; 8]].concat()).contains("FOV is not supported"));
+    }
+}

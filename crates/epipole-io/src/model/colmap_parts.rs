@@ -1,9 +1,11 @@
 //! COLMAP's three lists, with the IDs that join them.
 
+use super::notes::not_finite;
+use super::rotation::{pose, rotation_from_quaternion};
 use super::{Model, ModelImage, ModelPoint};
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
-use nalgebra::{Point2, Point3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Point2, Point3};
 use std::collections::HashMap;
 
 /// Lists of cameras, images and points as files have them.
@@ -33,6 +35,13 @@ pub(super) struct PointPart {
     pub(super) track: Vec<(u32, u32)>,
 }
 
+impl ImagePart {
+    fn pose(&self) -> Option<RigidTransform> {
+        let rotation = rotation_from_quaternion(&self.quaternion)?;
+        pose(rotation, self.translation.into())
+    }
+}
+
 impl Parts {
     /// The model, with sentences on what was left out.
     pub(super) fn join(self) -> Result<(Model, Vec<String>)> {
@@ -60,7 +69,7 @@ impl Parts {
             images.push(ModelImage {
                 id: part.id,
                 camera,
-                cam_from_world: pose(&part.quaternion, &part.translation).ok_or_else(|| {
+                cam_from_world: part.pose().ok_or_else(|| {
                     Error::malformed(format!(
                         "the pose of image {} ({}) is not finite, or its quaternion is 0",
                         part.id, part.name
@@ -70,7 +79,7 @@ impl Parts {
                 keypoints: part.keypoints,
             });
         }
-        let (mut num_lost, mut num_not_finite) = (0_usize, 0_usize);
+        let (mut num_lost, mut num_not_finite) = (0_usize, 0);
         let mut points = Vec::new();
         for part in self.points {
             if !part.position.iter().all(|value| value.is_finite()) {
@@ -93,11 +102,7 @@ impl Parts {
                 track,
             });
         }
-        if num_not_finite > 0 {
-            notes.push(format!(
-                "{num_not_finite} points have NaN or infinite coordinates: left out"
-            ));
-        }
+        notes.extend(not_finite(num_not_finite));
         if num_lost > 0 {
             notes.push(format!(
                 "{num_lost} observations name an image or keypoint that is not listed: left out"
@@ -110,22 +115,4 @@ impl Parts {
         };
         Ok((model, notes))
     }
-}
-
-/// A pose from a quaternion of any length, w first, and a translation.
-pub(super) fn pose(&[w, x, y, z]: &[f64; 4], t: &[f64; 3]) -> Option<RigidTransform> {
-    let quaternion = Quaternion::new(w, x, y, z);
-    let norm = quaternion.norm();
-    if !(norm > 0.0 && norm.is_finite() && t.iter().all(|value| value.is_finite())) {
-        return None;
-    }
-    // Kept to the last bit if it is of length 1 as far as its digits go.
-    let rotation = match (norm - 1.0).abs() <= 4.0 * f64::EPSILON {
-        true => UnitQuaternion::new_unchecked(quaternion),
-        false => UnitQuaternion::new_normalize(quaternion),
-    };
-    Some(RigidTransform::from_parts(
-        Translation3::new(t[0], t[1], t[2]),
-        rotation,
-    ))
 }

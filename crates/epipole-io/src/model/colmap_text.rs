@@ -277,3 +277,66 @@ impl Model {
         ])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERAS: &str = "# Camera list\n\n12 SIMPLE_RADIAL 640 480 500 320 240 0.1\r\n";
+    const IMAGES: &str = "# Image list\n9 2 0 0 0 1 2 3 12 a b  #1.jpg\n1.5 2.5 -1 320 240 77\n\
+                          4 0 1 0 0 0 0 0 12 é.png\n\n# end\n7 1 0 0 0 0 0 0 12 last";
+    const POINTS: &str = "77 0 0 5 10 20 30 -1 9 1 4 0 8 0\n78 nan 0 0 1 2 3 0\n";
+
+    #[test]
+    fn ids_names_and_empty_lines_are_read() {
+        let (model, notes) = read(
+            CAMERAS.as_bytes(),
+            IMAGES.as_bytes(),
+            Some(POINTS.as_bytes()),
+        )
+        .unwrap();
+        let names = model.images.iter().map(|image| (image.id, &*image.name));
+        let names: Vec<_> = names.collect();
+        assert_eq!(names, [(9, "a b  #1.jpg"), (4, "é.png"), (7, "last")]);
+        assert_eq!(model.cameras[0].intrinsics.principal_point().x, 319.5);
+        assert_eq!(model.images[0].keypoints[1], Point2::new(319.5, 239.5));
+        // The quaternion was of length 2.
+        assert_eq!(
+            model.images[0].cam_from_world,
+            epipole::camera::RigidTransform::translation(1.0, 2.0, 3.0)
+        );
+        assert_eq!(model.points.len(), 1);
+        let point = &model.points[0];
+        assert_eq!((point.error_px, &point.track), (None, &vec![(0, 1)]));
+        assert_eq!(notes.len(), 2, "{notes:?}");
+        assert!(notes[0].contains("1 points") && notes[1].contains("2 observations"));
+    }
+
+    #[test]
+    fn wrong_values_are_named() {
+        let of = |cameras: &str, images: &str, points: &str| {
+            let read = read(
+                cameras.as_bytes(),
+                images.as_bytes(),
+                Some(points.as_bytes()),
+            );
+            read.unwrap_err().to_string()
+        };
+        assert_eq!(
+            of("1 PINHOLE 640 480 500\n", "", ""),
+            "cameras.txt, line 1: camera model PINHOLE has 4 parameters, not 1"
+        );
+        assert_eq!(
+            of("", "\n1 1 0 0 0 0 x", ""),
+            "images.txt, line 2: \"x\" is not a number"
+        );
+        assert!(of("", "1 1 0 0 0 0 0 0 1 a", "").contains("camera 1, which is not listed"));
+        assert!(of(CAMERAS, "1 0 0 0 0 0 0 0 12 a", "").contains("quaternion is 0"));
+        assert!(of(CAMERAS, "1 1 0 0 0 0 0 0 12", "").contains("image name is missing"));
+        assert!(of(CAMERAS, "1 1 0 0 0 0 0 0 12 a\n1 2", "").contains("line 2"));
+        let twice = "1 1 0 0 0 0 0 0 12 a\n\n1 1 0 0 0 0 0 0 12 b\n\n";
+        assert!(of(CAMERAS, twice, "").contains("two images have ID 1"));
+        assert!(of(&CAMERAS.repeat(2), "", "").contains("two cameras have ID 12"));
+        assert!(of("", "", "1 0 0 0 256 0 0 0").contains("the color cannot be \"256\""));
+    }
+}

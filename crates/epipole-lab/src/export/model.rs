@@ -7,6 +7,7 @@ use crate::tasks::{
     sfm_images, to_image,
 };
 use epipole::sfm::Reconstruction;
+use epipole_io::model::Model;
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat};
 use std::collections::BTreeSet;
@@ -51,11 +52,11 @@ pub(crate) fn reconstruction(order: &Order<'_>) -> Result<Vec<u8>, String> {
     if let Some(meters) = order.meters_per_unit {
         scale(&mut model, meters);
     }
-    let text = model.to_colmap(&images);
-    archive.add("sparse/0/cameras.txt", text.cameras.as_bytes())?;
-    archive.add("sparse/0/images.txt", text.images.as_bytes())?;
-    archive.add("sparse/0/points3D.txt", text.points.as_bytes())?;
-    archive.add("points.ply", &model.to_ply())?;
+    let files = Model::from_reconstruction(&model, &images);
+    for file in files.to_colmap_text().map_err(|error| error.to_string())? {
+        archive.add(&format!("sparse/0/{}", file.name), &file.bytes)?;
+    }
+    archive.add("points.ply", &files.to_ply())?;
     depth::add(&mut archive, order)?;
     let json = summary::json(order, &images, &model);
     archive.add("reconstruction.json", json.as_bytes())?;

@@ -194,10 +194,11 @@ impl Project {
             ),
         };
         format!(
-            "//! The Lab's reconstruction, bit for bit. Needs the crates epipole and image 0.25.\n\n\
+            "//! The Lab's reconstruction, bit for bit. Needs the crates epipole, epipole-io and image 0.25.\n\n\
              use epipole::calibration::{{{imports}}};\nuse epipole::camera::{{{kinds}}};\n\
              use epipole::feature::FeatureKind;\n\
-             use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\n\
+             use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\
+             use epipole_io::model::Model;\n\n\
              pub fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
              // Files, and their focal lengths in pixels where they do not tell it.\n    \
              let files: [(&str, Option<f64>); {count}] = [\n{photos}    ];\n{undistortion}    \
@@ -229,11 +230,10 @@ impl Project {
              let (input, found) =\n        \
              reconstruct_photos(&photos, &cameras, &how, &options, &mut ())?;\n    \
              let largest = found.components.first().ok_or(\"no two photographs show enough of the same thing\")?;\n    \
-             let model = largest.to_colmap(&input.images);\n    \
+             let model = Model::from_reconstruction(largest, &input.images);\n    \
              std::fs::create_dir_all(\"sparse/0\")?;\n    \
-             std::fs::write(\"sparse/0/cameras.txt\", model.cameras)?;\n    \
-             std::fs::write(\"sparse/0/images.txt\", model.images)?;\n    \
-             std::fs::write(\"sparse/0/points3D.txt\", model.points)?;\n    \
+             for file in model.to_colmap_text()? {{\n        \
+             std::fs::write(format!(\"sparse/0/{{}}\", file.name), file.bytes)?;\n    }}\n    \
              println!(\"{{}} of {{}} photographs, {{}} points\", largest.num_registered(), photos.len(), largest.points.len());\n    \
              Ok(())\n}}\n",
             count = parts.list.len(),

@@ -1,9 +1,10 @@
-//! The Lab's reconstruction, bit for bit. Needs the crates epipole and image 0.25.
+//! The Lab's reconstruction, bit for bit. Needs the crates epipole, epipole-io and image 0.25.
 
 use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 use epipole::feature::FeatureKind;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
+use epipole_io::model::Model;
 
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Files, and their focal lengths in pixels where they do not tell it.
@@ -56,11 +57,11 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (input, found) =
         reconstruct_photos(&photos, &cameras, &how, &options, &mut ())?;
     let largest = found.components.first().ok_or("no two photographs show enough of the same thing")?;
-    let model = largest.to_colmap(&input.images);
+    let model = Model::from_reconstruction(largest, &input.images);
     std::fs::create_dir_all("sparse/0")?;
-    std::fs::write("sparse/0/cameras.txt", model.cameras)?;
-    std::fs::write("sparse/0/images.txt", model.images)?;
-    std::fs::write("sparse/0/points3D.txt", model.points)?;
+    for file in model.to_colmap_text()? {
+        std::fs::write(format!("sparse/0/{}", file.name), file.bytes)?;
+    }
     println!("{} of {} photographs, {} points", largest.num_registered(), photos.len(), largest.points.len());
     Ok(())
 }

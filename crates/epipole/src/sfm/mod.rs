@@ -12,7 +12,7 @@
 //! * [`two_view_reconstruction`] leads from the matches of two views and the motion between them to
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
-//!   photographs, to cameras and points; [`Reconstruction`] writes them to files.
+//!   photographs, to cameras and points: a [`Reconstruction`].
 //! * [`Reconstruction::localize`] gives the pose of another photo.
 //! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
 
@@ -20,7 +20,6 @@ mod alignment;
 mod bal;
 mod builder;
 mod bundle;
-mod export;
 mod g2o;
 mod incremental;
 mod keyframes;
@@ -50,7 +49,6 @@ pub use bal::{BalCamera, BalProblem, adjust_bal};
 pub use bundle::{
     Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
 };
-pub use export::ColmapModel;
 pub use incremental::{IncrementalReconstruction, SfmResult, SfmStep, reconstruct};
 pub use localize::{Localization, LocalizeOptions};
 pub use loop_closure::{

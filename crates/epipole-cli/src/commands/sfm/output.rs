@@ -2,15 +2,19 @@
 
 use super::input::Used;
 use crate::failure::Failure;
-use crate::{files, photo, picture};
+use crate::output_folder::OutputFolder;
+use crate::{photo, picture};
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
+use epipole_io::model::{Model, ModelFormat};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Folder of the images as they were used.
+/// Folder of the images below the output.
+const FOLDER: &str = "images";
+
+/// The images as they were used.
 pub(super) struct Pictures<'a> {
     used: &'a [Used],
-    folder: PathBuf,
     /// A photograph that was changed is a JPEG file now.
     pub(super) names: Vec<String>,
 }
@@ -19,7 +23,7 @@ impl<'a> Pictures<'a> {
     /// # Errors
     /// A sentence, if one would take the place of another, or of a photograph that was given.
     pub(super) fn within(output: &Path, used: &'a [Used]) -> Result<Self, Failure> {
-        let folder = output.join("images");
+        let folder = output.join(FOLDER);
         let mut names = Vec::new();
         for Used {
             listed,
@@ -50,26 +54,19 @@ impl<'a> Pictures<'a> {
                 "{} is one of the photographs given, and --images would write over it: choose another -o",
                 target.display()
             ))),
-            None => Ok(Self {
-                used,
-                folder,
-                names,
-            }),
+            None => Ok(Self { used, names }),
         }
     }
 
     /// # Errors
     /// A sentence, if a file cannot be read again or written.
-    pub(super) fn write(&self, photos: &[Photo]) -> Result<(), Failure> {
-        files::make_folder(&self.folder)?;
+    pub(super) fn write(&self, photos: &[Photo], output: &mut OutputFolder) -> Result<(), Failure> {
         for ((used, photo), name) in self.used.iter().zip(photos).zip(&self.names) {
             let bytes = match used.is_as_stored {
                 true => photo::bytes(&used.listed.path)?,
                 false => picture::jpeg(&photo.image)?,
             };
-            let target = self.folder.join(name);
-            files::make_folder_of(&target)?;
-            files::write(&target, &bytes)?;
+            output.write(&format!("{FOLDER}/{name}"), &bytes)?;
         }
         Ok(())
     }
@@ -87,25 +84,26 @@ fn with_jpg(name: &str) -> String {
 
 /// Writes a reconstruction and returns the files.
 ///
+/// * `folder`: below the output, empty or ending in `/`
+///
 /// # Errors
 /// A sentence, if one of them cannot be written.
 pub(super) fn write_model(
-    folder: &Path,
+    output: &mut OutputFolder,
+    folder: &str,
     reconstruction: &Reconstruction,
     images: &[SfmImage],
 ) -> Result<Vec<String>, Failure> {
-    files::make_folder(folder)?;
-    let model = reconstruction.to_colmap(images);
-    let files = [
-        ("cameras.txt", model.cameras.into_bytes()),
-        ("images.txt", model.images.into_bytes()),
-        ("points3D.txt", model.points.into_bytes()),
-        ("points.ply", reconstruction.to_ply()),
-    ];
+    let model = Model::from_reconstruction(reconstruction, images);
+    let mut files = model.to_colmap_text()?;
+    // COLMAP prefers them, and cuts names at blanks in text.
+    if !ModelFormat::ColmapText.losses(&model).is_empty() {
+        files.extend(model.to_colmap_binary()?);
+    }
+    files.extend(model.to_files(ModelFormat::Ply)?);
     let mut written = Vec::new();
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        files::write(&path, &bytes)?;
+    for file in files {
+        let path = output.write(&format!("{folder}{}", file.name), &file.bytes)?;
         written.push(path.display().to_string());
     }
     Ok(written)

@@ -1,13 +1,30 @@
 //! Models: cameras, posed images and points.
 
+mod bundler;
 pub(crate) mod colmap_binary;
 pub(crate) mod colmap_camera;
 mod colmap_parts;
 pub(crate) mod colmap_text;
+#[cfg(test)]
+mod example;
+mod format;
+#[cfg(test)]
+mod fuzz;
+mod json;
+mod nerfstudio;
+mod notes;
+mod openmvg;
+mod reconstruction;
+mod rotation;
 
+pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
+pub(crate) use rotation::half_turn;
+
+use crate::cloud::ColoredPoint;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3};
+use std::collections::{BTreeSet, HashMap};
 
 /// Cameras, the images that they took, and points of the scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -35,6 +52,14 @@ pub struct ModelImage {
     pub keypoints: Vec<Point2<f64>>,
 }
 
+impl ModelImage {
+    /// The camera's center in the world.
+    pub fn center_in_world(&self) -> Point3<f64> {
+        self.cam_from_world
+            .inverse_transform_point(&Point3::origin())
+    }
+}
+
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPoint {
@@ -46,6 +71,48 @@ pub struct ModelPoint {
     pub error_px: Option<f64>,
     /// Observations: index of the image, index of its keypoint.
     pub track: Vec<(usize, usize)>,
+}
+
+impl From<ColoredPoint> for ModelPoint {
+    fn from(point: ColoredPoint) -> Self {
+        Self {
+            position: point.position,
+            color: point.color,
+            error_px: None,
+            track: Vec::new(),
+        }
+    }
+}
+
+/// Content of a file of the same folder, by its name.
+type Beside<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+
+/// Cameras in the order in which they come, each once.
+#[derive(Default)]
+struct CameraList {
+    cameras: Vec<Camera>,
+    place_of_key: HashMap<(u32, u32, &'static str, Vec<u64>), usize>,
+}
+
+impl CameraList {
+    fn number_of(&mut self, camera: Camera) -> usize {
+        let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
+        let mut numbers = vec![k.fu_px(), k.fv_px(), center.x, center.y];
+        numbers.extend(camera.lens.coefficients());
+        // −0 equals 0.
+        let bits = numbers.into_iter().map(|number| (number + 0.0).to_bits());
+        let (width, height, kind) = (camera.width, camera.height, camera.lens.kind().name());
+        let key = (width, height, kind, bits.collect());
+        let place = self.place_of_key.entry(key).or_insert(self.cameras.len());
+        if *place == self.cameras.len() {
+            self.cameras.push(camera);
+        }
+        *place
+    }
+
+    fn into_list(self) -> Vec<Camera> {
+        self.cameras
+    }
 }
 
 /// A file of a model.
@@ -69,8 +136,8 @@ impl ModelFile {
 impl Model {
     /// # Errors
     /// [`Error::Malformed`] if an index is wrong or two images have the same number.
-    fn check(&self) -> Result<()> {
-        let mut ids = std::collections::BTreeSet::new();
+    pub(crate) fn check(&self) -> Result<()> {
+        let mut ids = BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {
                 return Err(Error::malformed(format!(

@@ -1,0 +1,197 @@
+//! Models of other programs: `convert` and `inspect`.
+
+use crate::common::{Folder, fails, json, path};
+use serde_json::{Value, json};
+use std::path::Path;
+
+const CAMERAS: &str =
+    "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n5 RADIAL 640 480 500 320 240 -0.1 0.02\n";
+const IMAGES: &str = "# IMAGE_ID\n2 1 0 0 0 0 0 0 5 my photo 1.jpg\n320 240 9 10.5 20.5 -1\n\
+                      3 1 0 0 0 -1 0 0 5 my photo 2.jpg\n220 240 9\n8 1 0 0 0 0 1 0 5 é.png\n\n";
+const POINTS: &str = "9 0 0 5 10 20 30 0.25 2 0 3 0\n";
+
+fn text_model(folder: &Folder, name: &str) -> String {
+    let place = folder.file(name);
+    std::fs::create_dir_all(&place).unwrap();
+    folder.write(&format!("{name}/cameras.txt"), CAMERAS);
+    folder.write(&format!("{name}/images.txt"), IMAGES);
+    folder.write(&format!("{name}/points3D.txt"), POINTS);
+    path(&place).to_owned()
+}
+
+/// Names in a folder, in order.
+fn names(folder: &Path) -> Vec<String> {
+    let files = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = files
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn notes(result: &Value) -> String {
+    result["notes"].to_string()
+}
+
+#[test]
+fn a_model_is_inspected() {
+    let folder = Folder::new("inspect");
+    let model = text_model(&folder, "model");
+    let result = json(&["inspect", &model]);
+    assert_eq!(result["kind"], "colmap-text");
+    let counts = json!({"cameras": 1, "images": 3, "keypoints": 3, "points": 1, "observations": 2});
+    assert_eq!(result["counts"], counts);
+    assert_eq!(
+        result["cameras"][0]["k"],
+        json!([500.0, 500.0, 319.5, 239.5])
+    );
+    assert_eq!(
+        result["cameras"][0]["distortion"],
+        json!([-0.1, 0.02, 0.0, 0.0, 0.0])
+    );
+    // It is seen exactly in the first image; in the second, 0.4 % of the offset are bent inwards.
+    let bent = 1.0 - 0.1 * 0.04 + 0.02 * 0.0016;
+    let mean_px = result["mean_reprojection_px"].as_f64().unwrap();
+    assert!((mean_px - 50.0 * (1.0 - bent)).abs() < 1e-9, "{mean_px}");
+    let notes = notes(&result);
+    assert!(notes.contains("2 of 3 names have blanks"), "{notes}");
+    assert!(notes.contains("1 of 3 images see no point"), "{notes}");
+    // A file of the model stands for all of it.
+    let file = json(&["inspect", &format!("{model}/images.txt")]);
+    assert_eq!(file["counts"], counts);
+}
+
+#[test]
+fn a_model_is_converted_and_back() {
+    let folder = Folder::new("convert");
+    let model = text_model(&folder, "model");
+    let place = |name: &str| path(&folder.file(name)).to_owned();
+    let (binary, text) = (place("binary"), place("text"));
+    let result = json(&["convert", &model, &binary]);
+    assert_eq!(
+        (&result["read"], &result["kind"]),
+        (&json!("colmap-text"), &json!("colmap-binary"))
+    );
+    assert_eq!(result["written"].as_array().unwrap().len(), 3);
+    assert_eq!(result["notes"], json!([]));
+    let back = json(&["convert", &binary, &text]);
+    assert_eq!(back["kind"], "colmap-text");
+    assert!(notes(&back).contains("2 names have blanks"));
+    let read = |name: &str| std::fs::read_to_string(folder.file(name)).unwrap();
+    assert_eq!(
+        read("text/cameras.txt").lines().last(),
+        Some("1 OPENCV 640 480 500 500 320 240 -0.1 0.02 0 0")
+    );
+    let list = read("text/images.txt");
+    let list: Vec<&str> = list.lines().skip(2).collect();
+    let renumbered = IMAGES.replace(" 5 ", " 1 ").replace(" 9", " 1");
+    assert_eq!(list, renumbered.lines().skip(1).collect::<Vec<_>>());
+    assert_eq!(
+        read("text/points3D.txt").lines().last(),
+        Some("1 0 0 5 10 20 30 0.25 2 0 3 0")
+    );
+    for (name, kind) in [
+        ("x.ply", "ply"),
+        ("transforms.json", "transforms"),
+        ("sfm_data.json", "openmvg"),
+        ("bundle.out", "bundler"),
+    ] {
+        let result = json(&["convert", &binary, &place(name)]);
+        assert_eq!(result["kind"], kind);
+        let again = json(&["inspect", &place(name)]);
+        assert_eq!(again["kind"], kind);
+        assert_eq!(again["counts"]["points"], 1, "{name}");
+        let images = if kind == "ply" { 0 } else { 3 };
+        assert_eq!(again["counts"]["images"], images, "{name}");
+    }
+    json(&["convert", &binary, &place("model.glb")]);
+    assert_eq!(
+        std::fs::read(folder.file("model.glb")).unwrap()[..4],
+        *b"glTF"
+    );
+}
+
+#[test]
+fn a_folder_that_is_written_again_keeps_only_what_is_not_ours() {
+    let folder = Folder::new("again");
+    let model = text_model(&folder, "model");
+    let out = folder.file("out");
+    let to = |format: &str| json(&["convert", &model, path(&out), "--to", format]);
+    to("transforms");
+    folder.write("out/notes.txt", "mine");
+    to("colmap-binary");
+    to("colmap-text");
+    let expected = [
+        ".epipole-files",
+        "cameras.txt",
+        "images.txt",
+        "notes.txt",
+        "points3D.txt",
+        "sparse_pc.ply",
+        "transforms.json",
+    ];
+    assert_eq!(names(&out), expected);
+    folder.write("out/cameras.bin", "mine");
+    let arguments = ["convert", &model, path(&out), "--to", "colmap-text"];
+    fails(&folder, &arguments, 1, "COLMAP would read this file");
+}
+
+#[test]
+fn what_is_no_model_is_named() {
+    let folder = Folder::new("no-model");
+    let model = text_model(&folder, "model");
+    let empty = folder.file("empty");
+    std::fs::create_dir_all(&empty).unwrap();
+    let note = folder.write("note.json", "{}");
+    fails(
+        &folder,
+        &["inspect", path(&empty)],
+        1,
+        "there is no model in this folder",
+    );
+    fails(
+        &folder,
+        &["inspect", path(&note)],
+        1,
+        "note.json is no model",
+    );
+    fails(
+        &folder,
+        &["inspect", path(&folder.file("none"))],
+        1,
+        "there is no such file",
+    );
+    let out = folder.file("out.gltf");
+    fails(
+        &folder,
+        &["convert", &model, path(&out)],
+        2,
+        "names no format",
+    );
+    let out = folder.file("out.json");
+    let fisheye = CAMERAS.replace(
+        "RADIAL 640 480 500 320 240 -0.1 0.02",
+        "DIVISION 640 480 500 500 320 240 -0.1",
+    );
+    folder.write("model/cameras.txt", &fisheye);
+    fails(
+        &folder,
+        &["convert", &model, path(&out)],
+        1,
+        "no division lens",
+    );
+    folder.write("model/images.txt", "1 1 0 0 0 0 0\n");
+    fails(
+        &folder,
+        &["inspect", &model],
+        1,
+        "images.txt, line 1: the translation is missing",
+    );
+    std::fs::remove_file(folder.file("model/images.txt")).unwrap();
+    fails(
+        &folder,
+        &["inspect", &model],
+        1,
+        "needs images.txt beside cameras.txt",
+    );
+}

@@ -1,0 +1,245 @@
+//! Recognition of formats, and reading and writing by format.
+
+use super::notes::has_blank;
+use super::{
+    Beside, Model, ModelFile, ModelPoint, bundler, colmap_binary, colmap_text, nerfstudio, notes,
+    openmvg,
+};
+use crate::cloud::read_ply;
+use crate::{Error, Result};
+
+/// Formats of models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ModelFormat {
+    /// COLMAP's `cameras.txt`, `images.txt`, `points3D.txt`.
+    ColmapText,
+    /// COLMAP's `cameras.bin`, `images.bin`, `points3D.bin`.
+    ColmapBinary,
+    /// Bundler's `bundle.out` and `list.txt`.
+    Bundler,
+    /// nerfstudio's `transforms.json`.
+    Transforms,
+    /// openMVG's `sfm_data.json`.
+    OpenMvg,
+    /// Points in a PLY file.
+    Ply,
+    /// Points and cameras in a binary glTF file: written only.
+    Glb,
+}
+
+impl ModelFormat {
+    /// Name in commands.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ColmapText => "colmap-text",
+            Self::ColmapBinary => "colmap-binary",
+            Self::Bundler => "bundler",
+            Self::Transforms => "transforms",
+            Self::OpenMvg => "openmvg",
+            Self::Ply => "ply",
+            Self::Glb => "glb",
+        }
+    }
+
+    /// Frames and pixels of the format, in a sentence.
+    pub fn convention(self) -> &'static str {
+        match self {
+            Self::ColmapText | Self::ColmapBinary => {
+                "poses camera from world, y down, z forward, pixel centers at halves"
+            }
+            Self::Bundler => {
+                "poses camera from world, y up, looking along -z, pixels relative to the principal \
+                 point with y up"
+            }
+            Self::Transforms => {
+                "poses world from camera, y up, looking along -z, pixel centers at halves"
+            }
+            Self::OpenMvg => {
+                "rotations camera from world and centers, y down, z forward, pixel centers at \
+                 integers"
+            }
+            Self::Ply => "points of the world",
+            Self::Glb => "y up, cameras looking along -z, the world turned by half a turn about x",
+        }
+    }
+
+    /// Losses of a model in the format, a sentence each.
+    pub fn losses(self, model: &Model) -> Vec<String> {
+        let mut losses = Vec::new();
+        let blanks = model.images.iter().filter(|image| has_blank(&image.name));
+        let blanks = blanks.count();
+        if self == Self::ColmapText && blanks > 0 {
+            losses.push(format!(
+                "{blanks} names have blanks, where COLMAP cuts them in text files: use colmap-binary"
+            ));
+        }
+        let has_tracks = model.num_observations() > 0;
+        let has_images = !model.images.is_empty();
+        match self {
+            Self::Transforms if has_tracks => {
+                losses.push("keypoints and tracks are not written".to_owned());
+            }
+            Self::Bundler if has_images => losses.push(
+                "principal points, image sizes and keypoints without a point are not written"
+                    .to_owned(),
+            ),
+            Self::OpenMvg if has_images => {
+                losses.push("colors and keypoints without a point are not written".to_owned());
+            }
+            Self::Ply if has_images => losses.push("only the points are written".to_owned()),
+            Self::Glb if has_tracks => losses.push("tracks are not written".to_owned()),
+            _ => {}
+        }
+        losses
+    }
+}
+
+/// A model that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadModel {
+    /// Its format.
+    pub format: ModelFormat,
+    /// The model.
+    pub model: Model,
+    /// Sentences on what was left out or assumed.
+    pub notes: Vec<String>,
+}
+
+fn with_format(format: ModelFormat, (model, notes): (Model, Vec<String>)) -> ReadModel {
+    ReadModel {
+        format,
+        model,
+        notes,
+    }
+}
+
+/// Reads the model in a folder: COLMAP's files, binary ones first as COLMAP does, or one of
+/// `transforms.json`, `sfm_data.json`, `bundle.out` and `points.ply`. `None` if there is none.
+///
+/// * `file`: the content of a file of the folder, `None` if it is not there
+///
+/// # Errors
+/// As [`read_model_file`]; [`Error::Malformed`] also if one of COLMAP's files is missing.
+///
+/// ```
+/// use epipole_io::model::{ModelFormat, read_model_folder};
+/// let file = |name: &str| match name {
+///     "cameras.txt" => Some(b"7 SIMPLE_PINHOLE 640 480 500 320 240\n".to_vec()),
+///     "images.txt" => Some(b"3 1 0 0 0 0 0 2 7 a photo.jpg\n\n".to_vec()),
+///     _ => None,
+/// };
+/// let read = read_model_folder(&file)?.unwrap();
+/// assert_eq!(read.format, ModelFormat::ColmapText);
+/// assert_eq!((read.model.images[0].id, &*read.model.images[0].name), (3, "a photo.jpg"));
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
+    type Read = fn(&[u8], &[u8], Option<&[u8]>) -> Result<(Model, Vec<String>)>;
+    let readers: [(_, _, Read); 2] = [
+        ("bin", ModelFormat::ColmapBinary, colmap_binary::read),
+        ("txt", ModelFormat::ColmapText, colmap_text::read),
+    ];
+    for (ending, format, read) in readers {
+        let [cameras, images, points] =
+            ["cameras", "images", "points3D"].map(|name| file(&format!("{name}.{ending}")));
+        let (cameras, images) = match (cameras, images) {
+            (Some(cameras), Some(images)) => (cameras, images),
+            (Some(_), None) => return Err(alone("cameras", "images", ending)),
+            (None, Some(_)) => return Err(alone("images", "cameras", ending)),
+            (None, None) => continue,
+        };
+        let mut read = with_format(format, read(&cameras, &images, points.as_deref())?);
+        if points.is_none() {
+            (read.notes).push(format!("points3D.{ending} is not there: no points"));
+        }
+        if file(&format!("rigs.{ending}")).is_some() {
+            (read.notes).push(format!(
+                "rigs.{ending} and frames.{ending} are not read: poses are those of the images"
+            ));
+        }
+        return Ok(Some(read));
+    }
+    for name in [
+        "transforms.json",
+        "sfm_data.json",
+        "bundle.out",
+        "points.ply",
+    ] {
+        if let Some(bytes) = file(name) {
+            return read_model_file(name, &bytes, file).map(Some);
+        }
+    }
+    Ok(None)
+}
+
+fn alone(this: &str, other: &str, ending: &str) -> Error {
+    Error::malformed(format!(
+        "a COLMAP model needs {other}.{ending} beside {this}.{ending}"
+    ))
+}
+
+/// Reads a model of one file, which its content tells.
+///
+/// * `name`: of the file, within its folder
+/// * `beside`: the content of another file of the folder, `None` if it is not there
+///
+/// # Errors
+/// [`Error::Malformed`] with the line or place, [`Error::Unsupported`] for another format and for
+/// cameras that the library does not have, [`Error::Invalid`] for impossible cameras.
+pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<ReadModel> {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let first = start.trim_ascii_start();
+    if first.starts_with(b"ply") {
+        let (cloud, num_lost) = read_ply(bytes)?;
+        let model = Model {
+            points: cloud.into_iter().map(ModelPoint::from).collect(),
+            ..Model::default()
+        };
+        let notes = notes::not_finite(num_lost).into_iter().collect();
+        return Ok(with_format(ModelFormat::Ply, (model, notes)));
+    }
+    if first.starts_with(b"# Bundle file") {
+        let stem = name.strip_suffix(".out").unwrap_or(name);
+        let lists = [
+            "list.txt".to_owned(),
+            format!("{name}.list.txt"),
+            format!("{stem}.list.txt"),
+        ];
+        let read = bundler::read(bytes, &lists, beside)?;
+        return Ok(with_format(ModelFormat::Bundler, read));
+    }
+    if first.starts_with(b"{") {
+        let holds = |key: &[u8]| bytes.windows(key.len()).any(|window| window == key);
+        if holds(b"\"sfm_data_version\"") {
+            return Ok(with_format(ModelFormat::OpenMvg, openmvg::read(bytes)?));
+        }
+        if holds(b"\"frames\"") {
+            let read = nerfstudio::read(bytes, beside)?;
+            return Ok(with_format(ModelFormat::Transforms, read));
+        }
+    }
+    Err(Error::unsupported(format!(
+        "{name} is no model: expected a folder of COLMAP, transforms.json, sfm_data.json, \
+         a Bundler file or PLY"
+    )))
+}
+
+impl Model {
+    /// The files of a format.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for cameras that the format does not have, [`Error::Malformed`] if an
+    /// index of the model is wrong.
+    pub fn to_files(&self, format: ModelFormat) -> Result<Vec<ModelFile>> {
+        match format {
+            ModelFormat::ColmapText => self.to_colmap_text(),
+            ModelFormat::ColmapBinary => self.to_colmap_binary(),
+            ModelFormat::Bundler => self.to_bundler(),
+            ModelFormat::Transforms => self.to_transforms(),
+            ModelFormat::OpenMvg => self.to_openmvg(),
+            ModelFormat::Ply => Ok(vec![ModelFile::new("points.ply", self.to_ply())]),
+            ModelFormat::Glb => Ok(vec![ModelFile::new("model.glb", self.to_glb()?)]),
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! nerfstudio's and instant-ngp's `transforms.json`.
+//!
+//! `transform_matrix` is world from camera, of cameras that look along −z with y up; pixel centers
+//! are at halves. Intrinsics are those of the document, or of a frame. Tangential and radial terms
+//! are OpenCV's. The world is taken as it is: `applied_transform` is not undone.
+//!
+//! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
+//! equation of the lens.
+
+use super::json::{Node, document};
+use super::rotation::{half_turn, pose, rotation_from_matrix};
+use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use crate::cloud::read_ply;
+use crate::{Error, Result};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
+use nalgebra::{Matrix3, Vector3};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
+
+/// Usual name of the file of points.
+const POINTS: &str = "sparse_pc.ply";
+
+/// Values of a frame, or else of the document.
+struct Values<'a> {
+    frame: &'a Node<'a>,
+    document: &'a Node<'a>,
+}
+
+impl<'a> Values<'a> {
+    fn find(&self, key: &str) -> Option<Node<'a>> {
+        self.frame.find(key).or_else(|| self.document.find(key))
+    }
+
+    fn number(&self, key: &str) -> Result<Option<f64>> {
+        self.find(key).map(|node| node.number()).transpose()
+    }
+
+    fn side(&self, key: &str) -> Result<u32> {
+        let node = self.find(key).ok_or_else(|| {
+            Error::malformed(format!(
+                "{key} is missing: the size of the images is needed as w and h"
+            ))
+        })?;
+        let side = u32::try_from(node.whole()?).ok().filter(|side| *side > 0);
+        side.ok_or_else(|| node.error("is no size of an image"))
+    }
+
+    fn camera(&self) -> Result<Camera> {
+        let (width, height) = (self.side("w")?, self.side("h")?);
+        let sizes = [f64::from(width), f64::from(height)];
+        let focal = |key: &str, angle: &str, size: f64| -> Result<Option<f64>> {
+            let from_angle = self.number(angle)?;
+            let from_angle = from_angle.map(|angle| 0.5 * size / libm::tan(0.5 * angle));
+            Ok(self.number(key)?.or(from_angle))
+        };
+        let fx = focal("fl_x", "camera_angle_x", sizes[0])?;
+        let fy = focal("fl_y", "camera_angle_y", sizes[1])?;
+        let (Some(fx), Some(fy)) = (fx.or(fy), fy.or(fx)) else {
+            return Err(Error::malformed("fl_x and camera_angle_x are missing"));
+        };
+        let cx = self.number("cx")?.unwrap_or(sizes[0] / 2.0);
+        let cy = self.number("cy")?.unwrap_or(sizes[1] / 2.0);
+        Ok(Camera {
+            width,
+            height,
+            intrinsics: Intrinsics::from_colmap([fx, fy, cx, cy])?,
+            lens: self.lens()?,
+        })
+    }
+
+    fn lens(&self) -> Result<Lens> {
+        let of = |key: &str| Ok::<f64, Error>(self.number(key)?.unwrap_or(0.0));
+        let [k1, k2, k3, k4] = [of("k1")?, of("k2")?, of("k3")?, of("k4")?];
+        let [p1, p2] = [of("p1")?, of("p2")?];
+        let is_fisheye = self.find("is_fisheye");
+        let is_fisheye = is_fisheye.is_some_and(|node| *node.value() == Value::Bool(true));
+        let model = match self.find("camera_model") {
+            Some(node) => node.text()?,
+            None if is_fisheye => "OPENCV_FISHEYE",
+            None => "OPENCV",
+        };
+        let brown = |k: [f64; 5]| Lens::from_coefficients(LensKind::Brown, &k);
+        Ok(match model {
+            "SIMPLE_PINHOLE" | "PINHOLE" => Lens::NONE,
+            "SIMPLE_RADIAL" | "RADIAL" | "OPENCV" if k4 == 0.0 => brown([k1, k2, p1, p2, k3])?,
+            "SIMPLE_RADIAL" | "RADIAL" | "OPENCV" => {
+                return Err(Error::unsupported(format!(
+                    "k4 of an {model} camera is {k4}: only 0 is supported"
+                )));
+            }
+            "OPENCV_FISHEYE" => Lens::from_coefficients(LensKind::Fisheye, &[k1, k2, k3, k4])?,
+            other => {
+                return Err(Error::unsupported(format!(
+                    "camera_model {other} is not supported: only pinhole, radial, OPENCV and \
+                     OPENCV_FISHEYE cameras are"
+                )));
+            }
+        })
+    }
+}
+
+/// A pose from a matrix of three or four rows.
+fn cam_from_world(matrix: &Node<'_>) -> Result<RigidTransform> {
+    let rows = matrix.list()?;
+    if !(3..=4).contains(&rows.len()) {
+        return Err(matrix.error(&format!("has {} rows, not 4", rows.len())));
+    }
+    let mut world_from_cam = [[0.0; 4]; 3];
+    for (row, node) in world_from_cam.iter_mut().zip(&rows) {
+        *row = node.numbers()?;
+    }
+    let rotation = Matrix3::from_fn(|i, j| world_from_cam[i][j]);
+    let rotation = rotation_from_matrix(&rotation)
+        .ok_or_else(|| matrix.error("has no rotation in its first three columns"))?;
+    let center = Vector3::from_fn(|i, _| world_from_cam[i][3]);
+    let cam_from_world = (rotation * half_turn()).inverse();
+    pose(cam_from_world, -(cam_from_world * center))
+        .ok_or_else(|| matrix.error("has a translation that is not finite"))
+}
+
+/// Reads a document.
+///
+/// * `beside`: files of its folder, for the points
+///
+/// Returned with it: sentences on what was left out.
+pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<String>)> {
+    let value = document(bytes)?;
+    let document = Node::root(&value);
+    let (mut cameras, mut images, mut notes) = (CameraList::default(), Vec::new(), Vec::new());
+    let frames = document.get("frames")?.list()?;
+    for (index, frame) in frames.iter().enumerate() {
+        let values = Values {
+            frame,
+            document: &document,
+        };
+        images.push(ModelImage {
+            id: u32::try_from(index + 1).unwrap_or(u32::MAX),
+            name: frame.get("file_path")?.text()?.to_owned(),
+            camera: cameras.number_of(values.camera()?),
+            cam_from_world: cam_from_world(&frame.get("transform_matrix")?)?,
+            keypoints: Vec::new(),
+        });
+    }
+    let id = |frame: &Node<'_>| {
+        let id = frame.find("colmap_im_id")?.whole().ok()?;
+        u32::try_from(id).ok()
+    };
+    let ids: Vec<u32> = frames.iter().filter_map(id).collect();
+    if ids.len() == images.len() && ids.iter().collect::<BTreeSet<_>>().len() == ids.len() {
+        for (image, id) in images.iter_mut().zip(ids) {
+            image.id = id;
+        }
+    }
+    let mut points = Vec::new();
+    if let Some(path) = document.find("ply_file_path") {
+        let path = path.text()?;
+        match beside(path.trim_start_matches("./")) {
+            Some(bytes) => {
+                let (cloud, num_lost) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
+                points = cloud.into_iter().map(ModelPoint::from).collect();
+                notes.extend(super::notes::not_finite(num_lost));
+            }
+            None => notes.push(format!("{path} is not there: no points")),
+        }
+    }
+    if document.find("applied_transform").is_some() {
+        notes.push("the world is that of the file: applied_transform is not undone".to_owned());
+    }
+    let model = Model {
+        cameras: cameras.into_list(),
+        images,
+        points,
+    };
+    Ok((model, notes))
+}
+
+/// Members of a frame or a document that describe a camera.
+fn fields(camera: &Camera) -> Result<Map<String, Value>> {
+    let [fx, fy, cx, cy] = camera.intrinsics.to_colmap();
+    let k = camera.lens.coefficients();
+    let (model, lens) = match camera.lens.kind() {
+        LensKind::Brown => (
+            "OPENCV",
+            json!({ "k1": k[0], "k2": k[1], "k3": k[4], "p1": k[2], "p2": k[3] }),
+        ),
+        LensKind::Fisheye => (
+            "OPENCV_FISHEYE",
+            json!({ "k1": k[0], "k2": k[1], "k3": k[2], "k4": k[3] }),
+        ),
+        LensKind::Rational | LensKind::Division => {
+            return Err(Error::unsupported(format!(
+                "transforms.json has no {} lens: undistort the images first",
+                camera.lens.kind().name()
+            )));
+        }
+    };
+    let mut fields = json!({
+        "camera_model": model, "w": camera.width, "h": camera.height,
+        "fl_x": fx, "fl_y": fy, "cx": cx, "cy": cy,
+    });
+    if let (Value::Object(fields), Value::Object(lens)) = (&mut fields, lens) {
+        // A k3 of 0 is left out: some programs do not know it for this model.
+        fields.extend(
+            lens.into_iter()
+                .filter(|(key, value)| key != "k3" || *value != 0.0),
+        );
+    }
+    match fields {
+        Value::Object(fields) => Ok(fields),
+        _ => Ok(Map::new()),
+    }
+}
+
+impl Model {
+    /// nerfstudio's `transforms.json`, and `sparse_pc.ply` if there are points. Names of images
+    /// become paths as they are; `file_path` is relative to the folder of the file. Keypoints and
+    /// tracks are lost.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for rational and division lenses, [`Error::Malformed`] if an index of
+    /// the model is wrong.
+    pub fn to_transforms(&self) -> Result<Vec<ModelFile>> {
+        self.check()?;
+        let cameras = self.cameras.iter().map(fields);
+        let cameras = cameras.collect::<Result<Vec<_>>>()?;
+        let mut document = match &cameras[..] {
+            [camera] => camera.clone(),
+            _ => Map::new(),
+        };
+        let mut frames = Vec::new();
+        for image in &self.images {
+            let world_from_cam = image.cam_from_world.inverse();
+            let rotation = (world_from_cam.rotation * half_turn()).to_rotation_matrix();
+            let t = world_from_cam.translation.vector;
+            let row =
+                |i: usize| json!([rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)], t[i]]);
+            let mut frame = match cameras.len() {
+                1 => Map::new(),
+                _ => cameras[image.camera].clone(),
+            };
+            frame.insert("file_path".to_owned(), image.name.clone().into());
+            frame.insert("colmap_im_id".to_owned(), image.id.into());
+            let matrix = json!([row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]);
+            frame.insert("transform_matrix".to_owned(), matrix);
+            frames.push(Value::Object(frame));
+        }
+        document.insert("frames".to_owned(), frames.into());
+        let mut files = Vec::new();
+        if !self.points.is_empty() {
+            document.insert("ply_file_path".to_owned(), POINTS.into());
+            files.push(ModelFile::new(POINTS, self.to_ply()));
+        }
+        let text = format!("{:#}\n", Value::Object(document));
+        files.insert(0, ModelFile::new("transforms.json", text));
+        Ok(files)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Point3;
+
+    #[test]
+    fn a_camera_looks_along_minus_z() {
+        let text = r#"{ "camera_angle_x": 1.5707963267948966, "w": 640, "h": 480.0, "k1": 0.1,
+            "applied_transform": [], "ply_file_path": "./none.ply",
+            "frames": [
+              { "file_path": "./images/a b.png", "colmap_im_id": 7, "transform_matrix":
+                [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]] },
+              { "file_path": "c.png", "colmap_im_id": 5, "fl_x": 400, "fl_y": 410, "cx": 300.5,
+                "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] } ] }"#;
+        let (model, notes) = read(text.as_bytes(), &|_| None).unwrap();
+        let first = &model.images[0];
+        assert_eq!((first.id, &*first.name), (7, "./images/a b.png"));
+        assert_eq!(first.center_in_world(), Point3::new(1.0, 2.0, 3.0));
+        // In front of it, above it, right of it.
+        let seen = first.cam_from_world * Point3::new(1.5, 3.0, 1.0);
+        assert!((seen - Point3::new(0.5, -1.0, 2.0)).norm() < 1e-15);
+        let k = model.cameras[first.camera].intrinsics;
+        assert!((k.fu_px() - 320.0).abs() < 1e-12 && k.principal_point().y == 239.5);
+        let k = model.cameras[model.images[1].camera].intrinsics;
+        assert_eq!(
+            (k.fu_px(), k.fv_px(), k.principal_point().x),
+            (400.0, 410.0, 300.0)
+        );
+        assert_eq!(notes.len(), 2);
+    }
+
+    #[test]
+    fn missing_and_wrong_values_are_named() {
+        let of = |text: &str| read(text.as_bytes(), &|_| None).unwrap_err().to_string();
+        let frame = r#"{ "frames": [ { "file_path": "a", "transform_matrix": [] } ]"#;
+        assert!(of("{}").contains("frames is missing"));
+        assert!(of(&format!("{frame} }}")).contains("w is missing"));
+        let sized = format!("{frame}, \"w\": 4, \"h\": 4");
+        assert!(of(&format!("{sized} }}")).contains("camera_angle_x"));
+        assert!(
+            of(&format!("{sized}, \"fl_x\": 4 }}"))
+                .contains("frames[0].transform_matrix has 0 rows")
+        );
+        let model = r#", "fl_x": 4, "camera_model": "EQUIRECTANGULAR" }"#;
+        assert!(of(&format!("{sized}{model}")).contains("EQUIRECTANGULAR is not supported"));
+        assert!(of(&format!("{sized}, \"fl_x\": 4, \"k4\": 1 }}")).contains("k4"));
+        assert!(of("{ \"frames\": [ }").starts_with("line 1"));
+    }
+}
