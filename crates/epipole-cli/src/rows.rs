@@ -81,9 +81,11 @@ struct Field {
 
 /// Splits a line at semicolons, or else tabs, or else commas, or else spaces.
 fn fields(line: &str, columns: usize) -> Result<Vec<Field>, String> {
+    // A tab among spaces and commas is one of the spaces.
+    let is_table = line.matches('\t').count() + 1 >= columns;
     let separator = [';', '\t', ',']
         .into_iter()
-        .find(|&c| outside_quotes(line, c));
+        .find(|&c| outside_quotes(line, c) && (c != '\t' || is_table));
     let words: Vec<&str> = line.split_whitespace().collect();
     if separator == Some(',') && words.len() >= columns {
         let is_decimal = |word: &&&str| {
@@ -199,7 +201,7 @@ impl Header {
             .collect();
         let find = |wanted: &[&str]| -> Option<Vec<usize>> {
             let place = |name: &&str| names.iter().position(|other| other == name);
-            wanted.iter().map(|name| place(name)).collect()
+            wanted.iter().map(place).collect()
         };
         // Matches have points, too.
         let known = NAMES.iter().filter(|names| names.len() >= columns);
@@ -257,6 +259,7 @@ mod tests {
             "[1.5 -2] [300 4.25]\n[[5, 6], [7, 8.5]]",
             "(1.5, -2), (300, 4.25) # a comment\n\n# another\n5,6 7,8.5",
             "1.5 -2 300 4.25 0.3 x\n5 6 7 8.5 0.4 y",
+            "1.5 -2, 300\t4.25 0.3 x\n5 6, 7\t8.5",
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text}");
         }
