@@ -1,7 +1,7 @@
 //! COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
 //!
-//! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads a
-//! name up to its first blank; here it takes the rest of its line.
+//! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads
+//! a name up to its first blank; here it takes the rest of its line.
 //!
 //! Source: COLMAP's documentation, "Output format", "Text format".
 

@@ -1,7 +1,7 @@
 //! glTF 2.0, binary: points and the frusta of the cameras.
 //!
-//! glTF's y points up, and its cameras look along −z. A node turns the world by half a turn about x,
-//! so that a scene whose first camera is upright stands upright.
+//! glTF's y points up, and its cameras look along −z. A node turns the world by half a turn about
+//! x, so that a scene whose first camera is upright stands upright.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification".
 
