@@ -37,15 +37,15 @@ pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
     }
     let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if let Some((stem, ending @ ("txt" | "bin"))) = name.rsplit_once('.') {
-        if ["cameras", "images", "points3D"].contains(&stem) {
-            let of_kind = |name: &str| {
-                let is_of_kind = Path::new(name).extension().is_some_and(|e| e == ending);
-                is_of_kind.then(|| beside(&folder, name))?
-            };
-            if let Some(read) = read_model_folder(&of_kind).map_err(about)? {
-                return Ok(read);
-            }
+    if let Some((stem, ending @ ("txt" | "bin"))) = name.rsplit_once('.')
+        && ["cameras", "images", "points3D"].contains(&stem)
+    {
+        let of_kind = |name: &str| {
+            let is_of_kind = Path::new(name).extension().is_some_and(|e| e == ending);
+            is_of_kind.then(|| beside(&folder, name))?
+        };
+        if let Some(read) = read_model_folder(&of_kind).map_err(about)? {
+            return Ok(read);
         }
     }
     let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;

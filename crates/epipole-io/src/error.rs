@@ -9,13 +9,13 @@ pub enum Error {
     Malformed {
         /// Line of the file, counted from 1, if the format has lines.
         line: Option<usize>,
-        /// What is wrong with which value, and what is expected.
+        /// The wrong value, and the expected one.
         message: String,
     },
     /// The content is valid, but the library has no such model or the format cannot hold it.
     #[error("{message}")]
     Unsupported {
-        /// What is not supported, and what is.
+        /// The part that is not supported, and the choices.
         message: String,
     },
     /// The values describe no valid camera or transform.

@@ -1,6 +1,7 @@
 //! Models: cameras, posed images and points.
 
 mod bundler;
+mod cloud;
 pub(crate) mod colmap_binary;
 pub(crate) mod colmap_camera;
 mod colmap_parts;
@@ -10,6 +11,7 @@ mod example;
 mod format;
 #[cfg(test)]
 mod fuzz;
+mod gltf;
 mod json;
 mod nerfstudio;
 mod notes;
@@ -18,7 +20,6 @@ mod reconstruction;
 mod rotation;
 
 pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
-pub(crate) use rotation::half_turn;
 
 use crate::cloud::ColoredPoint;
 use crate::{Error, Result};
@@ -136,7 +137,7 @@ impl ModelFile {
 impl Model {
     /// # Errors
     /// [`Error::Malformed`] if an index is wrong or two images have the same number.
-    pub(crate) fn check(&self) -> Result<()> {
+    fn check(&self) -> Result<()> {
         let mut ids = BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {

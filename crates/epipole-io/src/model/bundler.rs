@@ -209,7 +209,7 @@ fn size(entries: &[Option<Entry>]) -> Result<(u32, u32)> {
 
 impl Model {
     /// Bundler's `bundle.out` and `list.txt`. Pixels are relative to the principal point, and
-    /// vertical ones multiplied by fx / fy, since Bundler has one focal length: the projections fit,
+    /// vertical ones multiplied by fx / fy, since Bundler has one focal length: projections fit,
     /// while principal points and image sizes are lost.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! COLMAP's camera models: names, numbers, parameters.
 //!
-//! A model has one or two focal lengths, the principal point, and coefficients of a lens. The center
-//! of the first pixel is at (0.5, 0.5).
+//! A model has one or two focal lengths, the principal point, and coefficients of a lens. The
+//! center of the first pixel is at (0.5, 0.5).
 //!
 //! Source: COLMAP 4, `src/colmap/sensor/models.h`.
 
@@ -144,8 +144,8 @@ pub(crate) fn model_of_id(id: i32) -> Result<(&'static str, usize)> {
 ///
 /// # Errors
 /// [`Error::Malformed`] for another number of parameters or an impossible size,
-/// [`Error::Unsupported`] for a model that the library does not have, [`Error::Invalid`] for a focal
-/// length ≤ 0 and for values that are not finite.
+/// [`Error::Unsupported`] for a model that the library does not have, [`Error::Invalid`] for a
+/// focal length ≤ 0 and for values that are not finite.
 pub(crate) fn camera_from_colmap(
     name: &str,
     width: u64,
@@ -195,8 +195,8 @@ pub(crate) struct ColmapCamera {
 }
 
 /// The COLMAP model of a camera and its parameters: `PINHOLE`; `OPENCV` for Brown's lens,
-/// `FULL_OPENCV` if it has a k3 and for the rational lens; `OPENCV_FISHEYE`; `DIVISION`, which COLMAP
-/// has from its version 4 on.
+/// `FULL_OPENCV` if it has a k3 and for the rational lens; `OPENCV_FISHEYE`; `DIVISION`, which
+/// COLMAP has from its version 4 on.
 pub(crate) fn colmap_from_camera(camera: &Camera) -> ColmapCamera {
     let all = camera.lens.coefficients();
     let (id, count) = match camera.lens.kind() {

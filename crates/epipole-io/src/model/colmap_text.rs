@@ -1,7 +1,7 @@
 //! COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
 //!
-//! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads a
-//! name up to its first blank; here it takes the rest of its line.
+//! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads
+//! a name up to its first blank; here it takes the rest of its line.
 //!
 //! Source: COLMAP's documentation, "Output format", "Text format".
 
@@ -208,9 +208,9 @@ impl Model {
     /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
     /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
     /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
-    /// more off the axis of a fisheye to be behind the camera. IDs of cameras and points start at
-    /// 1. A name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads
-    /// it up to the first blank, in text files only.
+    /// more off the axis of a fisheye to be behind the camera. Cameras and points are numbered from
+    /// one on. A name takes the rest of its line, so line breaks in it become `_`; COLMAP itself
+    /// reads it up to the first blank, in text files only.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.

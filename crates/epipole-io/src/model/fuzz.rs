@@ -147,7 +147,7 @@ fn check(model: &Model) -> Result<(), TestCaseError> {
     }
     model.oddities().unwrap();
     model.to_reconstruction().unwrap();
-    // What was read can be written.
+    // A model that was read can be written.
     for format in [ModelFormat::ColmapBinary, ModelFormat::Glb] {
         prop_assert!(model.to_files(format).is_ok());
     }

@@ -39,6 +39,6 @@ pub(super) fn pose(rotation: UnitQuaternion<f64>, t: Vector3<f64>) -> Option<Rig
 
 /// Half a turn about x: between a camera that looks along z with y down, and one that looks along
 /// −z with y up.
-pub(crate) fn half_turn() -> UnitQuaternion<f64> {
+pub(super) fn half_turn() -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0))
 }

@@ -1,12 +1,13 @@
 //! glTF 2.0, binary: points and the frusta of the cameras.
 //!
-//! glTF's y points up, and its cameras look along −z. A node turns the world by half a turn about x,
-//! so that a scene whose first camera is upright stands upright.
+//! glTF's y points up, and its cameras look along −z. A node turns the world by half a turn about
+//! x, so that a scene whose first camera is upright stands upright.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification".
 
+use super::rotation::half_turn;
+use super::{Model, ModelImage};
 use crate::Result;
-use crate::model::{Model, ModelImage, half_turn};
 use epipole::camera::Camera;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::{Value, json};
@@ -245,7 +246,7 @@ mod tests {
                 cam_from_world: RigidTransform::translation(0.0, 0.0, 3.0),
                 keypoints: Vec::new(),
             }],
-            points: vec![crate::model::ModelPoint {
+            points: vec![super::super::ModelPoint {
                 position: Point3::new(1.0, 2.0, 3.0),
                 color: [1, 2, 3],
                 error_px: None,
