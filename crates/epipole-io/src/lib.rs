@@ -9,6 +9,10 @@ mod bytes;
 pub mod camera;
 pub mod cloud;
 #[cfg(test)]
+#[expect(
+    dead_code,
+    reason = "shared with the tests of the core, which damage texts, too"
+)]
 #[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
 mod damage;
 mod error;

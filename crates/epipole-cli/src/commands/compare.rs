@@ -9,7 +9,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::matrices::{Motion, positive};
 use crate::report::Report;
-use crate::{files, known_camera};
+use crate::{files, listing};
 use clap::{Args, ValueEnum};
 use epipole::camera::RigidTransform;
 use epipole::sfm::{AlignmentKind, align_points};
@@ -101,8 +101,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("rpe_rmse", rpe.translation_m.rmse)
         .field("scale", alignment.scaling())
         .field("truth_from_estimate", Motion::from(&alignment.isometry))
-        .field("ape", &ape)
-        .field("rpe", &rpe)
+        .field("ape", ape)
+        .field("rpe", rpe)
         .field("num_pairs", pairs.len())
         .field(
             "num_poses",
@@ -116,9 +116,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
                 "{} poses by {by}: {} of {}, {} of {}",
                 pairs.len(),
                 truth.world_from_cam.len(),
-                known_camera::name(paths[0]),
+                listing::file_name(paths[0]),
                 estimate.world_from_cam.len(),
-                known_camera::name(paths[1])
+                listing::file_name(paths[1])
             ),
         )
         .row("scale", format!("{:.6}", alignment.scaling()));

@@ -204,7 +204,7 @@ impl Work<'_> {
     /// The features of all pictures, one in memory at a time, and the camera that they share.
     fn read(&self, listed: &[Listed]) -> Result<Frames, Failure> {
         let file = self.arguments.camera_file.as_ref();
-        let first = paths.first().map(PathBuf::as_path);
+        let first = listed.first().map(|one| one.path.as_path());
         let camera = file.map(|file| lens::read(file, first)).transpose()?;
         if let Some(camera) = &camera {
             tell_of_unseen(camera, self.context)?;

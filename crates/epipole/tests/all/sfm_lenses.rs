@@ -364,10 +364,6 @@ fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
     }
 }
 
-fn k_of(factor: f64) -> Intrinsics {
-    k().zoomed(factor).unwrap()
-}
-
 /// A bundle whose points are all behind an ordinary lens gives an error or a result.
 #[test]
 fn points_behind_a_lens_are_mirrored_or_refused() {

@@ -88,7 +88,7 @@ impl InputArguments {
             )));
         }
         let camera = self.camera_file.as_ref();
-        let first = paths.first().map(PathBuf::as_path);
+        let first = listed.first().map(|one| one.path.as_path());
         let camera = camera.map(|file| lens::read(file, first)).transpose()?;
         let flat = (camera.as_ref())
             .filter(|_| self.undistort)
