@@ -6,6 +6,7 @@
 
 mod camera;
 mod commands;
+mod content;
 mod context;
 mod failure;
 mod features;

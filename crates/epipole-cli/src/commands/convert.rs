@@ -1,27 +1,38 @@
-//! `epipole convert`: a model in another format.
+//! `epipole convert`: a model, cameras or a trajectory in another format.
 
+mod target;
+mod write;
+
+use self::target::{Format, Target};
+use self::write::{write_file, write_folder};
+use crate::content::Content;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::output_folder::OutputFolder;
+use crate::files;
 use crate::report::Report;
-use crate::{files, model};
-use clap::{Args, ValueEnum};
-use epipole_io::model::{Model, ModelFile, ModelFormat};
-use std::path::{Path, PathBuf};
+use clap::Args;
+use epipole_io::camera::{Cameras, NamedCamera, write_cameras};
+use epipole_io::model::ModelFormat;
+use epipole_io::trajectory::{Trajectory, write_trajectory};
+use serde_json::{Value, json};
+use std::path::PathBuf;
 
-/// Convert a model between formats.
+/// Convert a model, cameras or a trajectory between formats.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole convert reconstruction/ model/ --to colmap-binary\n\n\
     A may be a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) or a\n\
-    PLY file. B names the format: model.glb, points.ply, transforms.json, sfm_data.json or bundle.out; a folder is\n\
-    COLMAP's, binary unless A is. Files of an earlier conversion to the same format are removed, others stay.\n\n\
+    PLY file; cameras of any format that --camera takes; or a trajectory (TUM, KITTI, EuRoC). B names the format:\n\
+    model.glb, points.ply, transforms.json, sfm_data.json, bundle.out; cameras.yml (OpenCV), camera.json,\n\
+    cameras.txt; path.txt (TUM, or KITTI of KITTI), path.csv (EuRoC). A folder is COLMAP's, binary unless A is.\n\
+    Files of an earlier conversion to the same format are removed, others stay.\n\n\
+    A model may also become cameras or a trajectory: the poses of its images in their order, without times.\n\n\
     COLMAP cuts names at their first blank in text files, not in binary ones.\n\n\
-    JSON: read (format of A), written (files), kind (format of B), counts (cameras, images, points), notes (what\n\
-    was left out)."
+    JSON: read (format of A), written (files), kind (format of B), counts (cameras, images, points; poses of a\n\
+    trajectory), notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// The model to read: a file or a folder.
+    /// The file or folder to read.
     #[arg(value_name = "A")]
     input: PathBuf,
     /// The file or folder to write.
@@ -32,153 +43,119 @@ pub(crate) struct Arguments {
     to: Option<Format>,
 }
 
-/// Formats that are written.
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
-enum Format {
-    ColmapText,
-    ColmapBinary,
-    Bundler,
-    Transforms,
-    Openmvg,
-    Ply,
-    Glb,
-}
-
-impl From<Format> for ModelFormat {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::ColmapText => Self::ColmapText,
-            Format::ColmapBinary => Self::ColmapBinary,
-            Format::Bundler => Self::Bundler,
-            Format::Transforms => Self::Transforms,
-            Format::Openmvg => Self::OpenMvg,
-            Format::Ply => Self::Ply,
-            Format::Glb => Self::Glb,
+pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let content = Content::read(&arguments.input)?;
+    let by_name = Target::of_name(&arguments.output, &content);
+    let target = match (arguments.to, by_name) {
+        (Some(format), _) => format.into(),
+        (None, Some(target)) => target,
+        (None, None) => Target::usual(&arguments.output, &content)?,
+    };
+    let read = content.format();
+    let counts = counts(&content);
+    let mut notes = Vec::new();
+    let (kind, written) = match (target, content) {
+        (Target::Model(format), Content::Model(read)) => {
+            notes = read.notes;
+            notes.extend(format.losses(&read.model));
+            let files = read.model.to_files(format)?;
+            let is_folder = matches!(format, ModelFormat::ColmapText | ModelFormat::ColmapBinary);
+            let written = match by_name.is_some() && !is_folder {
+                true => write_file(&arguments.output, files)?,
+                false => write_folder(&arguments.output, format, files)?,
+            };
+            (format.name(), written)
         }
-    }
-}
-
-/// The format that a name asks for; `None` for a folder.
-fn of_name(output: &Path) -> Result<Option<ModelFormat>, Failure> {
-    let name = output.file_name().unwrap_or_default().to_string_lossy();
-    let name = name.to_lowercase();
-    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-    Ok(Some(match ending {
-        _ if output.is_dir() => return Ok(None),
-        "ply" => ModelFormat::Ply,
-        "glb" => ModelFormat::Glb,
-        "out" => ModelFormat::Bundler,
-        "json" if name.contains("sfm_data") => ModelFormat::OpenMvg,
-        "json" => ModelFormat::Transforms,
-        "txt" | "bin" | "gltf" | "csv" | "xml" => {
+        (Target::Cameras(format), content) => {
+            let text = write_cameras(format, &cameras_of(content)?)?;
+            (format.name(), write_text(arguments, text)?)
+        }
+        (Target::Trajectory(format), content) => {
+            let text = write_trajectory(format, &trajectory_of(content)?)?;
+            (format.name(), write_text(arguments, text)?)
+        }
+        (Target::Model(format), content) => {
             return Err(Failure::usage(format!(
-                "{} names no format: give a folder for COLMAP, or --to",
-                output.display()
+                "{} cannot become a model ({}): it has no images",
+                content.format(),
+                format.name()
             )));
         }
-        _ => return Ok(None),
-    }))
-}
-
-/// Whether a format is a folder of several files.
-fn is_folder(format: ModelFormat) -> bool {
-    matches!(format, ModelFormat::ColmapText | ModelFormat::ColmapBinary)
-}
-
-pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
-    let by_name = of_name(&arguments.output);
-    let by_name = match arguments.to {
-        Some(_) => by_name.unwrap_or(None),
-        None => by_name?,
     };
-    let read = model::read(&arguments.input)?;
-    let default = match read.format {
-        ModelFormat::ColmapBinary => ModelFormat::ColmapText,
-        _ => ModelFormat::ColmapBinary,
-    };
-    let format = arguments
-        .to
-        .map(ModelFormat::from)
-        .or(by_name)
-        .unwrap_or(default);
-    let mut notes = read.notes;
-    notes.extend(format.losses(&read.model));
     for note in &notes {
         context.warn(note);
     }
-    let files = read.model.to_files(format)?;
-    let written = match by_name.is_some() && !is_folder(format) {
-        true => write_file(&arguments.output, files)?,
-        false => write_folder(&arguments.output, format, files)?,
-    };
-    let Model {
-        cameras,
-        images,
-        points,
-    } = &read.model;
-    Ok(Report::default()
-        .field("read", read.format.name())
-        .field("kind", format.name())
+    let mut report = Report::default()
+        .field("read", &read)
+        .field("kind", kind)
         .field("written", &written)
-        .field(
-            "counts",
-            serde_json::json!({
-                "cameras": cameras.len(), "images": images.len(), "points": points.len(),
-            }),
-        )
+        .field("counts", &counts)
         .field("notes", &notes)
-        .row("read", read.format.name())
-        .row("cameras", cameras.len())
-        .row("images", images.len())
-        .row("points", points.len())
-        .row(
-            "written",
-            format!("{}: {}", format.name(), written.join(", ")),
-        ))
+        .row("read", read);
+    for (name, count) in counts.as_object().into_iter().flatten() {
+        report = report.row(name, count);
+    }
+    Ok(report.row("written", format!("{kind}: {}", written.join(", "))))
 }
 
-/// The first file gets the name given; others, which it names, stand beside it.
-fn write_file(path: &Path, files: Vec<ModelFile>) -> Result<Vec<String>, Failure> {
-    let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-    if !folder.as_os_str().is_empty() {
-        files::make_folder(&folder)?;
+fn write_text(arguments: &Arguments, text: String) -> Result<Vec<String>, Failure> {
+    let path = &arguments.output;
+    if let Some(folder) = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+    {
+        files::make_folder(folder)?;
     }
-    let mut written = Vec::new();
-    for (index, file) in files.iter().enumerate() {
-        let path = match index {
-            0 => path.to_owned(),
-            _ => folder.join(&file.name),
-        };
-        files::write(&path, &file.bytes)?;
-        written.push(path.display().to_string());
-    }
-    Ok(written)
+    files::write(path, text.as_bytes())?;
+    Ok(vec![path.display().to_string()])
 }
 
-fn write_folder(
-    folder: &Path,
-    format: ModelFormat,
-    files: Vec<ModelFile>,
-) -> Result<Vec<String>, Failure> {
-    let owner = match format {
-        ModelFormat::ColmapText | ModelFormat::ColmapBinary => "convert-colmap",
-        other => other.name(),
-    };
-    let mut output = OutputFolder::new(folder, owner);
-    // COLMAP reads binary files first, whatever is beside them.
-    if format == ModelFormat::ColmapText && output.holds_foreign("cameras.bin") {
-        return Err(Failure::new(
-            "write",
-            "COLMAP would read this file and not the text beside it: choose another folder, or \
-             --to colmap-binary",
-        )
-        .about(&folder.join("cameras.bin")));
+fn counts(content: &Content) -> Value {
+    match content {
+        Content::Model(read) => json!({
+            "cameras": read.model.cameras.len(),
+            "images": read.model.images.len(),
+            "points": read.model.points.len(),
+        }),
+        Content::Cameras(_, cameras) => json!({ "cameras": cameras.cameras.len() }),
+        Content::Trajectory(_, path) => json!({ "poses": path.world_from_cam.len() }),
     }
-    let mut written = Vec::new();
-    for file in &files {
-        let path = output.write(&file.name, &file.bytes)?;
-        written.push(path.display().to_string());
+}
+
+fn cameras_of(content: Content) -> Result<Cameras, Failure> {
+    match content {
+        Content::Cameras(_, cameras) => Ok(cameras),
+        Content::Model(read) => {
+            let named = |(n, camera)| NamedCamera::new(format!("{}", n + 1), camera);
+            Ok(Cameras {
+                cameras: read
+                    .model
+                    .cameras
+                    .into_iter()
+                    .enumerate()
+                    .map(named)
+                    .collect(),
+                right_from_left: None,
+            })
+        }
+        Content::Trajectory(..) => Err(Failure::usage("a trajectory has no cameras to write")),
     }
-    output.finish()?;
-    Ok(written)
+}
+
+fn trajectory_of(content: Content) -> Result<Trajectory, Failure> {
+    match content {
+        Content::Trajectory(_, path) => Ok(path),
+        Content::Model(read) => {
+            let poses = read
+                .model
+                .images
+                .iter()
+                .map(|image| image.cam_from_world.inverse());
+            Ok(Trajectory {
+                stamps_ns: None,
+                world_from_cam: poses.collect(),
+            })
+        }
+        Content::Cameras(..) => Err(Failure::usage("cameras have no path to write")),
+    }
 }

@@ -1,45 +1,52 @@
-//! `epipole inspect`: contents, conventions and oddities of a model.
+//! `epipole inspect`: contents, conventions and oddities of a file or folder.
 
+use crate::content::Content;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::model;
 use crate::report::Report;
 use clap::Args;
-use serde_json::json;
+use epipole::camera::Camera;
+use epipole_io::camera::Cameras;
+use epipole_io::model::ReadModel;
+use epipole_io::trajectory::Trajectory;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Tell what a model is, what it holds and what is odd about it.
+/// Tell what a model, a camera file or a trajectory holds and what is odd about it.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: epipole inspect reconstruction/sparse/0\n\n\
     Reads the models of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) and\n\
-    PLY files.\n\n\
-    JSON: kind (colmap-text, colmap-binary, bundler, transforms, openmvg or ply), convention (frames and pixels of\n\
-    the file), counts (cameras, images, keypoints, points, observations), mean_reprojection_px (null without\n\
-    observations), cameras (width, height, lens, k and distortion of each), notes (what was left out or is odd:\n\
-    names with blanks, images without points, points behind cameras, NaN).")]
+    PLY files; cameras of any format that --camera takes; trajectories of TUM, KITTI and EuRoC.\n\n\
+    JSON: kind (the format), counts, notes. Of a model also convention (frames and pixels of the file),\n\
+    mean_reprojection_px (null without observations), cameras (width, height, lens, k and distortion of each), notes\n\
+    (what was left out or is odd: names with blanks, images without points, points behind cameras, NaN). Of cameras:\n\
+    cameras, right_from_left (translation of a rig, or null). Of a trajectory: length, seconds (or null).")]
 pub(crate) struct Arguments {
     /// A file, or a folder with a model.
     input: PathBuf,
 }
 
 pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure> {
-    let read = model::read(&arguments.input)?;
-    let (model, format) = (read.model, read.format);
-    let mut notes = read.notes;
+    let content = Content::read(&arguments.input)?;
+    let report = (Report::default())
+        .field("kind", content.format())
+        .row("kind", content.format());
+    match &content {
+        Content::Model(read) => of_model(report, read),
+        Content::Cameras(_, cameras) => Ok(of_cameras(report, cameras)),
+        Content::Trajectory(_, trajectory) => Ok(of_trajectory(report, trajectory)),
+    }
+}
+
+fn of_model(report: Report, read: &ReadModel) -> Result<Report, Failure> {
+    let (model, format) = (&read.model, read.format);
+    let mut notes = read.notes.clone();
     notes.extend(model.oddities()?);
     let keypoints: usize = model.images.iter().map(|image| image.keypoints.len()).sum();
     let observations = model.num_observations();
     let mean_px = model.mean_reprojection_px()?;
-    let cameras = model.cameras.iter().map(|camera| {
-        let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
-        json!({
-            "width": camera.width, "height": camera.height,
-            "k": [k.fu_px(), k.fv_px(), center.x, center.y],
-            "lens": camera.lens.kind().name(), "distortion": camera.lens.coefficients(),
-        })
-    });
-    let mut report = Report::default()
-        .field("kind", format.name())
+    let cameras: Vec<Value> = model.cameras.iter().map(of_camera).collect();
+    let mut report = report
         .field("convention", format.convention())
         .field(
             "counts",
@@ -50,9 +57,8 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
             }),
         )
         .field("mean_reprojection_px", mean_px)
-        .field("cameras", cameras.collect::<Vec<_>>())
+        .field("cameras", cameras)
         .field("notes", &notes)
-        .row("kind", format.name())
         .row("convention", format.convention())
         .row("cameras", model.cameras.len())
         .row("images", model.images.len())
@@ -66,4 +72,72 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
         report = report.row("note", note);
     }
     Ok(report)
+}
+
+fn of_camera(camera: &Camera) -> Value {
+    let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
+    json!({
+        "width": camera.width, "height": camera.height,
+        "k": [k.fu_px(), k.fv_px(), center.x, center.y],
+        "lens": camera.lens.kind().name(), "distortion": camera.lens.coefficients(),
+    })
+}
+
+fn of_cameras(report: Report, cameras: &Cameras) -> Report {
+    let each = cameras.cameras.iter().map(|named| {
+        let mut fields = of_camera(&named.camera);
+        fields["name"] = json!(named.name);
+        fields
+    });
+    let translation = cameras
+        .right_from_left
+        .map(|motion| motion.translation.vector);
+    let mut report = report
+        .field("counts", json!({ "cameras": cameras.cameras.len() }))
+        .field("cameras", each.collect::<Vec<_>>())
+        .field("notes", [""; 0])
+        .field("right_from_left", translation.map(|t| [t.x, t.y, t.z]));
+    for named in &cameras.cameras {
+        let (camera, k) = (&named.camera, &named.camera.intrinsics);
+        let words = format!(
+            "{} × {}, focal lengths {:.2} and {:.2} px, principal point ({:.2}, {:.2}), {}",
+            camera.width,
+            camera.height,
+            k.fu_px(),
+            k.fv_px(),
+            k.principal_point().x,
+            k.principal_point().y,
+            camera.lens.kind().name(),
+        );
+        report = report.row(&named.name, words);
+    }
+    match translation {
+        Some(t) => report.row(
+            "baseline",
+            format!("{:.6}, in the unit of the file", t.norm()),
+        ),
+        None => report,
+    }
+}
+
+fn of_trajectory(report: Report, trajectory: &Trajectory) -> Report {
+    let poses = &trajectory.world_from_cam;
+    let step = |pair: &[epipole::camera::RigidTransform]| {
+        (pair[1].translation.vector - pair[0].translation.vector).norm()
+    };
+    let length: f64 = poses.windows(2).map(step).sum();
+    let stamps = trajectory.stamps_ns.as_deref().unwrap_or_default();
+    let seconds = (stamps.first().zip(stamps.last()))
+        .map(|(first, last)| last.saturating_sub(*first) as f64 * 1e-9);
+    let report = report
+        .field("counts", json!({ "poses": poses.len() }))
+        .field("length", length)
+        .field("seconds", seconds)
+        .field("notes", [""; 0])
+        .row("poses", poses.len())
+        .row("length", format!("{length:.3}, in the unit of the file"));
+    match seconds {
+        Some(seconds) => report.row("time", format!("{seconds:.3} s")),
+        None => report,
+    }
 }

@@ -195,3 +195,94 @@ fn what_is_no_model_is_named() {
         "needs images.txt beside cameras.txt",
     );
 }
+
+const RIG: &str = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   \
+    dt: d\n   data: [ 500., 0., 320., 0., 501., 240., 0., 0., 1. ]\nD1: [ 0.1, 0.02, 0., 0. ]\n\
+    M2: [510, 0, 321, 0, 511, 241, 0, 0, 1]\nD2: [ -0.1, 0.02, 0., 0. ]\n\
+    R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nT: [-0.25, 0., 0.]\n";
+
+#[test]
+fn cameras_are_inspected_and_converted() {
+    let folder = Folder::new("convert-cameras");
+    let rig = folder.write("rig.yml", RIG);
+    let result = json(&["inspect", path(&rig)]);
+    assert_eq!(result["kind"], "cameras of OpenCV");
+    assert_eq!(result["counts"], json!({ "cameras": 2 }));
+    assert_eq!(
+        result["cameras"][1]["k"],
+        json!([510.0, 511.0, 321.0, 241.0])
+    );
+    assert_eq!(result["right_from_left"], json!([-0.25, 0.0, 0.0]));
+    // To our own file and back, every number stays.
+    let place = |name: &str| path(&folder.file(name)).to_owned();
+    let ours = json(&["convert", path(&rig), &place("rig.json")]);
+    assert_eq!(ours["kind"], "Epipole");
+    let back = json(&["convert", &place("rig.json"), &place("back.yaml")]);
+    assert_eq!(back["read"], "cameras of Epipole");
+    let again = json(&["inspect", &place("back.yaml")]);
+    assert_eq!(again["cameras"][0]["k"], result["cameras"][0]["k"]);
+    assert_eq!(again["right_from_left"], result["right_from_left"]);
+    // COLMAP's file has no motion.
+    json(&["convert", path(&rig), &place("cameras.txt")]);
+    let text = std::fs::read_to_string(folder.file("cameras.txt")).unwrap();
+    assert!(
+        text.contains("1 OPENCV 640 480 500 501 320.5 240.5 0.1 0.02 0 0\n"),
+        "{text}"
+    );
+    fails(
+        &folder,
+        &["convert", path(&rig), &place("model")],
+        2,
+        "names no format",
+    );
+    fails(
+        &folder,
+        &["convert", path(&rig), &place("x.ply")],
+        2,
+        "cannot become a model",
+    );
+}
+
+#[test]
+fn trajectories_are_inspected_and_converted() {
+    let folder = Folder::new("convert-paths");
+    let tum = folder.write(
+        "path.txt",
+        "1.5 0 0 0 0 0 0 1\n1.6 3 4 0 0 0 0 1\n1.8 3 4 2 0 0 1 0\n",
+    );
+    let result = json(&["inspect", path(&tum)]);
+    assert_eq!(result["kind"], "trajectory of TUM");
+    assert_eq!(result["counts"], json!({ "poses": 3 }));
+    assert_eq!(result["length"], json!(7.0));
+    assert!((result["seconds"].as_f64().unwrap() - 0.3).abs() < 1e-12);
+    let place = |name: &str| path(&folder.file(name)).to_owned();
+    json(&["convert", path(&tum), &place("path.csv")]);
+    let back = json(&[
+        "convert",
+        &place("path.csv"),
+        &place("back.txt"),
+        "--to",
+        "tum",
+    ]);
+    assert_eq!(back["read"], "trajectory of EuRoC");
+    let same = json(&["compare", path(&tum), &place("back.txt"), "--align", "none"]);
+    assert_eq!(same["ate_rmse_m"], json!(0.0));
+    json(&["convert", path(&tum), &place("kitti.txt"), "--to", "kitti"]);
+    // The poses of a model have no times.
+    let model = text_model(&folder, "model");
+    json(&["convert", &model, &place("poses.txt"), "--to", "kitti"]);
+    let poses = json(&["inspect", &place("poses.txt")]);
+    assert_eq!(poses["counts"], json!({ "poses": 3 }));
+    fails(
+        &folder,
+        &["convert", &model, &place("poses.tum"), "--to", "tum"],
+        1,
+        "needs a time for each pose",
+    );
+    fails(
+        &folder,
+        &["convert", path(&tum), &place("x.yml")],
+        2,
+        "has no cameras",
+    );
+}

@@ -1,0 +1,111 @@
+//! Formats to convert to.
+
+use crate::content::Content;
+use crate::failure::Failure;
+use clap::ValueEnum;
+use epipole_io::camera::CameraFormat;
+use epipole_io::model::ModelFormat;
+use epipole_io::trajectory::TrajectoryFormat;
+use std::path::Path;
+
+/// Formats that are written.
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
+pub(super) enum Format {
+    ColmapText,
+    ColmapBinary,
+    Bundler,
+    Transforms,
+    Openmvg,
+    Ply,
+    Glb,
+    /// Cameras: JSON as `epipole calibrate` writes it.
+    Epipole,
+    /// Cameras: YAML.
+    Opencv,
+    /// Cameras: camera_info.
+    Ros,
+    /// Cameras: cameras.txt alone.
+    ColmapCameras,
+    /// Trajectory, with times.
+    Tum,
+    /// Trajectory, without times.
+    Kitti,
+    /// Trajectory, with times.
+    Euroc,
+}
+
+/// Format of a result, by its kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Target {
+    Model(ModelFormat),
+    Cameras(CameraFormat),
+    Trajectory(TrajectoryFormat),
+}
+
+impl From<Format> for Target {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::ColmapText => Self::Model(ModelFormat::ColmapText),
+            Format::ColmapBinary => Self::Model(ModelFormat::ColmapBinary),
+            Format::Bundler => Self::Model(ModelFormat::Bundler),
+            Format::Transforms => Self::Model(ModelFormat::Transforms),
+            Format::Openmvg => Self::Model(ModelFormat::OpenMvg),
+            Format::Ply => Self::Model(ModelFormat::Ply),
+            Format::Glb => Self::Model(ModelFormat::Glb),
+            Format::Epipole => Self::Cameras(CameraFormat::Epipole),
+            Format::Opencv => Self::Cameras(CameraFormat::OpenCv),
+            Format::Ros => Self::Cameras(CameraFormat::Ros),
+            Format::ColmapCameras => Self::Cameras(CameraFormat::Colmap),
+            Format::Tum => Self::Trajectory(TrajectoryFormat::Tum),
+            Format::Kitti => Self::Trajectory(TrajectoryFormat::Kitti),
+            Format::Euroc => Self::Trajectory(TrajectoryFormat::EuRoC),
+        }
+    }
+}
+
+impl Target {
+    /// The format that a name asks for, given what is written; `None` for a folder, or without an
+    /// ending that stands for a format.
+    pub(super) fn of_name(output: &Path, content: &Content) -> Option<Self> {
+        if output.is_dir() {
+            return None;
+        }
+        let name = output.file_name().unwrap_or_default().to_string_lossy();
+        let name = name.to_lowercase();
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let format = match (ending, content) {
+            ("yml" | "yaml", _) => Format::Opencv,
+            ("json", Content::Cameras(..)) => Format::Epipole,
+            ("txt", Content::Cameras(..)) => Format::ColmapCameras,
+            ("csv", _) => Format::Euroc,
+            ("txt", Content::Trajectory(TrajectoryFormat::Kitti, _)) => Format::Kitti,
+            ("txt", Content::Trajectory(..)) => Format::Tum,
+            ("ply", _) => Format::Ply,
+            ("glb", _) => Format::Glb,
+            ("out", _) => Format::Bundler,
+            ("json", _) if name.contains("sfm_data") => Format::Openmvg,
+            ("json", _) => Format::Transforms,
+            _ => return None,
+        };
+        Some(format.into())
+    }
+
+    /// The format of what is written to a name without one.
+    ///
+    /// # Errors
+    /// A sentence, where there is none.
+    pub(super) fn usual(output: &Path, content: &Content) -> Result<Self, Failure> {
+        let looks_like_file = output.extension().is_some() && !output.is_dir();
+        match content {
+            Content::Model(read) if !looks_like_file => Ok(Self::Model(match read.format {
+                ModelFormat::ColmapBinary => ModelFormat::ColmapText,
+                _ => ModelFormat::ColmapBinary,
+            })),
+            _ => Err(Failure::usage(format!(
+                "{} names no format to write {} in: give --to",
+                output.display(),
+                content.format()
+            ))),
+        }
+    }
+}

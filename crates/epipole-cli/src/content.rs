@@ -1,0 +1,54 @@
+//! Content of a file or folder of another program: a model, cameras or a trajectory.
+
+use crate::failure::Failure;
+use crate::{files, model};
+use epipole_io::camera::{CameraFormat, Cameras, read_cameras};
+use epipole_io::model::ReadModel;
+use epipole_io::trajectory::{Trajectory, TrajectoryFormat, read_trajectory};
+use std::path::Path;
+
+/// Content of a file or folder.
+pub(crate) enum Content {
+    Model(ReadModel),
+    Cameras(CameraFormat, Cameras),
+    Trajectory(TrajectoryFormat, Trajectory),
+}
+
+impl Content {
+    /// Reads a folder as a model, and a file as the first that fits: a model, cameras, a trajectory.
+    ///
+    /// # Errors
+    /// A sentence that names the path and why it is none of them.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let of_model = match model::read(path) {
+            Ok(read) => return Ok(Self::Model(read)),
+            Err(failure) if path.is_dir() || failure.kind == "read" => return Err(failure),
+            Err(failure) => failure,
+        };
+        let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
+        let of_cameras = match read_cameras(&bytes, None) {
+            Ok((format, cameras)) => return Ok(Self::Cameras(format, cameras)),
+            Err(error) => error,
+        };
+        let of_trajectory = match read_trajectory(&bytes) {
+            Ok((format, trajectory)) => return Ok(Self::Trajectory(format, trajectory)),
+            Err(error) => error,
+        };
+        let whole = format!("{}: ", path.display());
+        let of_model = of_model.message.replacen(&whole, "", 1);
+        let message = format!(
+            "this is no model ({of_model}), no file of cameras ({of_cameras}) and no trajectory \
+             ({of_trajectory})"
+        );
+        Err(Failure::new("malformed", message).about(path))
+    }
+
+    /// Name of the format.
+    pub(crate) fn format(&self) -> String {
+        match self {
+            Self::Model(read) => read.format.name().to_owned(),
+            Self::Cameras(format, _) => format!("cameras of {}", format.name()),
+            Self::Trajectory(format, _) => format!("trajectory of {}", format.name()),
+        }
+    }
+}
