@@ -15,7 +15,7 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// Reads a folder as a model, and a file as the first that fits: a model, cameras, a trajectory.
+    /// Reads a folder as a model; a file as a model, cameras or a trajectory, whichever fits first.
     ///
     /// # Errors
     /// A sentence that names the path and why it is none of them.

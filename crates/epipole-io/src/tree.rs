@@ -5,15 +5,14 @@
 
 mod field;
 mod json;
+mod node;
 mod xml;
 mod yaml;
 
 pub(crate) use field::Field;
+pub(crate) use node::Node;
 
 use crate::Result;
-
-/// Maximum nesting of lists and maps.
-const MAX_DEPTH: usize = 64;
 
 /// Syntax of a file of keys and values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +39,7 @@ impl Syntax {
     ///
     /// # Errors
     /// [`Error::Malformed`](crate::Error::Malformed) with the line, for broken syntax and for
-    /// nesting beyond [`MAX_DEPTH`].
+    /// deep nesting.
     pub(crate) fn parse(self, text: &str) -> Result<Node> {
         match self {
             Self::Json => json::parse(text),
@@ -48,24 +47,4 @@ impl Syntax {
             Self::Yaml => yaml::parse(text),
         }
     }
-}
-
-/// A value and its place.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Node {
-    /// Line of the file, counted from 1. JSON has none.
-    pub(crate) line: Option<usize>,
-    pub(crate) value: Value,
-}
-
-/// Content of a node.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
-    /// `null`, an empty element.
-    Null,
-    /// A number, word or string, as text.
-    Scalar(String),
-    List(Vec<Node>),
-    /// Keys in the order of the file. XML repeats them; attributes come before elements.
-    Map(Vec<(String, Node)>),
 }

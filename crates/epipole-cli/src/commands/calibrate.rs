@@ -58,10 +58,6 @@ pub(crate) struct Arguments {
     /// Photographs by a second camera.
     #[arg(long, value_name = "IMAGES", num_args = 1..)]
     right: Vec<PathBuf>,
-    #[command(flatten)]
-    listing: ListingArguments,
-    #[command(flatten)]
-    reading: ReadArguments,
     /// The model of the lens.
     #[arg(long, value_enum, default_value = "brown")]
     model: Model,
@@ -71,6 +67,10 @@ pub(crate) struct Arguments {
     /// A file for the result, which `epipole undistort` reads.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -23,9 +23,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE.png")]
     png: Option<PathBuf>,
     #[command(flatten)]
-    size: SizeArguments,
-    #[command(flatten)]
     features: FeatureArguments,
+    #[command(flatten)]
+    size: SizeArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

@@ -27,16 +27,16 @@ pub(crate) struct Arguments {
     /// Frames of one size, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
     frames: Vec<PathBuf>,
-    #[command(flatten)]
-    listing: ListingArguments,
-    #[command(flatten)]
-    reading: ReadArguments,
     /// Number of frames to choose.
     #[arg(long, default_value_t = 20, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     num_frames: u32,
     /// The folder for the result.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

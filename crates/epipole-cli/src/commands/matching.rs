@@ -32,11 +32,11 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     camera: CameraFile,
     #[command(flatten)]
-    size: SizeArguments,
-    #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
+    #[command(flatten)]
+    size: SizeArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

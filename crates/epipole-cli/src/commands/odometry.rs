@@ -54,16 +54,12 @@ pub(crate) struct Arguments {
     #[arg(value_name = "FOLDER")]
     frames: PathBuf,
     #[command(flatten)]
-    listing: ListingArguments,
-    #[command(flatten)]
     camera: CameraArguments,
     /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
     /// MATLAB (FILE#NAME: one of several), for frames of its size. Frames stay distorted. Not for
     /// rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
-    #[command(flatten)]
-    size: SizeArguments,
     /// The folder of the right camera's frames: rectified, as many, in the same order.
     #[arg(long, value_name = "FOLDER", requires = "stereo_baseline_m")]
     right: Option<PathBuf>,
@@ -90,6 +86,10 @@ pub(crate) struct Arguments {
     /// --final-adjustment=false for the path as it was followed.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true", help_heading = "Reconstruction")]
     final_adjustment: bool,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    size: SizeArguments,
 }
 
 impl Arguments {

@@ -44,8 +44,6 @@ pub(crate) struct Arguments {
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
-    #[command(flatten)]
-    reading: ReadArguments,
     /// File of a stereo rig, of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB, for
     /// photographs of its two cameras, left and right.
     #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
@@ -73,6 +71,8 @@ pub(crate) struct Arguments {
     matching: MatchArguments,
     #[command(flatten)]
     robust: RobustArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 /// Rectification from any source.

@@ -38,8 +38,6 @@ pub(crate) struct Arguments {
     left: PathBuf,
     /// The right one.
     right: PathBuf,
-    #[command(flatten)]
-    reading: ReadArguments,
     /// The smallest disparity looked for, pixels.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(i32).range(-8192..=8191), allow_hyphen_values = true)]
     min_disparity: i32,
@@ -70,6 +68,8 @@ pub(crate) struct Arguments {
     sgm: SgmArguments,
     #[command(flatten)]
     bm: BmArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 impl Arguments {

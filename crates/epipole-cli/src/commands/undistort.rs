@@ -33,10 +33,6 @@ pub(crate) struct Arguments {
     /// Photographs of the calibrated camera, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    #[command(flatten)]
-    listing: ListingArguments,
-    #[command(flatten)]
-    reading: ReadArguments,
     /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
     /// MATLAB (FILE#NAME: one of several).
     #[arg(long, value_name = "FILE")]
@@ -50,6 +46,10 @@ pub(crate) struct Arguments {
     /// The folder for the result.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
+    #[command(flatten)]
+    listing: ListingArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {

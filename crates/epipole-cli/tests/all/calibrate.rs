@@ -197,7 +197,7 @@ fn a_rig_is_calibrated_and_its_photographs_made_flat() {
             path(&flat),
         ],
         2,
-        "two photographs",
+        "left0.png is given twice",
     );
 }
 

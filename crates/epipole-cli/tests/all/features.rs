@@ -149,7 +149,7 @@ fn files_that_are_no_whole_picture_are_named_in_a_sentence() {
         (
             &huge,
             "huge.png",
-            "400000000 pixels, more than the limit of",
+            "400.0 megapixels, more than --max-memory-gb 2 holds",
         ),
     ] {
         for arguments in [vec!["detect", file], vec!["match", &whole, file]] {

@@ -241,6 +241,8 @@ fn photographs_that_do_not_fit_together_are_refused() {
     };
     let empty = folder.file("empty");
     let missing = folder.file("missing.png");
+    let again = folder.file("photos/again.png");
+    std::fs::copy(&photo, &again).unwrap();
     for (files, expected) in [
         (vec![path(&photo)], "needs at least 2, but there is only 1"),
         (
@@ -252,7 +254,7 @@ fn photographs_that_do_not_fit_together_are_refused() {
             "no two photographs show enough of the same thing; blank1.png: it has only 0 features",
         ),
         (
-            vec![path(&photo), path(&photo)],
+            vec![path(&photo), path(&again)],
             "no two photographs can begin a reconstruction; 0.png: it was taken from nearly the same place",
         ),
         (

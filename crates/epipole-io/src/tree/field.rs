@@ -1,6 +1,6 @@
 //! Values by their keys, with errors that name key and line.
 
-use super::{Node, Value};
+use super::node::{Node, Value};
 use crate::{Error, Result};
 
 /// A node and the keys that lead to it.

@@ -1,6 +1,6 @@
 //! JSON as a tree. Source: RFC 8259.
 
-use super::{Node, Value};
+use super::node::{Node, Value};
 use crate::{Error, Result};
 use serde_json::Value as Json;
 

@@ -1,6 +1,6 @@
 //! XML as a tree: attributes and child elements are keys. Source: W3C XML 1.0.
 
-use super::{MAX_DEPTH, Node, Value};
+use super::node::{MAX_DEPTH, Node, Value};
 use crate::{Error, Result};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};

@@ -1,7 +1,7 @@
 //! YAML as a tree, OpenCV's dialect included. Source: YAML 1.2.2, and OpenCV's
 //! `modules/core/src/persistence_yml.cpp`.
 
-use super::{MAX_DEPTH, Node, Value};
+use super::node::{MAX_DEPTH, Node, Value};
 use crate::{Error, Result};
 use saphyr_parser::{Event, Parser, ScalarStyle};
 

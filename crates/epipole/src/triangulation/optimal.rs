@@ -118,9 +118,9 @@ fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64
 /// * `cam1`, `cam2`: the cameras
 /// * `pixel1`, `pixel2`: where the point is seen
 ///
-/// The optimum if pixel errors are normal and equal in both images; distorted pixels are
-/// straightened first ([`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel)). The pixels are first moved onto
-/// epipolar lines by [`correct_matches`]; then their rays meet.
+/// The optimum if pixel errors are normal and equal in both images. Pixels are straightened by
+/// [`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel) and moved onto epipolar lines by
+/// [`correct_matches`]; then their rays meet.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras are at the same place, or both pixels are epipoles, so that

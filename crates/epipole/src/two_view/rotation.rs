@@ -15,8 +15,8 @@ use nalgebra::{Matrix3, Point2, Vector3};
 /// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is two matches; the error is the distance in image 2 from the projection of the turned
-/// ray, pixels, to first order through a lens; refinement aligns the rays of the inliers. Equal matches count once, and those that meet in a
-/// pixel have few votes together, as for homographies.
+/// ray, pixels, to first order through a lens; refinement aligns the rays of the inliers. Equal
+/// matches count once, and those that meet in a pixel have few votes together, as for homographies.
 ///
 /// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
 #[derive(Debug, Clone)]
@@ -27,12 +27,12 @@ pub struct RotationEstimator {
     geometry: Geometry,
 }
 
-/// How errors are measured.
+/// Data that errors are measured with.
 #[derive(Debug, Clone)]
 enum Geometry {
     /// K of both cameras.
     Pinhole([Intrinsics; 2]),
-    /// What camera 2 sees of each match.
+    /// Observation of each match by camera 2.
     Lens(Vec<Option<Observation>>),
 }
 

@@ -22,8 +22,6 @@ pub(super) struct InputArguments {
     #[arg(required = true, value_name = "FILES|FOLDER")]
     photos: Vec<PathBuf>,
     #[command(flatten)]
-    listing: ListingArguments,
-    #[command(flatten)]
     camera: CameraArguments,
     /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for
     /// one that is to be told by --camera, by its EXIF data, or to be guessed.
@@ -38,6 +36,8 @@ pub(super) struct InputArguments {
     /// that know no others. The border of a fisheye is lost.
     #[arg(long, requires = "camera_file")]
     undistort: bool,
+    #[command(flatten)]
+    listing: ListingArguments,
     #[command(flatten)]
     size: SizeArguments,
 }

@@ -62,8 +62,6 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     pub(super) known: CameraFile,
     #[command(flatten)]
-    pub(super) size: SizeArguments,
-    #[command(flatten)]
     pub(super) features: FeatureArguments,
     #[command(flatten)]
     pub(super) matching: MatchArguments,
@@ -71,6 +69,8 @@ pub(crate) struct Arguments {
     pub(super) robust: RobustArguments,
     #[command(flatten)]
     judging: JudgingArguments,
+    #[command(flatten)]
+    pub(super) size: SizeArguments,
 }
 
 /// Options of the choice among models.

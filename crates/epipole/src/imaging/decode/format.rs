@@ -100,6 +100,19 @@ pub(super) fn bad(why: impl Into<String>) -> Error {
     Error::BadImage { why: why.into() }
 }
 
+/// # Errors
+/// For no pixels, and for more than the limit.
+pub(super) fn check_size(width: u32, height: u32, max_pixels: u64) -> Result<(), Error> {
+    match u64::from(width) * u64::from(height) {
+        0 => Err(bad("it has no pixels")),
+        got if got > max_pixels => Err(Error::TooManyPixels {
+            got,
+            limit: max_pixels,
+        }),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,7 +9,7 @@ mod tiff;
 
 pub use self::range::PixelRange;
 
-use self::format::{Format, bad, recognize};
+use self::format::{Format, bad, check_size, recognize};
 use self::raster::Raster;
 use super::exif::Facts;
 use super::gray::GrayImage32;
@@ -205,19 +205,6 @@ fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_METADATA_BYTES);
     limits
-}
-
-/// # Errors
-/// For no pixels, and for more than the limit.
-fn check_size(width: u32, height: u32, max_pixels: u64) -> Result<()> {
-    match u64::from(width) * u64::from(height) {
-        0 => Err(bad("it has no pixels")),
-        got if got > max_pixels => Err(Error::TooManyPixels {
-            got,
-            limit: max_pixels,
-        }),
-        _ => Ok(()),
-    }
 }
 
 /// Error of a decoder in words.

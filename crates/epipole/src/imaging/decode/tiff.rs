@@ -1,6 +1,6 @@
 //! TIFF files, of which the first image is read.
 
-use super::format::{bad, unsupported};
+use super::format::{bad, check_size, unsupported};
 use super::raster::{Raster, Samples};
 use crate::{Error, Result};
 use image::metadata::Orientation;
@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation
         return Err(unsupported("camera raw (TIFF)"));
     }
     let (width, height) = decoder.dimensions().map_err(said)?;
-    super::check_size(width, height, max_pixels)?;
+    check_size(width, height, max_pixels)?;
     let color = decoder.colortype().map_err(said)?;
     let (channels, depth) = match color {
         ColorType::Gray(depth) => (1, depth),

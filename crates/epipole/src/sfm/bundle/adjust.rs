@@ -27,7 +27,8 @@ use nalgebra::Translation3;
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
 /// camera or point that is not there, for a lens beyond the number of cameras and sensors, a
 /// standard deviation that is not positive, or for a loss that
-/// [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses, [`Error::NotFinite`] if a pixel,
+/// [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses, [`Error::Degenerate`] if cameras
+/// of one lens number have different lenses, [`Error::NotFinite`] if a pixel,
 /// a coefficient of a lens, a known position or the cost at the start is not finite,
 /// [`Error::Canceled`]; the bundle is then the best found so far.
 ///
@@ -99,7 +100,6 @@ pub fn adjust_bundle(
         });
     }
     let lenses = bundle.lenses()?;
-    lenses.iter().try_for_each(Lens::check)?;
     // Room for more coefficients costs time, so it is taken only where some lens has more.
     match (lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
         true => adjust::<OF_ANY>(bundle, pairs, &lenses, options, monitor),

@@ -70,7 +70,8 @@ impl Bundle {
     /// The lenses by number; numbers without a camera have no distortion.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] if cameras of one number have different lenses.
+    /// [`Error::Degenerate`] if cameras of one number have different lenses, [`Error::NotFinite`]
+    /// for a coefficient.
     pub(super) fn lenses(&self) -> Result<Vec<Lens>> {
         let mut lenses: Vec<Option<Lens>> = vec![None; self.num_lenses()];
         let of_cameras = self.cameras.iter().map(|camera| camera.camera.lens);
@@ -79,6 +80,7 @@ impl Bundle {
             .map(|(n, lens)| (self.lens_of(n), lens));
         let of_sensors = (self.sensors.iter()).map(|sensor| (sensor.lens, sensor.camera.lens));
         for (number, lens) in of_cameras.chain(of_sensors) {
+            lens.check()?;
             if *lenses[number].get_or_insert(lens) != lens {
                 return Err(Error::Degenerate {
                     what: "a lens that cameras of a bundle share",
