@@ -73,6 +73,11 @@ pub(crate) struct Arguments {
     reading: ReadArguments,
 }
 
+/// A rig is wrong if its error is so many times that of its worse camera,
+const MUCH_WORSE: f64 = 4.0;
+/// which is at least this, pixels: noise of corners.
+const LEAST_ERROR_PX: f64 = 0.2;
+
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let (columns, rows) = arguments.board;
     let pattern = match arguments.pattern {
@@ -108,6 +113,14 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             &mut (),
         )?;
         warnings.extend(right.warnings("right camera: "));
+        let alone_px = left.found.rms_px.max(right.found.rms_px);
+        if rig.rms_px > MUCH_WORSE * alone_px.max(LEAST_ERROR_PX) {
+            warnings.push(format!(
+                "the two cameras do not agree: {:.2} px together, where each alone has at most {alone_px:.2} px. Are the \
+                 photographs of equal moments and in equal order, and did nothing move between the cameras?",
+                rig.rms_px
+            ));
+        }
         fields.insert("right".to_owned(), Value::Object(right.fields()));
         fields.insert("stereo".to_owned(), stereo(&rig));
         report = right.rows(report.row("right camera", ""));

@@ -262,3 +262,28 @@ fn the_photograph_of_a_telephone_is_downscaled_whatever_its_size() {
     let why = "the image has 64.1 megapixels, more than --max-memory-gb 0.3 holds: 0.4 would do";
     fails(&folder, &detect, 1, why);
 }
+
+#[test]
+fn a_rig_whose_right_camera_is_upside_down_knows_its_baseline() {
+    let mut arguments = vec!["calibrate".to_owned()];
+    for side in ["left", "right"] {
+        if side == "right" {
+            arguments.push("--right".to_owned());
+        }
+        for n in 0..8 {
+            let Some(file) = field(&format!("05/{side}0{n}.png")) else {
+                return;
+            };
+            arguments.push(path(&file).to_owned());
+        }
+    }
+    let board = ["--board", "7x5", "--square-m", "0.03"].map(str::to_owned);
+    arguments.extend(board);
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let result = json(&arguments);
+    let stereo = &result["stereo"];
+    let [baseline_m, rms_px] = ["baseline_m", "rms_px"].map(|name| stereo[name].as_f64().unwrap());
+    assert!((baseline_m - 0.1202).abs() < 0.0006, "{baseline_m}");
+    assert!(rms_px < 0.1, "{rms_px}");
+    assert!(!result["warnings"].to_string().contains("do not agree"));
+}

@@ -17,6 +17,7 @@ mod advice;
 mod blobs;
 mod board;
 mod board_search;
+mod board_turns;
 mod calibrate;
 mod calibrated_view;
 mod chessboard;

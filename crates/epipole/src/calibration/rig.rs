@@ -1,5 +1,6 @@
 //! Relative pose of two calibrated cameras.
 
+use super::board_turns::board_turns;
 use super::calibrate::{WHAT, check, marks, observations};
 use super::problem::{Problem, SHARED, State, camera_numbers, pose_state, strict};
 use super::start::board_pose;
@@ -29,8 +30,15 @@ pub struct RigCalibration {
     pub pairs_rms_px: Vec<Option<f64>>,
 }
 
+/// Boards count as turned if the disagreement of all pairs falls below this share.
+const CLEARLY_LESS: f64 = 0.5;
+
 /// The motion between two calibrated cameras that minimizes the reprojection errors of a board that
 /// both saw at the same time. The cameras stay as they are.
+///
+/// A board that looks the same after half or a quarter of a turn, such as one of 7 × 5 corners, may
+/// be counted from another corner in the right view than in the left one, as by a camera that is
+/// mounted upside down. Of the turns those are taken with which all pairs agree.
 ///
 /// * `cameras`: left and right, from [`calibrate`](super::calibrate)
 /// * `left`, `right`: views of the same moments, in the same order; `None` where no board was found
@@ -106,23 +114,26 @@ pub fn calibrate_rig(
             board_pose(board, in_right, &cameras[1])?,
         ]);
     }
-    let motions: Vec<RigidTransform> = poses.iter().map(|[l, r]| r * l.inverse()).collect();
-    let disagreement = |a: &RigidTransform| -> f64 {
-        let off = |b: &RigidTransform| {
-            a.rotation.angle_to(&b.rotation)
-                + (a.translation.vector - b.translation.vector).norm()
-                    / b.translation.vector.norm().max(f64::MIN_POSITIVE)
-        };
-        motions.iter().map(off).sum()
-    };
-    let start = motions
+    // For each pair the motion by each turn of the right board.
+    let turns = board_turns(board);
+    let motions: Vec<Vec<RigidTransform>> = poses
         .iter()
-        .min_by(|a, b| disagreement(a).total_cmp(&disagreement(b)))
-        .copied()
-        .unwrap_or_else(RigidTransform::identity);
-    let eyes = [0, 1].map(|eye| pairs.iter().map(|pair| pair[eye]).collect::<Vec<_>>());
-    let mut seen = observations(&eyes[0], 0);
-    seen.extend(observations(&eyes[1], 1));
+        .map(|[l, r]| {
+            let motion = |board_from_turned| r * board_from_turned * l.inverse();
+            turns
+                .iter()
+                .map(|turn| motion(turn.board_from_turned))
+                .collect()
+        })
+        .collect();
+    let (start, chosen) = agreed(&motions);
+    let in_left: Vec<&BoardView> = pairs.iter().map(|[left, _]| *left).collect();
+    let in_right = pairs.iter().zip(&chosen);
+    let in_right: Vec<BoardView> = in_right
+        .map(|([_, right], &n)| turns[n].view(right))
+        .collect();
+    let mut seen = observations(&in_left, 0);
+    seen.extend(observations(&in_right.iter().collect::<Vec<_>>(), 1));
     let mut held = [true; SHARED];
     held[..6].fill(false);
     let kinds = cameras.each_ref().map(|camera| camera.lens.kind());
@@ -160,6 +171,38 @@ pub fn calibrate_rig(
     })
 }
 
+/// The motion that the pairs agree on best, and the turn of each pair.
+///
+/// * `motions`: of each pair by each turn, without one first
+fn agreed(motions: &[Vec<RigidTransform>]) -> (RigidTransform, Vec<usize>) {
+    let off = |a: &RigidTransform, b: &RigidTransform| {
+        a.rotation.angle_to(&b.rotation)
+            + (a.translation.vector - b.translation.vector).norm()
+                / b.translation.vector.norm().max(f64::MIN_POSITIVE)
+    };
+    let nearest = |a: &RigidTransform, of_pair: &[RigidTransform]| {
+        let offs = of_pair.iter().map(|b| off(a, b)).enumerate();
+        offs.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+    };
+    let best = |num_turns: usize| {
+        let allowed = || motions.iter().map(|of_pair| &of_pair[..num_turns]);
+        let disagreement = |a| allowed().map(|of_pair| nearest(a, of_pair).1).sum::<f64>();
+        let all = allowed().flatten().map(|a| (disagreement(a), *a));
+        let found = all.min_by(|a, b| a.0.total_cmp(&b.0));
+        found.unwrap_or((0.0, RigidTransform::identity()))
+    };
+    let num_turns = motions.first().map_or(1, Vec::len);
+    let (as_found, turned) = (best(1), best(num_turns));
+    let (start, num_turns) = match turned.0 < CLEARLY_LESS * as_found.0 {
+        true => (turned.1, num_turns),
+        false => (as_found.1, 1),
+    };
+    let chosen = motions
+        .iter()
+        .map(|of_pair| nearest(&start, &of_pair[..num_turns]).0);
+    (start, chosen.collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Pattern;
@@ -167,6 +210,32 @@ mod tests {
     use super::*;
     use crate::camera::{Intrinsics, Lens, LensKind};
     use nalgebra::{Point2, Vector3};
+
+    #[test]
+    fn boards_counted_from_other_corners_agree() {
+        let camera = Camera::pinhole(Intrinsics::centered(600.0, 640, 480).unwrap(), 640, 480);
+        // The right camera is upside down.
+        let truth =
+            RigidTransform::new(Vector3::new(0.12, 0.01, 0.0), Vector3::new(0.02, 0.0, 3.1));
+        for (columns, rows) in [(7, 5), (6, 6)] {
+            let board = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
+            let turns = board_turns(&board);
+            let poses = poses(&board, 6, 15.0, 2);
+            let left: Vec<_> = (poses.iter())
+                .map(|pose| Some(true_view(&board, &camera, pose)))
+                .collect();
+            // Every view is counted from a corner of its own.
+            let right = poses.iter().enumerate().map(|(n, pose)| {
+                let view = true_view(&board, &camera, &(truth * pose));
+                Some(turns[n % turns.len()].view(&view))
+            });
+            let right: Vec<_> = right.collect();
+            let found = calibrate_rig(&board, &[camera; 2], &left, &right, &mut ()).unwrap();
+            assert!(found.rms_px < 1e-6, "{columns} × {rows}: {}", found.rms_px);
+            let off = found.right_from_left.inverse() * truth;
+            assert!(off.rotation.angle() < 1e-7 && off.translation.vector.norm() < 1e-8);
+        }
+    }
 
     #[test]
     fn two_different_cameras_find_each_other() {
