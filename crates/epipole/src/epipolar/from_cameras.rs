@@ -50,7 +50,7 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::epipolar::fundamental_from_cameras;
 /// use nalgebra::{Point3, Vector3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;

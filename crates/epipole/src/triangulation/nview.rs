@@ -29,7 +29,7 @@ use nalgebra::{Point2, Point3, Vector3};
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::triangulation::triangulate_nview_dlt;
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;

@@ -53,7 +53,7 @@ pub fn triangulation_angle_rad(
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::camera::{Intrinsics, PosedCamera, RigidTransform};
+/// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::triangulation::point_covariance;
 /// use nalgebra::Point3;
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
