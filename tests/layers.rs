@@ -74,6 +74,20 @@ const MODULES_OF_SCENES: &[&str] = &[
     "photograph",
 ];
 
+/// The modules of the readers and writers, likewise.
+const MODULES_OF_IO: &[&str] = &[
+    "error",
+    "bytes",
+    "text",
+    "tree",
+    "rotation",
+    "colmap",
+    "camera",
+    "trajectory",
+    "cloud",
+    "model",
+];
+
 fn manifest(name: &str) -> toml::Table {
     let path = root().join("crates").join(name).join("Cargo.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -226,6 +240,7 @@ fn check_modules(name: &str, modules: &[&str]) {
 fn modules_use_only_the_modules_before_them() {
     check_modules("epipole", MODULES);
     check_modules("epipole-scenes", MODULES_OF_SCENES);
+    check_modules("epipole-io", MODULES_OF_IO);
 }
 
 /// The code without string literals, whose words are not imports.

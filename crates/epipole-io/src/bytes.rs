@@ -101,3 +101,8 @@ impl<'a> Bytes<'a> {
         }
     }
 }
+
+/// Appends numbers, little-endian.
+pub(crate) fn extend(bytes: &mut Vec<u8>, values: &[f64]) {
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+}

@@ -10,7 +10,7 @@ mod kalibr;
 mod matlab;
 mod metashape;
 mod named;
-mod nerfstudio;
+pub(crate) mod nerfstudio;
 mod opencv;
 mod opencv_write;
 mod parts;

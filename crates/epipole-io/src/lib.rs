@@ -8,6 +8,7 @@
 mod bytes;
 pub mod camera;
 pub mod cloud;
+mod colmap;
 #[cfg(test)]
 #[expect(
     dead_code,
@@ -19,6 +20,7 @@ mod error;
 #[cfg(test)]
 mod fuzz;
 pub mod model;
+mod rotation;
 mod text;
 pub mod trajectory;
 mod tree;

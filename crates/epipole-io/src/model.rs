@@ -2,22 +2,19 @@
 
 mod bundler;
 mod cloud;
-pub(crate) mod colmap_binary;
-pub(crate) mod colmap_camera;
+mod colmap_binary;
 mod colmap_parts;
-pub(crate) mod colmap_text;
+mod colmap_text;
 #[cfg(test)]
 mod example;
 mod format;
 #[cfg(test)]
 mod fuzz;
 mod gltf;
-mod json;
 mod nerfstudio;
 mod notes;
 mod openmvg;
 mod reconstruction;
-mod rotation;
 
 pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
 

@@ -4,8 +4,7 @@
 
 use super::named::{Cameras, NamedCamera};
 use crate::Result;
-use crate::model::colmap_binary::read_cameras_binary;
-use crate::model::colmap_text::{read_cameras_text, write_cameras_text};
+use crate::colmap::cameras::{read_cameras_binary, read_cameras_text, write_cameras_text};
 use epipole::camera::Camera;
 
 /// Whether a first line with content is `ID MODEL WIDTH …`.

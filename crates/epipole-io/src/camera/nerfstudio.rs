@@ -3,7 +3,7 @@
 //! `fl_x`, `fl_y`, `cx`, `cy`, `w`, `h` and the lens stand at the top, or in each frame; a frame's
 //! camera has the name of its `file_path`. Without `fl_x`, `camera_angle_x` is the horizontal field
 //! of view, radians. The center of the first pixel is at (0.5, 0.5), so half a pixel is subtracted
-//! from `cx` and `cy`. Poses are not read here.
+//! from `cx` and `cy`.
 //!
 //! Source: nerfstudio's documentation, "Data conventions"; instant-ngp, `scripts/colmap2nerf.py`.
 
@@ -51,6 +51,17 @@ impl<'a> Keys<'a> {
     }
 }
 
+/// The camera of a frame.
+///
+/// * `document`: the whole file, for what the frame does not have
+///
+/// # Errors
+/// [`Error::Malformed`](crate::Error::Malformed) without a size or focal length,
+/// [`Error::Unsupported`](crate::Error::Unsupported) for other lenses.
+pub(crate) fn camera_of_frame(frame: &Field, document: &Field) -> Result<Camera> {
+    camera(&Keys([frame, document]), None)
+}
+
 fn camera(keys: &Keys, size: Option<Size>) -> Result<Camera> {
     let (width, height) = match (keys.get("w"), keys.get("h")) {
         (Some(width), Some(height)) => (width.pixels()?, height.pixels()?),
@@ -63,9 +74,12 @@ fn camera(keys: &Keys, size: Option<Size>) -> Result<Camera> {
             None => Ok(keys.number(angle)?.map(of_angle)),
         }
     };
-    let fx = focal("fl_x", "camera_angle_x", width)?
-        .ok_or_else(|| keys.0[1].missing("fl_x", "focal length in pixels, or camera_angle_x"))?;
-    let fy = focal("fl_y", "camera_angle_y", height)?.unwrap_or(fx);
+    let fx = focal("fl_x", "camera_angle_x", width)?;
+    let fy = focal("fl_y", "camera_angle_y", height)?;
+    let (Some(fx), Some(fy)) = (fx.or(fy), fy.or(fx)) else {
+        let expected = "focal length in pixels, or camera_angle_x";
+        return Err(keys.0[1].missing("fl_x", expected));
+    };
     let cx = keys.number("cx")?.unwrap_or(f64::from(width) / 2.0);
     let cy = keys.number("cy")?.unwrap_or(f64::from(height) / 2.0);
     Ok(Camera {

@@ -1,18 +1,16 @@
 //! Parts that several formats share: K, sizes, lenses in OpenCV's order, rotations.
 
+use crate::rotation::{FOUR_DIGITS, rotation_from_matrix};
 use crate::tree::Field;
 use crate::{Error, Result};
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
-use epipole::math::svd3;
-use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Translation3, UnitQuaternion};
 
 /// Width and height, pixels.
 pub(super) type Size = (u32, u32);
 
 /// Largest skew relative to the focal length that is rounding.
 const ROUNDED_SKEW: f64 = 1e-9;
-/// Largest entry of RᵀR − I for a matrix that is written with few digits.
-const ROUNDED_ROTATION: f64 = 1e-3;
 
 /// The size of a file without one: that of the images, if the caller knows it.
 ///
@@ -107,13 +105,7 @@ pub(super) fn matrix_rotation(field: &Field, numbers: &[f64]) -> Result<UnitQuat
         return Err(no_rotation());
     }
     let matrix = Matrix3::from_row_slice(numbers);
-    let off = (matrix.transpose() * matrix - Matrix3::identity()).amax();
-    if !(off < ROUNDED_ROTATION && matrix.determinant() > 0.0) {
-        return Err(no_rotation());
-    }
-    let axes = svd3(&matrix);
-    let nearest = Rotation3::from_matrix_unchecked(axes.u * axes.v.transpose());
-    Ok(UnitQuaternion::from_rotation_matrix(&nearest))
+    rotation_from_matrix(&matrix, FOUR_DIGITS).ok_or_else(no_rotation)
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@
 //!
 //! Source: Snavely, "Bundler v0.4 User's Manual", §"Output format and scene representation".
 
-use super::rotation::{half_turn, pose, rotation_from_matrix};
 use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
 use crate::text::number;
 use crate::{Error, Result, text};
 use epipole::camera::{Camera, Distortion, Intrinsics, Lens, LensKind, RigidTransform};
@@ -94,7 +94,7 @@ pub(super) fn read(
             entries.push(None);
             continue;
         }
-        let rotation = rotation_from_matrix(&matrix)
+        let rotation = rotation_from_matrix(&matrix, FOUR_DIGITS)
             .ok_or_else(|| Error::malformed(format!("camera {index} has no rotation")))?;
         let pose = pose(half_turn() * rotation, half_turn() * translation);
         entries.push(Some(Entry {

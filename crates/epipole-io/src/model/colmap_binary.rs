@@ -5,62 +5,16 @@
 //! Source: COLMAP's documentation, "Output format", "Binary file format"; COLMAP 4,
 //! `src/colmap/scene/reconstruction_io_binary.cc`.
 
-use super::colmap_camera::{camera_from_colmap, colmap_from_camera, model_of_id};
 use super::colmap_parts::{ImagePart, Parts, PointPart};
 use super::{Model, ModelFile};
-use crate::bytes::Bytes;
+use crate::bytes::{Bytes, extend};
+use crate::colmap::cameras::{read_cameras_binary, write_cameras_binary};
 use crate::{Error, Result};
-use epipole::camera::{Camera, pixel_from_colmap, pixel_to_colmap};
+use epipole::camera::{pixel_from_colmap, pixel_to_colmap};
 use nalgebra::{Point2, Point3};
 
 /// Point ID of a keypoint without one.
 const NO_POINT: u64 = u64::MAX;
-
-/// Cameras of `cameras.bin` with their IDs.
-///
-/// # Errors
-/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a model that the library does
-/// not have.
-pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<(u32, Camera)>> {
-    let mut bytes = Bytes::new(bytes);
-    let mut cameras = Vec::new();
-    for _ in 0..bytes.count("cameras", 24)? {
-        let id = bytes.u32()?;
-        let (name, num_params) = model_of_id(bytes.i32()?)?;
-        let [width, height] = [bytes.u64()?, bytes.u64()?];
-        let params = (0..num_params).map(|_| bytes.f64());
-        let params = params.collect::<Result<Vec<f64>>>()?;
-        let camera = camera_from_colmap(name, width, height, &params);
-        cameras.push((id, camera.map_err(|error| in_camera(id, error))?));
-    }
-    bytes.end()?;
-    Ok(cameras)
-}
-
-fn in_camera(id: u32, error: Error) -> Error {
-    match error {
-        Error::Unsupported { message } => Error::Unsupported { message },
-        other => Error::malformed(format!("camera {id}: {other}")),
-    }
-}
-
-/// Bytes of `cameras.bin`; IDs count from 1.
-pub(crate) fn write_cameras_binary(cameras: &[Camera]) -> Vec<u8> {
-    let mut bytes = (cameras.len() as u64).to_le_bytes().to_vec();
-    for (index, camera) in cameras.iter().enumerate() {
-        let model = colmap_from_camera(camera);
-        bytes.extend((index as u32 + 1).to_le_bytes());
-        bytes.extend(model.id.to_le_bytes());
-        bytes.extend(u64::from(camera.width).to_le_bytes());
-        bytes.extend(u64::from(camera.height).to_le_bytes());
-        extend(&mut bytes, &model.params);
-    }
-    bytes
-}
-
-fn extend(bytes: &mut Vec<u8>, values: &[f64]) {
-    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-}
 
 fn read_images(bytes: &[u8]) -> Result<Vec<ImagePart>> {
     let mut bytes = Bytes::new(bytes);

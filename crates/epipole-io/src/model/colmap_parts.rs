@@ -1,8 +1,8 @@
 //! COLMAP's three lists, with the IDs that join them.
 
 use super::notes::not_finite;
-use super::rotation::{pose, rotation_from_quaternion};
 use super::{Model, ModelImage, ModelPoint};
+use crate::rotation::{pose, rotation_from_quaternion};
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use nalgebra::{Point2, Point3};

@@ -5,106 +5,15 @@
 //!
 //! Source: COLMAP's documentation, "Output format", "Text format".
 
-use super::colmap_camera::{camera_from_colmap, colmap_from_camera};
 use super::colmap_parts::{ImagePart, Parts, PointPart};
 use super::{Model, ModelFile};
+use crate::colmap::cameras::{read_cameras_text, write_cameras_text};
+use crate::colmap::words::{Words, content, is_skipped};
 use crate::text::number;
 use crate::{Error, Result, text};
-use epipole::camera::{Camera, pixel_from_colmap, pixel_to_colmap};
+use epipole::camera::{pixel_from_colmap, pixel_to_colmap};
 use nalgebra::{Point2, Point3};
 use std::fmt::Write;
-use std::str::SplitAsciiWhitespace;
-
-/// Words of a line, taken one by one.
-struct Words<'a> {
-    line: usize,
-    words: SplitAsciiWhitespace<'a>,
-}
-
-impl<'a> Words<'a> {
-    fn new(line: usize, text: &'a str) -> Self {
-        let words = text.split_ascii_whitespace();
-        Self { line, words }
-    }
-
-    /// * `what`: the value, for the error if it is missing
-    fn word(&mut self, what: &str) -> Result<&'a str> {
-        (self.words.next()).ok_or_else(|| Error::at(self.line, format!("{what} is missing")))
-    }
-
-    fn number(&mut self, what: &str) -> Result<f64> {
-        let word = self.word(what)?;
-        number(self.line, word)
-    }
-
-    fn numbers<const N: usize>(&mut self, what: &str) -> Result<[f64; N]> {
-        let mut numbers = [0.0; N];
-        for value in &mut numbers {
-            *value = self.number(what)?;
-        }
-        Ok(numbers)
-    }
-
-    /// A number that may be NaN or infinite.
-    fn any_number(&mut self, what: &str) -> Result<f64> {
-        let word = self.word(what)?;
-        (word.parse()).map_err(|_| Error::at(self.line, format!("\"{word}\" is not a number")))
-    }
-
-    fn whole<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
-        let word = self.word(what)?;
-        (word.parse()).map_err(|_| Error::at(self.line, format!("{what} cannot be \"{word}\"")))
-    }
-}
-
-/// Whether COLMAP skips a line.
-fn is_skipped(line: &str) -> bool {
-    let line = line.trim();
-    line.is_empty() || line.starts_with('#')
-}
-
-/// The lines with content and their numbers, counted from 1.
-fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
-    lines.filter(|(_, line)| !is_skipped(line))
-}
-
-/// Cameras of `cameras.txt` with their IDs.
-///
-/// # Errors
-/// [`Error::Malformed`] with the line, [`Error::Unsupported`] for a model that the library does not
-/// have.
-pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<(u32, Camera)>> {
-    let mut cameras = Vec::new();
-    for (line, content) in content(text) {
-        let mut words = Words::new(line, content);
-        let id = words.whole("the camera ID")?;
-        let name = words.word("the camera model")?;
-        let [width, height] = [words.whole("the width")?, words.whole("the height")?];
-        let params = words.words.map(|word| number(line, word));
-        let params = params.collect::<Result<Vec<f64>>>()?;
-        let camera = camera_from_colmap(name, width, height, &params)
-            .map_err(|error| error.on_line(line))?;
-        cameras.push((id, camera));
-    }
-    Ok(cameras)
-}
-
-/// Text of `cameras.txt`; IDs count from 1.
-pub(crate) fn write_cameras_text(cameras: &[Camera]) -> String {
-    // Writing to a string cannot fail.
-    let mut text = String::from("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n");
-    for (index, camera) in cameras.iter().enumerate() {
-        let Camera { width, height, .. } = camera;
-        let model = colmap_from_camera(camera);
-        let _ = write!(text, "{} {} {width} {height}", index + 1, model.name);
-        for param in &model.params {
-            let _ = write!(text, " {param}");
-        }
-        text.push('\n');
-    }
-    text
-}
 
 /// The name behind the first nine words.
 fn name_of(line: &str) -> &str {
@@ -133,7 +42,7 @@ fn read_images(text: &str) -> Result<Vec<ImagePart>> {
         let (line, second) = lines.next().unwrap_or((line, ""));
         let mut words = Words::new(line, second);
         let mut keypoints = Vec::new();
-        while let Some(u) = words.words.next() {
+        while let Some(u) = words.next() {
             let pixel = Point2::new(number(line, u)?, words.number("y of a keypoint")?);
             words.whole::<i64>("the point ID of a keypoint")?;
             keypoints.push(pixel_from_colmap(&pixel));
@@ -165,7 +74,7 @@ fn read_points(text: &str) -> Result<Vec<PointPart>> {
         }
         let error_px = words.any_number("the error")?;
         let mut track = Vec::new();
-        while let Some(image) = words.words.next() {
+        while let Some(image) = words.next() {
             let image = (image.parse())
                 .map_err(|_| Error::at(line, format!("an image ID cannot be \"{image}\"")))?;
             track.push((image, words.whole("the keypoint of an observation")?));

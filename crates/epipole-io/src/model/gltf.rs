@@ -5,9 +5,9 @@
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification".
 
-use super::rotation::half_turn;
 use super::{Model, ModelImage};
 use crate::Result;
+use crate::rotation::half_turn;
 use epipole::camera::Camera;
 use nalgebra::{Point2, Point3, Vector3};
 use serde_json::{Value, json};

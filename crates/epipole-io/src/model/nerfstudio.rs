@@ -7,12 +7,13 @@
 //! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
 //! equation of the lens.
 
-use super::json::{Node, document};
-use super::rotation::{half_turn, pose, rotation_from_matrix};
 use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use crate::camera::nerfstudio::camera_of_frame;
 use crate::cloud::read_ply;
-use crate::{Error, Result};
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
+use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
+use crate::tree::{Field, Syntax};
+use crate::{Error, Result, text};
+use epipole::camera::{Camera, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -20,102 +21,23 @@ use std::collections::BTreeSet;
 /// Usual name of the file of points.
 const POINTS: &str = "sparse_pc.ply";
 
-/// Values of a frame, or else of the document.
-struct Values<'a> {
-    frame: &'a Node<'a>,
-    document: &'a Node<'a>,
-}
-
-impl<'a> Values<'a> {
-    fn find(&self, key: &str) -> Option<Node<'a>> {
-        self.frame.find(key).or_else(|| self.document.find(key))
-    }
-
-    fn number(&self, key: &str) -> Result<Option<f64>> {
-        self.find(key).map(|node| node.number()).transpose()
-    }
-
-    fn side(&self, key: &str) -> Result<u32> {
-        let node = self.find(key).ok_or_else(|| {
-            Error::malformed(format!(
-                "{key} is missing: the size of the images is needed as w and h"
-            ))
-        })?;
-        let side = u32::try_from(node.whole()?).ok().filter(|side| *side > 0);
-        side.ok_or_else(|| node.error("is no size of an image"))
-    }
-
-    fn camera(&self) -> Result<Camera> {
-        let (width, height) = (self.side("w")?, self.side("h")?);
-        let sizes = [f64::from(width), f64::from(height)];
-        let focal = |key: &str, angle: &str, size: f64| -> Result<Option<f64>> {
-            let from_angle = self.number(angle)?;
-            let from_angle = from_angle.map(|angle| 0.5 * size / libm::tan(0.5 * angle));
-            Ok(self.number(key)?.or(from_angle))
-        };
-        let fx = focal("fl_x", "camera_angle_x", sizes[0])?;
-        let fy = focal("fl_y", "camera_angle_y", sizes[1])?;
-        let (Some(fx), Some(fy)) = (fx.or(fy), fy.or(fx)) else {
-            return Err(Error::malformed("fl_x and camera_angle_x are missing"));
-        };
-        let cx = self.number("cx")?.unwrap_or(sizes[0] / 2.0);
-        let cy = self.number("cy")?.unwrap_or(sizes[1] / 2.0);
-        Ok(Camera {
-            width,
-            height,
-            intrinsics: Intrinsics::from_colmap([fx, fy, cx, cy])?,
-            lens: self.lens()?,
-        })
-    }
-
-    fn lens(&self) -> Result<Lens> {
-        let of = |key: &str| Ok::<f64, Error>(self.number(key)?.unwrap_or(0.0));
-        let [k1, k2, k3, k4] = [of("k1")?, of("k2")?, of("k3")?, of("k4")?];
-        let [p1, p2] = [of("p1")?, of("p2")?];
-        let is_fisheye = self.find("is_fisheye");
-        let is_fisheye = is_fisheye.is_some_and(|node| *node.value() == Value::Bool(true));
-        let model = match self.find("camera_model") {
-            Some(node) => node.text()?,
-            None if is_fisheye => "OPENCV_FISHEYE",
-            None => "OPENCV",
-        };
-        let brown = |k: [f64; 5]| Lens::from_coefficients(LensKind::Brown, &k);
-        Ok(match model {
-            "SIMPLE_PINHOLE" | "PINHOLE" => Lens::NONE,
-            "SIMPLE_RADIAL" | "RADIAL" | "OPENCV" if k4 == 0.0 => brown([k1, k2, p1, p2, k3])?,
-            "SIMPLE_RADIAL" | "RADIAL" | "OPENCV" => {
-                return Err(Error::unsupported(format!(
-                    "k4 of an {model} camera is {k4}: only 0 is supported"
-                )));
-            }
-            "OPENCV_FISHEYE" => Lens::from_coefficients(LensKind::Fisheye, &[k1, k2, k3, k4])?,
-            other => {
-                return Err(Error::unsupported(format!(
-                    "camera_model {other} is not supported: only pinhole, radial, OPENCV and \
-                     OPENCV_FISHEYE cameras are"
-                )));
-            }
-        })
-    }
-}
-
 /// A pose from a matrix of three or four rows.
-fn cam_from_world(matrix: &Node<'_>) -> Result<RigidTransform> {
+fn cam_from_world(matrix: &Field<'_>) -> Result<RigidTransform> {
     let rows = matrix.list()?;
     if !(3..=4).contains(&rows.len()) {
-        return Err(matrix.error(&format!("has {} rows, not 4", rows.len())));
+        return Err(matrix.wrong(&format!("has {} rows, not 4", rows.len())));
     }
     let mut world_from_cam = [[0.0; 4]; 3];
     for (row, node) in world_from_cam.iter_mut().zip(&rows) {
-        *row = node.numbers()?;
+        *row = node.array()?;
     }
     let rotation = Matrix3::from_fn(|i, j| world_from_cam[i][j]);
-    let rotation = rotation_from_matrix(&rotation)
-        .ok_or_else(|| matrix.error("has no rotation in its first three columns"))?;
+    let rotation = rotation_from_matrix(&rotation, FOUR_DIGITS)
+        .ok_or_else(|| matrix.wrong("has no rotation in its first three columns"))?;
     let center = Vector3::from_fn(|i, _| world_from_cam[i][3]);
     let cam_from_world = (rotation * half_turn()).inverse();
     pose(cam_from_world, -(cam_from_world * center))
-        .ok_or_else(|| matrix.error("has a translation that is not finite"))
+        .ok_or_else(|| matrix.wrong("has a translation that is not finite"))
 }
 
 /// Reads a document.
@@ -124,25 +46,24 @@ fn cam_from_world(matrix: &Node<'_>) -> Result<RigidTransform> {
 ///
 /// Returned with it: sentences on what was left out.
 pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<String>)> {
-    let value = document(bytes)?;
-    let document = Node::root(&value);
+    let node = Syntax::Json.parse(text::decode(bytes)?)?;
+    let document = Field::root(&node);
     let (mut cameras, mut images, mut notes) = (CameraList::default(), Vec::new(), Vec::new());
-    let frames = document.get("frames")?.list()?;
+    let frames = document.need("frames", "the images")?.list()?;
     for (index, frame) in frames.iter().enumerate() {
-        let values = Values {
-            frame,
-            document: &document,
-        };
         images.push(ModelImage {
             id: u32::try_from(index + 1).unwrap_or(u32::MAX),
-            name: frame.get("file_path")?.text()?.to_owned(),
-            camera: cameras.number_of(values.camera()?),
-            cam_from_world: cam_from_world(&frame.get("transform_matrix")?)?,
+            name: frame
+                .need("file_path", "the image of the frame")?
+                .word()?
+                .to_owned(),
+            camera: cameras.number_of(camera_of_frame(frame, &document)?),
+            cam_from_world: cam_from_world(&frame.need("transform_matrix", "world from camera")?)?,
             keypoints: Vec::new(),
         });
     }
-    let id = |frame: &Node<'_>| {
-        let id = frame.find("colmap_im_id")?.whole().ok()?;
+    let id = |frame: &Field<'_>| {
+        let id = frame.get("colmap_im_id")?.whole().ok()?;
         u32::try_from(id).ok()
     };
     let ids: Vec<u32> = frames.iter().filter_map(id).collect();
@@ -152,8 +73,8 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
         }
     }
     let mut points = Vec::new();
-    if let Some(path) = document.find("ply_file_path") {
-        let path = path.text()?;
+    if let Some(path) = document.get("ply_file_path") {
+        let path = path.word()?;
         match beside(path.trim_start_matches("./")) {
             Some(bytes) => {
                 let (cloud, num_lost) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
@@ -163,7 +84,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
             None => notes.push(format!("{path} is not there: no points")),
         }
     }
-    if document.find("applied_transform").is_some() {
+    if document.get("applied_transform").is_some() {
         notes.push("the world is that of the file: applied_transform is not undone".to_owned());
     }
     let model = Model {
@@ -292,7 +213,7 @@ mod tests {
         let of = |text: &str| read(text.as_bytes(), &|_| None).unwrap_err().to_string();
         let frame = r#"{ "frames": [ { "file_path": "a", "transform_matrix": [] } ]"#;
         assert!(of("{}").contains("frames is missing"));
-        assert!(of(&format!("{frame} }}")).contains("w is missing"));
+        assert!(of(&format!("{frame} }}")).contains("w and h are missing"));
         let sized = format!("{frame}, \"w\": 4, \"h\": 4");
         assert!(of(&format!("{sized} }}")).contains("camera_angle_x"));
         assert!(
@@ -300,7 +221,7 @@ mod tests {
                 .contains("frames[0].transform_matrix has 0 rows")
         );
         let model = r#", "fl_x": 4, "camera_model": "EQUIRECTANGULAR" }"#;
-        assert!(of(&format!("{sized}{model}")).contains("EQUIRECTANGULAR is not supported"));
+        assert!(of(&format!("{sized}{model}")).contains("\"EQUIRECTANGULAR\" is not supported"));
         assert!(of(&format!("{sized}, \"fl_x\": 4, \"k4\": 1 }}")).contains("k4"));
         assert!(of("{ \"frames\": [ }").starts_with("line 1"));
     }

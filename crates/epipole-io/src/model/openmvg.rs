@@ -6,10 +6,10 @@
 //!
 //! Source: openMVG, `src/openMVG/sfm/sfm_data_io_cereal.cpp`, `src/openMVG/cameras/`.
 
-use super::json::{Node, document};
-use super::rotation::{pose, rotation_from_matrix};
 use super::{CameraList, Model, ModelFile, ModelImage, ModelPoint};
-use crate::{Error, Result};
+use crate::rotation::{FOUR_DIGITS, pose, rotation_from_matrix};
+use crate::tree::{Field, Syntax};
+use crate::{Error, Result, text};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 use serde_json::{Value, json};
@@ -22,45 +22,51 @@ const IS_NEW: u64 = 1 << 31;
 const NO_TYPE: u64 = 1 << 30;
 
 /// Keys and values of a map; absent is empty.
-fn entries<'a>(document: &Node<'a>, key: &str) -> Result<Vec<(u64, Node<'a>)>> {
-    let Some(map) = document.find(key) else {
+fn entries<'a>(document: &Field<'a>, key: &str) -> Result<Vec<(u64, Field<'a>)>> {
+    let Some(map) = document.get(key) else {
         return Ok(Vec::new());
     };
-    let entry = |node: Node<'a>| Ok((node.get("key")?.whole()?, node.get("value")?));
+    let entry = |node: Field<'a>| {
+        Ok((
+            node.need("key", "the number of an entry")?.whole()?,
+            node.need("value", "the entry of a key")?,
+        ))
+    };
     map.list()?.into_iter().map(entry).collect()
 }
 
-fn camera(value: &Node<'_>, names: &mut HashMap<u64, String>) -> Result<Camera> {
-    let data = value.get("ptr_wrapper")?.get("data")?;
-    let id = value.get("polymorphic_id")?;
+fn camera(value: &Field<'_>, names: &mut HashMap<u64, String>) -> Result<Camera> {
+    let data = value
+        .need("ptr_wrapper", "an object of cereal")?
+        .need("data", "the fields of an object")?;
+    let id = value.need("polymorphic_id", "the number of a camera model")?;
     let number = id.whole()? & (IS_NEW - 1);
-    if let Some(name) = value.find("polymorphic_name") {
-        names.insert(number, name.text()?.to_owned());
+    if let Some(name) = value.get("polymorphic_name") {
+        names.insert(number, name.word()?.to_owned());
     }
-    let name = (names.get(&number)).ok_or_else(|| id.error("names no camera model"))?;
+    let name = (names.get(&number)).ok_or_else(|| id.wrong("names no camera model"))?;
     // Before the lens, old files hold the pinhole in an object of its own.
-    let pinhole = data.find("value0").unwrap_or_else(|| data.clone());
+    let pinhole = data.get("value0").unwrap_or_else(|| data.clone());
     let side = |key: &str| {
-        let node = pinhole.get(key)?;
-        let side = u32::try_from(node.whole()?).ok().filter(|side| *side > 0);
-        side.ok_or_else(|| node.error("is no size of an image"))
+        let side = pinhole.need(key, "pixels")?;
+        side.pixels()
     };
     let lens = match name.as_str() {
         "pinhole" => Lens::NONE,
         "pinhole_radial_k1" => {
-            let [k1] = data.get("disto_k1")?.numbers()?;
+            let [k1] = data.need("disto_k1", "k1")?.array()?;
             Lens::from_coefficients(LensKind::Brown, &[k1, 0.0, 0.0, 0.0, 0.0])?
         }
         "pinhole_radial_k3" => {
-            let [k1, k2, k3] = data.get("disto_k3")?.numbers()?;
+            let [k1, k2, k3] = data.need("disto_k3", "k1, k2, k3")?.array()?;
             Lens::from_coefficients(LensKind::Brown, &[k1, k2, 0.0, 0.0, k3])?
         }
         "pinhole_brown_t2" => {
-            let [k1, k2, k3, t1, t2] = data.get("disto_t2")?.numbers()?;
+            let [k1, k2, k3, t1, t2] = data.need("disto_t2", "k1, k2, k3, t1, t2")?.array()?;
             Lens::from_coefficients(LensKind::Brown, &[k1, k2, t1, t2, k3])?
         }
         "fisheye" => {
-            let k: [f64; 4] = data.get("fisheye")?.numbers()?;
+            let k: [f64; 4] = data.need("fisheye", "k1 to k4")?.array()?;
             Lens::from_coefficients(LensKind::Fisheye, &k)?
         }
         other => {
@@ -70,8 +76,8 @@ fn camera(value: &Node<'_>, names: &mut HashMap<u64, String>) -> Result<Camera> 
             )));
         }
     };
-    let f = pinhole.get("focal_length")?.number()?;
-    let [cx, cy] = pinhole.get("principal_point")?.numbers()?;
+    let f = pinhole.need("focal_length", "pixels")?.number()?;
+    let [cx, cy] = pinhole.need("principal_point", "x, y in pixels")?.array()?;
     Ok(Camera {
         width: side("width")?,
         height: side("height")?,
@@ -80,30 +86,35 @@ fn camera(value: &Node<'_>, names: &mut HashMap<u64, String>) -> Result<Camera> 
     })
 }
 
-fn cam_from_world(value: &Node<'_>) -> Result<RigidTransform> {
-    let node = value.get("rotation")?;
+fn cam_from_world(value: &Field<'_>) -> Result<RigidTransform> {
+    let node = value.need("rotation", "camera from world")?;
     let rows = node.list()?;
     if rows.len() != 3 {
-        return Err(node.error(&format!("has {} rows, not 3", rows.len())));
+        return Err(node.wrong(&format!("has {} rows, not 3", rows.len())));
     }
     let mut matrix = Matrix3::zeros();
     for (i, row) in rows.iter().enumerate() {
-        let row: [f64; 3] = row.numbers()?;
+        let row: [f64; 3] = row.array()?;
         for (j, value) in row.into_iter().enumerate() {
             matrix[(i, j)] = value;
         }
     }
-    let rotation = rotation_from_matrix(&matrix).ok_or_else(|| node.error("is no rotation"))?;
-    let center = Vector3::from(value.get("center")?.numbers::<3>()?);
-    pose(rotation, -(rotation * center)).ok_or_else(|| value.error("is not finite"))
+    let rotation =
+        rotation_from_matrix(&matrix, FOUR_DIGITS).ok_or_else(|| node.wrong("is no rotation"))?;
+    let center = Vector3::from(
+        value
+            .need("center", "the center of a camera")?
+            .array::<3>()?,
+    );
+    pose(rotation, -(rotation * center)).ok_or_else(|| value.wrong("is not finite"))
 }
 
 /// Reads a document.
 ///
 /// Returned with it: sentences on what was left out.
 pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
-    let value = document(bytes)?;
-    let document = Node::root(&value);
+    let node = Syntax::Json.parse(text::decode(bytes)?)?;
+    let document = Field::root(&node);
     let mut names = HashMap::new();
     let (mut cameras, mut camera_of_key) = (CameraList::default(), HashMap::new());
     for (key, value) in entries(&document, "intrinsics")? {
@@ -116,9 +127,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     let (mut images, mut image_of_view) = (Vec::new(), HashMap::new());
     let mut num_without = 0_usize;
     for (key, value) in entries(&document, "views")? {
-        let data = value.get("ptr_wrapper")?.get("data")?;
-        let view = data.find("value0").unwrap_or(data);
-        let number = |key: &str| view.get(key)?.whole();
+        let data = value
+            .need("ptr_wrapper", "an object of cereal")?
+            .need("data", "the fields of an object")?;
+        let view = data.get("value0").unwrap_or(data);
+        let number = |key: &str| view.need(key, "a number of an entry")?.whole();
         let (camera, pose) = (
             camera_of_key.get(&number("id_intrinsic")?),
             poses.get(&number("id_pose")?),
@@ -127,13 +140,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             num_without += 1;
             continue;
         };
-        let folder = view.find("local_path").map_or(Ok(""), |node| node.text())?;
-        let name = view.get("filename")?.text()?;
+        let folder = view
+            .get("local_path")
+            .map_or(Ok(""), |folder| folder.word())?;
+        let name = view.need("filename", "the file of an image")?.word()?;
         if image_of_view.insert(key, images.len()).is_some() {
             return Err(Error::malformed(format!("two views have the key {key}")));
         }
         images.push(ModelImage {
-            id: u32::try_from(key).map_err(|_| value.error("has a key beyond 32 bits"))?,
+            id: u32::try_from(key).map_err(|_| value.wrong("has a key beyond 32 bits"))?,
             name: match folder.trim_end_matches('/') {
                 "" => name.to_owned(),
                 folder => format!("{folder}/{name}"),
@@ -159,13 +174,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
                 num_lost += 1;
                 continue;
             };
-            let feature = value.get("id_feat")?.whole()?;
+            let feature = value.need("id_feat", "the number of a keypoint")?.whole()?;
             let keypoints = &mut images[image].keypoints;
             let place = match places[image].get(&feature) {
                 // Numbers are not kept where all are the same.
                 Some(place) if feature != u64::from(u32::MAX) => *place,
                 _ => {
-                    keypoints.push(Point2::from(value.get("x")?.numbers::<2>()?));
+                    keypoints.push(Point2::from(value.need("x", "a pixel")?.array::<2>()?));
                     places[image].insert(feature, keypoints.len() - 1);
                     keypoints.len() - 1
                 }
@@ -173,7 +188,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             track.push((image, place));
         }
         points.push(ModelPoint {
-            position: Point3::from(value.get("X")?.numbers::<3>()?),
+            position: Point3::from(value.need("X", "a position")?.array::<3>()?),
             // The format has no colors.
             color: [128; 3],
             error_px: None,

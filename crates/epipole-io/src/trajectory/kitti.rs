@@ -5,15 +5,15 @@
 
 use super::path::Trajectory;
 use super::words::words;
+use crate::rotation::rotation_from_matrix;
 use crate::text::{lines, number};
 use crate::{Error, Result};
 use epipole::camera::RigidTransform;
-use epipole::math::svd3;
-use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Translation3};
 use std::fmt::Write;
 
-/// Largest entry of RᵀR − I for a matrix with few digits.
-const ROUNDED_ROTATION: f64 = 1e-2;
+/// Largest entry of RᵀR − I of a rotation matrix that is written with three digits.
+const FEW_DIGITS: f64 = 1e-2;
 
 pub(super) fn read(text: &str) -> Result<Trajectory> {
     let mut world_from_cam = Vec::new();
@@ -27,30 +27,22 @@ pub(super) fn read(text: &str) -> Result<Trajectory> {
         for (value, word) in m.iter_mut().zip(words) {
             *value = number(line, word)?;
         }
+        let matrix = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+        let rotation = rotation_from_matrix(&matrix, FEW_DIGITS).ok_or_else(|| {
+            Error::at(
+                line,
+                "columns 1 to 3, 5 to 7 and 9 to 11 are not a rotation",
+            )
+        })?;
         world_from_cam.push(RigidTransform::from_parts(
             Translation3::new(m[3], m[7], m[11]),
-            rotation(
-                line,
-                &Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]),
-            )?,
+            rotation,
         ));
     }
     Ok(Trajectory {
         stamps_ns: None,
         world_from_cam,
     })
-}
-
-/// The rotation nearest to a matrix.
-fn rotation(line: usize, matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
-    let off = (matrix.transpose() * matrix - Matrix3::identity()).amax();
-    if !(off < ROUNDED_ROTATION && matrix.determinant() > 0.0) {
-        let message = "columns 1 to 3, 5 to 7 and 9 to 11 are not a rotation";
-        return Err(Error::at(line, message));
-    }
-    let axes = svd3(matrix);
-    let nearest = Rotation3::from_matrix_unchecked(axes.u * axes.v.transpose());
-    Ok(UnitQuaternion::from_rotation_matrix(&nearest))
 }
 
 pub(super) fn write(trajectory: &Trajectory) -> String {

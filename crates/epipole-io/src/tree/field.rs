@@ -119,6 +119,14 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// Elements of a list.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] for anything else.
+    pub(crate) fn list(&self) -> Result<Vec<Self>> {
+        self.items().ok_or_else(|| self.wrong("is not a list"))
+    }
+
     pub(crate) fn is_map(&self) -> bool {
         matches!(self.node.value, Value::Map(_))
     }
@@ -137,6 +145,32 @@ impl<'a> Field<'a> {
         number
             .filter(|number| number.is_finite())
             .ok_or_else(|| self.wrong(&format!("is not a finite number{}", self.shown())))
+    }
+
+    /// A word or string.
+    ///
+    /// # Errors
+    /// [`Error::Malformed`] for lists and maps.
+    pub(crate) fn word(&self) -> Result<&'a str> {
+        self.text().ok_or_else(|| self.wrong("is not a text"))
+    }
+
+    /// A whole number from 0; some programs write 640.0.
+    pub(crate) fn whole(&self) -> Result<u64> {
+        let text = self.text().unwrap_or_default();
+        let number = text.parse::<f64>().ok();
+        let is_whole = |number: &f64| number.fract() == 0.0 && (0.0..9e15).contains(number);
+        let whole = text.parse().ok();
+        whole
+            .or(number.filter(is_whole).map(|number| number as u64))
+            .ok_or_else(|| self.wrong(&format!("is not a whole number{}", self.shown())))
+    }
+
+    /// Exactly N numbers.
+    pub(crate) fn array<const N: usize>(&self) -> Result<[f64; N]> {
+        let numbers = self.numbers()?;
+        let count = numbers.len();
+        (numbers.try_into()).map_err(|_| self.wrong(&format!("has {count} numbers, not {N}")))
     }
 
     /// A whole number of pixels.

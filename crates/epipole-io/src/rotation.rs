@@ -1,13 +1,14 @@
 //! Rotations and poses from the numbers of files.
 
 use epipole::camera::RigidTransform;
+use epipole::math::svd3;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-/// Largest deviation of RᵀR from the identity: files with four digits are read.
-const MAX_DEVIATION: f64 = 1e-3;
+/// Largest entry of RᵀR − I of a rotation matrix that is written with four digits.
+pub(crate) const FOUR_DIGITS: f64 = 1e-3;
 
 /// A rotation from a quaternion of any length, w first.
-pub(super) fn rotation_from_quaternion(&[w, x, y, z]: &[f64; 4]) -> Option<UnitQuaternion<f64>> {
+pub(crate) fn rotation_from_quaternion(&[w, x, y, z]: &[f64; 4]) -> Option<UnitQuaternion<f64>> {
     let quaternion = Quaternion::new(w, x, y, z);
     let norm = quaternion.norm();
     if !(norm > 0.0 && norm.is_finite()) {
@@ -20,25 +21,34 @@ pub(super) fn rotation_from_quaternion(&[w, x, y, z]: &[f64; 4]) -> Option<UnitQ
     })
 }
 
-/// The rotation of a matrix; `None` if it is none.
-pub(super) fn rotation_from_matrix(matrix: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
+/// The rotation nearest to a matrix; `None` for no rotation matrix.
+///
+/// * `max_deviation`: largest entry of RᵀR − I
+///
+/// Source: Horn, Hilden & Negahdaripour 1988, "Closed-form solution of absolute orientation using
+/// orthonormal matrices" (the nearest one, by a singular value decomposition).
+pub(crate) fn rotation_from_matrix(
+    matrix: &Matrix3<f64>,
+    max_deviation: f64,
+) -> Option<UnitQuaternion<f64>> {
     let deviation = (matrix.transpose() * matrix - Matrix3::identity()).amax();
     // Also false for NaN.
-    if !(deviation <= MAX_DEVIATION && matrix.determinant() > 0.0) {
+    if !(deviation <= max_deviation && matrix.determinant() > 0.0) {
         return None;
     }
-    let near = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*matrix));
-    Some(UnitQuaternion::new_normalize(near.into_inner()))
+    let axes = svd3(matrix);
+    let nearest = Rotation3::from_matrix_unchecked(axes.u * axes.v.transpose());
+    Some(UnitQuaternion::from_rotation_matrix(&nearest))
 }
 
 /// A pose, if its translation is finite.
-pub(super) fn pose(rotation: UnitQuaternion<f64>, t: Vector3<f64>) -> Option<RigidTransform> {
+pub(crate) fn pose(rotation: UnitQuaternion<f64>, t: Vector3<f64>) -> Option<RigidTransform> {
     let is_finite = t.iter().all(|value| value.is_finite());
     is_finite.then(|| RigidTransform::from_parts(Translation3::from(t), rotation))
 }
 
 /// Half a turn about x: between a camera that looks along z with y down, and one that looks along
 /// −z with y up.
-pub(super) fn half_turn() -> UnitQuaternion<f64> {
+pub(crate) fn half_turn() -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0))
 }

@@ -1,0 +1,87 @@
+//! COLMAP's lists of cameras: `cameras.txt` and `cameras.bin`.
+//!
+//! Source: COLMAP's documentation, "Output format".
+
+use super::models::{camera_from_colmap, colmap_from_camera, model_of_id};
+use super::words::{Words, content};
+use crate::bytes::{Bytes, extend};
+use crate::{Error, Result};
+use epipole::camera::Camera;
+use std::fmt::Write;
+
+/// Cameras of `cameras.txt` with their IDs.
+///
+/// # Errors
+/// [`Error::Malformed`] with the line, [`Error::Unsupported`] for a model that the library does not
+/// have.
+pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<(u32, Camera)>> {
+    let mut cameras = Vec::new();
+    for (line, content) in content(text) {
+        let mut words = Words::new(line, content);
+        let id = words.whole("the camera ID")?;
+        let name = words.word("the camera model")?;
+        let [width, height] = [words.whole("the width")?, words.whole("the height")?];
+        let camera = camera_from_colmap(name, width, height, &words.rest()?)
+            .map_err(|error| error.on_line(line))?;
+        cameras.push((id, camera));
+    }
+    Ok(cameras)
+}
+
+/// Text of `cameras.txt`; IDs count from 1.
+pub(crate) fn write_cameras_text(cameras: &[Camera]) -> String {
+    // Writing to a string cannot fail.
+    let mut text = String::from("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n");
+    for (index, camera) in cameras.iter().enumerate() {
+        let Camera { width, height, .. } = camera;
+        let model = colmap_from_camera(camera);
+        let _ = write!(text, "{} {} {width} {height}", index + 1, model.name);
+        for param in &model.params {
+            let _ = write!(text, " {param}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Cameras of `cameras.bin` with their IDs.
+///
+/// # Errors
+/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a model that the library does
+/// not have.
+pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<(u32, Camera)>> {
+    let mut bytes = Bytes::new(bytes);
+    let mut cameras = Vec::new();
+    for _ in 0..bytes.count("cameras", 24)? {
+        let id = bytes.u32()?;
+        let (name, num_params) = model_of_id(bytes.i32()?)?;
+        let [width, height] = [bytes.u64()?, bytes.u64()?];
+        let params = (0..num_params).map(|_| bytes.f64());
+        let params = params.collect::<Result<Vec<f64>>>()?;
+        let camera = camera_from_colmap(name, width, height, &params);
+        cameras.push((id, camera.map_err(|error| in_camera(id, error))?));
+    }
+    bytes.end()?;
+    Ok(cameras)
+}
+
+fn in_camera(id: u32, error: Error) -> Error {
+    match error {
+        Error::Unsupported { message } => Error::Unsupported { message },
+        other => Error::malformed(format!("camera {id}: {other}")),
+    }
+}
+
+/// Bytes of `cameras.bin`; IDs count from 1.
+pub(crate) fn write_cameras_binary(cameras: &[Camera]) -> Vec<u8> {
+    let mut bytes = (cameras.len() as u64).to_le_bytes().to_vec();
+    for (index, camera) in cameras.iter().enumerate() {
+        let model = colmap_from_camera(camera);
+        bytes.extend((index as u32 + 1).to_le_bytes());
+        bytes.extend(model.id.to_le_bytes());
+        bytes.extend(u64::from(camera.width).to_le_bytes());
+        bytes.extend(u64::from(camera.height).to_le_bytes());
+        extend(&mut bytes, &model.params);
+    }
+    bytes
+}
