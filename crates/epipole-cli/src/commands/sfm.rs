@@ -21,7 +21,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
 use clap::Args;
-use epipole::camera::{Camera, Lens};
+use epipole::camera::Camera;
 use epipole::progress::{Monitor, Part};
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
@@ -82,7 +82,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let input::Input {
         mut photos,
-        intrinsics,
+        cameras,
         lenses,
         places,
         guesses,
@@ -93,13 +93,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         false => None,
     };
     let positions = arguments.positions.give(&mut photos, &places)?;
-    (arguments.growth).number_lenses(&mut photos, &intrinsics, &lenses);
-    let cameras: Vec<Camera> = (photos.iter().zip(intrinsics.iter().zip(&lenses)))
-        .map(|(photo, (k, kept))| Camera {
-            lens: kept.map_or(Lens::NONE, |kept| kept.lens),
-            ..Camera::pinhole(*k, photo.image.width(), photo.image.height())
-        })
-        .collect();
+    (arguments.growth).number_lenses(&mut photos, &cameras, &lenses);
     (arguments.growth.refined).tell_of_nothing_to_refine(&cameras, context);
     let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
     let refine_focal = options.refine_focal;
@@ -175,8 +169,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .map(|c| json!({ "num_registered": c.num_registered(), "num_points": c.points.len() }))
         .collect();
     let registered_count = largest.num_registered();
-    let focals: Vec<(f64, f64)> = (intrinsics.iter().zip(&largest.cameras))
-        .filter_map(|(k, camera)| Some((k.fu_px(), camera.as_ref()?.camera.intrinsics.fu_px())))
+    let focals: Vec<(f64, f64)> = (input.cameras.iter().zip(&largest.cameras))
+        .filter_map(|(given, found)| {
+            let focal_px = |camera: &Camera| camera.intrinsics.fu_px();
+            Some((focal_px(given), focal_px(&found.as_ref()?.camera)))
+        })
         .collect();
     let mut report = Report::default();
     if positions.num_known > 0 && !largest.is_placed {

@@ -6,7 +6,7 @@ use crate::matrices::positive;
 use crate::photo::KeptLens;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
-use epipole::camera::Intrinsics;
+use epipole::camera::Camera;
 use epipole::sfm::{Photo, SfmOptions};
 
 /// Which photographs share a lens.
@@ -74,21 +74,21 @@ pub(super) struct GrowthArguments {
 impl GrowthArguments {
     /// Gives equal numbers to photographs that share a lens.
     ///
-    /// * `intrinsics`, `kept`: of each photograph
+    /// * `cameras`, `kept`: of each photograph
     pub(super) fn number_lenses(
         &self,
         photos: &mut [Photo],
-        intrinsics: &[Intrinsics],
+        cameras: &[Camera],
         kept: &[Option<KeptLens>],
     ) {
         let mut kinds = Vec::new();
-        for (index, (photo, (k, kept))) in
-            (photos.iter_mut().zip(intrinsics.iter().zip(kept))).enumerate()
+        for (index, (photo, (camera, kept))) in
+            (photos.iter_mut().zip(cameras.iter().zip(kept))).enumerate()
         {
             let alike = match self.lenses {
                 Lenses::One => None,
                 Lenses::Each => Some((index, None)),
-                Lenses::Alike => Some((0, Some((photo.image.dimensions(), *k)))),
+                Lenses::Alike => Some((0, Some(*camera))),
             };
             let kind = (alike, *kept);
             let place = kinds.iter().position(|known| *known == kind);
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use crate::robust::PHOTO_MAX_ERROR;
     use clap::Parser;
-    use epipole::camera::{Fisheye, Lens};
+    use epipole::camera::{Fisheye, Intrinsics, Lens};
 
     #[derive(Debug, Parser)]
     #[command(mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)))]
@@ -167,8 +167,9 @@ mod tests {
             ..fisheye
         };
         let kept = [None, Some(fisheye), Some(fisheye), Some(turned), None];
-        let k = |focal_px| Intrinsics::centered(focal_px, 640, 480).unwrap();
-        let intrinsics = [k(500.0), k(500.0), k(600.0), k(600.0), k(500.0)];
+        let camera =
+            |focal_px| Camera::pinhole(Intrinsics::centered(focal_px, 640, 480).unwrap(), 640, 480);
+        let cameras = [500.0, 500.0, 600.0, 600.0, 500.0].map(camera);
         for (words, numbers) in [
             ("one", [0, 1, 1, 2, 0]),
             ("alike", [0, 1, 2, 3, 0]),
@@ -176,7 +177,7 @@ mod tests {
         ] {
             let all = All::try_parse_from(["epipole", "--lenses", words]).unwrap();
             let mut photos = vec![Photo::default(); 5];
-            (all.growth).number_lenses(&mut photos, &intrinsics, &kept);
+            (all.growth).number_lenses(&mut photos, &cameras, &kept);
             let given: Vec<usize> = photos.iter().map(|photo| photo.lens).collect();
             assert_eq!(given, numbers, "{words}");
         }

@@ -10,7 +10,7 @@ use crate::photo::{KeptLens, Photo};
 use crate::reading::SizeArguments;
 use clap::Args;
 use epipole::calibration::{Keep, Undistortion};
-use epipole::camera::Intrinsics;
+use epipole::camera::Camera;
 use epipole::math::Geodetic;
 use epipole::sfm::Photo as SfmPhoto;
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ fn focal(text: &str) -> Result<Focal, String> {
 /// Input that was read.
 pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
-    pub(super) intrinsics: Vec<Intrinsics>,
+    pub(super) cameras: Vec<Camera>,
     /// Of the photographs that keep the distortion of a known lens.
     pub(super) lenses: Vec<Option<KeptLens>>,
     /// Positions from the files of the photos.
@@ -99,7 +99,7 @@ impl InputArguments {
         }
         let mut input = Input {
             photos: Vec::new(),
-            intrinsics: Vec::new(),
+            cameras: Vec::new(),
             lenses: Vec::new(),
             places: Vec::new(),
             guesses: Vec::new(),
@@ -124,7 +124,7 @@ impl InputArguments {
             }
             sizes.push(photo.full_size);
             input.guesses.extend(guess);
-            input.intrinsics.push(k);
+            input.cameras.push(photo.camera(k));
             input.lenses.push(photo.lens);
             input.places.push(photo.place);
             input.photos.push(SfmPhoto {
