@@ -34,13 +34,11 @@ impl Content {
             Ok((format, trajectory)) => return Ok(Self::Trajectory(format, trajectory)),
             Err(error) => error,
         };
-        let whole = format!("{}: ", path.display());
-        let of_model = of_model.message.replacen(&whole, "", 1);
         let message = format!(
-            "this is no model ({of_model}), no file of cameras ({of_cameras}) and no trajectory \
-             ({of_trajectory})"
+            "{}; read as cameras: {of_cameras}; read as a trajectory: {of_trajectory}",
+            of_model.message
         );
-        Err(Failure::new("malformed", message).about(path))
+        Err(Failure::new("malformed", message))
     }
 
     /// Name of the format.

@@ -78,6 +78,7 @@ impl Target {
             ("json", Content::Cameras(..)) => Format::Epipole,
             ("txt", Content::Cameras(..)) => Format::ColmapCameras,
             ("csv", _) => Format::Euroc,
+            ("tum", _) => Format::Tum,
             ("txt", Content::Trajectory(TrajectoryFormat::Kitti, _)) => Format::Kitti,
             ("txt", Content::Trajectory(..)) => Format::Tum,
             ("ply", _) => Format::Ply,
