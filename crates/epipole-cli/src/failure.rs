@@ -59,8 +59,6 @@ impl From<epipole::Error> for Failure {
             E::Degenerate { .. } => "degenerate",
             E::SizeMismatch { .. } => "size-mismatch",
             E::NoConsensus { .. } => "no-consensus",
-            E::BadImage { .. } => "bad-image",
-            E::Malformed { .. } => "malformed",
             E::Canceled => "canceled",
             _ => "failed",
         };
@@ -74,6 +72,7 @@ impl From<epipole_io::Error> for Failure {
         let kind = match error {
             E::Invalid(error) => return error.into(),
             E::Malformed { .. } => "malformed",
+            E::BadImage { .. } => "bad-image",
             E::Unsupported { .. } => "unsupported",
             _ => "failed",
         };

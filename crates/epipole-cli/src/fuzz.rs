@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
+#[path = "../../epipole-io/src/damage.rs"]
 mod damage;
 
 use crate::commands::sfm::positions;

@@ -4,11 +4,12 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
 use crate::reading::{ReadArguments, SizeArguments};
-use epipole::calibration::{PrepareOptions, PreparedPhoto, Undistortion, prepare_photo};
+use epipole::calibration::Undistortion;
 use epipole::camera::{Camera, Intrinsics, Lens};
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, GrayImage32, decode_rgb, rgb_to_gray};
+use epipole::imaging::{GrayImage32, rgb_to_gray};
 use epipole::math::Geodetic;
+use epipole_io::photo::{DecodeOptions, PrepareOptions, PreparedPhoto, decode_rgb, prepare_photo};
 use image::{GrayImage, RgbImage};
 use std::path::Path;
 

@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::matrices::positive;
 use clap::Args;
-use epipole::imaging::PixelRange;
+use epipole_io::photo::PixelRange;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -32,9 +32,9 @@ impl ReadArguments {
     }
 
     /// A sentence about a photograph that cannot be read.
-    pub(crate) fn failure(self, error: epipole::Error, path: &Path) -> Failure {
+    pub(crate) fn failure(self, error: epipole_io::Error, path: &Path) -> Failure {
         let failure = match error {
-            epipole::Error::TooManyPixels { got, .. } => {
+            epipole_io::Error::TooManyPixels { got, .. } => {
                 let needed_gb = got as f64 * BYTES_PER_PIXEL / 1e9;
                 let message = format!(
                     "the image has {:.1} megapixels, more than --max-memory-gb {} holds: {:.1} would do",

@@ -18,7 +18,21 @@ pub enum Error {
         /// The part that is not supported, and the choices.
         message: String,
     },
-    /// The values describe no valid camera or transform.
+    /// Bytes that are no image, or not a whole one.
+    #[error("the image cannot be read: {why}")]
+    BadImage {
+        /// The problem, in words.
+        why: String,
+    },
+    /// An image with more pixels than the caller allows.
+    #[error("the image has {got} pixels, more than the limit of {limit}")]
+    TooManyPixels {
+        /// Width times height.
+        got: u64,
+        /// The limit, which the caller may raise.
+        limit: u64,
+    },
+    /// The values describe no valid camera, transform or data.
     #[error(transparent)]
     Invalid(#[from] epipole::Error),
 }

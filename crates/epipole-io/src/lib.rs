@@ -5,23 +5,26 @@
 //! are converted to the conventions of [`epipole`]: pixel centers at integers, `cam_from_world`,
 //! x right, y down, z forward.
 
+pub mod bundle;
 mod bytes;
 pub mod camera;
 pub mod cloud;
 mod colmap;
 #[cfg(test)]
-#[expect(
-    dead_code,
-    reason = "shared with the tests of the core, which damage texts, too"
-)]
-#[path = "../../epipole/tests/all/fuzz_formats/damage.rs"]
 mod damage;
+pub mod disparity;
 mod error;
 #[cfg(test)]
 mod fuzz;
 pub mod model;
+#[cfg(feature = "photos")]
+pub mod photo;
+pub mod pose_graph;
 mod rotation;
+#[cfg(test)]
+mod shared;
 mod text;
+mod tokens;
 pub mod trajectory;
 mod tree;
 

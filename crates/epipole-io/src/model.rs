@@ -18,11 +18,12 @@ mod reconstruction;
 
 pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
 
-use crate::cloud::ColoredPoint;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
+use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
 use std::collections::{BTreeSet, HashMap};
+use std::iter;
 
 /// Cameras, the images that they took, and points of the scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -71,15 +72,18 @@ pub struct ModelPoint {
     pub track: Vec<(usize, usize)>,
 }
 
-impl From<ColoredPoint> for ModelPoint {
-    fn from(point: ColoredPoint) -> Self {
-        Self {
-            position: point.position,
-            color: point.color,
+/// Points without observations; gray without colors.
+fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
+    let colors = cloud.colors.into_iter().chain(iter::repeat([128; 3]));
+    let points = cloud.points.into_iter().zip(colors);
+    points
+        .map(|(position, color)| ModelPoint {
+            position,
+            color,
             error_px: None,
             track: Vec::new(),
-        }
-    }
+        })
+        .collect()
 }
 
 /// Content of a file of the same folder, by its name.

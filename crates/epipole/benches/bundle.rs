@@ -4,7 +4,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use epipole::optim::{LmOptions, RobustLoss};
-use epipole::sfm::{BalProblem, PoseGraph, adjust_bal};
+use epipole::sfm::adjust_bal;
+use epipole_io::bundle::read_bal;
+use epipole_io::pose_graph::read_g2o;
 use std::hint::black_box;
 use std::path::PathBuf;
 
@@ -25,7 +27,7 @@ fn bundle(c: &mut Criterion) {
     let mut group = c.benchmark_group("bundle");
     group.sample_size(10);
     if let Some(problem) =
-        data("ba/ladybug-problem-49-7776-pre.txt").and_then(|text| BalProblem::parse(&text).ok())
+        data("ba/ladybug-problem-49-7776-pre.txt").and_then(|text| read_bal(&text).ok())
     {
         // Until the cost that SciPy, Ceres and others stop at.
         let adjust = |max_iterations| {
@@ -39,9 +41,7 @@ fn bundle(c: &mut Criterion) {
             b.iter(|| black_box(adjust(max_iterations)));
         });
     }
-    if let Some(graph) =
-        data("posegraph/INTEL.g2o").and_then(|text| PoseGraph::parse_g2o(&text).ok())
-    {
+    if let Some(graph) = data("posegraph/INTEL.g2o").and_then(|text| read_g2o(&text).ok()) {
         group.bench_function("INTEL pose graph", |b| {
             b.iter(|| {
                 let mut graph = graph.clone();

@@ -10,10 +10,13 @@
 mod timing;
 
 use epipole::camera::RigidTransform;
-use epipole::imaging::{DecodeOptions, decode_rgb, rgb_to_gray};
+use epipole::imaging::rgb_to_gray;
 use epipole::optim::{LmOptions, RobustLoss};
-use epipole::sfm::{BalProblem, adjust_bal};
+use epipole::sfm::adjust_bal;
 use epipole::stereo::{DisparityImage, StereoBm, StereoPaths, StereoSgm};
+use epipole_io::bundle::read_bal;
+use epipole_io::disparity::write_pfm;
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
 use std::path::Path;
 use timing::timed;
@@ -56,7 +59,7 @@ fn scene(folder: &Path) -> Outcome {
     let of_depth = |depth: &f32| (focal_px * BASELINE_M / f64::from(*depth)) as f32;
     let values = left.depth_m.iter().map(of_depth).collect();
     let truth = DisparityImage::from_raw(SIZE.0, SIZE.1, values)?;
-    std::fs::write(folder.join("truth.pfm"), truth.to_pfm())?;
+    std::fs::write(folder.join("truth.pfm"), write_pfm(&truth))?;
     Ok(())
 }
 
@@ -70,7 +73,7 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
     let (left, right) = (read("left.png")?, read("right.png")?);
     let run = |name: &str, work: &dyn Fn() -> epipole::Result<DisparityImage>| -> Outcome {
         time(name, rounds, work, |_| "-".to_owned());
-        std::fs::write(folder.join(format!("ours_{name}.pfm")), work()?.to_pfm())?;
+        std::fs::write(folder.join(format!("ours_{name}.pfm")), write_pfm(&work()?))?;
         Ok(())
     };
     // With the tests that OpenCV's has, and no others.
@@ -96,7 +99,7 @@ fn stereo(folder: &Path, rounds: usize) -> Outcome {
 }
 
 fn adjust(path: &str, cost: f64, rounds: usize) -> Outcome {
-    let problem = BalProblem::parse(&std::fs::read_to_string(path)?)?;
+    let problem = read_bal(&std::fs::read_to_string(path)?)?;
     let adjust = |max_iterations| {
         let options = LmOptions::default().with_max_iterations(max_iterations);
         adjust_bal(&mut problem.clone(), &options, RobustLoss::Trivial, &mut ())

@@ -4,7 +4,7 @@
 //! Usage: `features_dump IMAGE [sift|rootsift|orb] [MAX_FEATURES]`
 
 use epipole::feature::{OrbOptions, SiftNormalization, SiftOptions, detect_orb, detect_sift};
-use epipole::imaging::{DecodeOptions, decode_gray};
+use epipole_io::photo::{DecodeOptions, decode_gray};
 use std::io::Write;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -16,9 +16,10 @@ use epipole::feature::{
     detect_sift, harris_response, nearest_two,
 };
 use epipole::imaging::{
-    Border, DecodeOptions, DerivativeFilter, decode_gray, derivative_into, gaussian_kernel,
-    gray_from_values, separable_filter, sobel,
+    Border, DerivativeFilter, derivative_into, gaussian_kernel, gray_from_values, separable_filter,
+    sobel,
 };
+use epipole_io::photo::{DecodeOptions, decode_gray};
 use std::path::Path;
 use std::time::Instant;
 

@@ -70,33 +70,9 @@ pub enum Error {
         /// Samples drawn.
         iterations: usize,
     },
-    /// Bytes that are no image, or not a whole one.
-    #[error("the image cannot be read: {why}")]
-    BadImage {
-        /// The problem, in words.
-        why: String,
-    },
-    /// An image with more pixels than the caller allows.
-    #[error("the image has {got} pixels, more than the limit of {limit}")]
-    TooManyPixels {
-        /// Width times height.
-        got: u64,
-        /// The limit, which the caller may raise.
-        limit: u64,
-    },
     /// Canceled by the caller.
     #[error("the work was canceled")]
     Canceled,
-    /// A text that breaks the rules of its format.
-    #[error("{what} is malformed in line {line}: {why}")]
-    Malformed {
-        /// The input, such as "the bundle adjustment problem".
-        what: &'static str,
-        /// The line, counted from 1.
-        line: usize,
-        /// The problem there.
-        why: String,
-    },
 }
 
 impl Error {

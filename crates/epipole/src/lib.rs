@@ -7,7 +7,7 @@
 //! | [`progress`] | the monitor of long computations: stage, share, cancellation |
 //! | [`math`] | lines, null vectors, polynomial roots, seeded random numbers |
 //! | [`optim`] | the Levenberg–Marquardt loop, robust losses |
-//! | [`imaging`] | gray images: decoding, filters, gradients, pyramids, warps |
+//! | [`imaging`] | gray images: filters, gradients, pyramids, warps |
 //! | [`camera`] | pinhole intrinsics, rigid transforms, projection |
 //! | [`robust`] | the RANSAC engine; lines and similarities |
 //! | [`feature`] | corners, SIFT, binary features, matching, tracking |

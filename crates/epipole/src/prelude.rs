@@ -25,8 +25,6 @@ pub use crate::feature::{
     match_any_descriptors, match_descriptors, refine_corners,
 };
 pub use crate::homography::{estimate_homography, transfer};
-#[cfg(feature = "decode")]
-pub use crate::imaging::{DecodeOptions, decode_gray, decode_rgb};
 pub use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray, rgb_to_gray_f32};
 pub use crate::robust::{Estimator, RansacOptions, RansacReport, ransac};
 pub use crate::sfm::{PhotoOptions, SfmOptions, reconstruct_photos};

@@ -9,7 +9,8 @@ use crate::report::Report;
 use clap::Args;
 use epipole::Error;
 use epipole::optim::Termination;
-use epipole::sfm::{BalProblem, adjust_bal};
+use epipole::sfm::adjust_bal;
+use epipole_io::bundle::{read_bal, write_bal};
 use std::path::{Path, PathBuf};
 
 /// Refine the cameras and points of a bundle adjustment problem.
@@ -34,7 +35,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let text = files::read_text(&arguments.problem)?;
-    let parsed = BalProblem::parse(&text);
+    let parsed = read_bal(&text);
     let mut problem = parsed.map_err(|error| Failure::from(error).about(&arguments.problem))?;
     let options = arguments.refinement.options(arguments.max_iterations);
     let loss = arguments.refinement.loss();
@@ -63,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Err(error) => return Err(cannot_begin(error, &arguments.problem)),
     };
     if let Some(path) = &arguments.output {
-        files::write(path, problem.to_text().as_bytes())?;
+        files::write(path, write_bal(&problem).as_bytes())?;
     }
     Ok(Report::default()
         .field("initial_cost", outcome.initial_cost)

@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::refinement::RefinementArguments;
 use crate::report::Report;
 use clap::Args;
-use epipole::sfm::PoseGraph;
+use epipole_io::pose_graph::{read_g2o, write_g2o};
 use std::path::PathBuf;
 
 /// Optimize a pose graph.
@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let text = files::read_text(&arguments.graph)?;
-    let parsed = PoseGraph::parse_g2o(&text);
+    let parsed = read_g2o(&text);
     let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
     if arguments.initialize {
         graph.initialize()?;
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let final_chi2 = graph.chi2();
     if let Some(path) = &arguments.output {
-        files::write(path, graph.to_g2o().as_bytes())?;
+        files::write(path, write_g2o(&graph).as_bytes())?;
     }
     let (vertices, edges) = graph.size();
     Ok(Report::default()

@@ -13,6 +13,8 @@ use crate::reading::ReadArguments;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::stereo::{DisparityImage, fill_gaps, point_cloud, q_from_rig};
+use epipole_io::cloud::write_ply;
+use epipole_io::disparity::{write_pfm, write_png16};
 use image::GrayImage;
 use std::path::PathBuf;
 
@@ -136,9 +138,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         disparity = fill_gaps(&disparity, &left)?;
     }
     let bytes = if as_png {
-        disparity.to_png16()?
+        write_png16(&disparity)?
     } else {
-        disparity.to_pfm()
+        write_pfm(&disparity)
     };
     files::write(&arguments.output, &bytes)?;
     if let (Some(path), Some(focal_px), Some(baseline_m)) =
@@ -152,7 +154,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             center(left.height()),
         )?;
         let cloud = point_cloud(&disparity, &q, Some(&photos[0].color))?;
-        files::write(path, &cloud.to_ply())?;
+        files::write(path, &write_ply(&cloud))?;
     }
     Ok(report(&disparity, arguments))
 }

@@ -5,6 +5,7 @@ use epipole::math::random::Random;
 use epipole::optim::RobustLoss;
 use epipole::sfm::{BalCamera, BalProblem, BundleObservation};
 use epipole::synthetic::{MultiViewProblem, MultiViewProblemOptions};
+use epipole_io::bundle::{read_bal, write_bal};
 use nalgebra::{Point2, Vector3};
 use serde_json::Value;
 
@@ -66,14 +67,14 @@ fn exact_observations_are_explained_exactly() {
         "the conventions agree"
     );
     disturb(&mut problem);
-    let file = folder.write("problem.txt", &problem.to_text());
+    let file = folder.write("problem.txt", &write_bal(&problem));
     let out = folder.file("refined.txt");
     let result = json(&["ba", path(&file), "-o", path(&out)]);
     let initial = problem.cost(RobustLoss::Trivial);
     assert!((result["initial_cost"].as_f64().unwrap() / initial - 1.0).abs() < 1e-12);
     let last = result["final_cost"].as_f64().unwrap();
     assert!(last < 1e-9, "{last}");
-    let refined = BalProblem::parse(&std::fs::read_to_string(&out).unwrap()).unwrap();
+    let refined = read_bal(&std::fs::read_to_string(&out).unwrap()).unwrap();
     assert!((refined.cost(RobustLoss::Trivial) - last).abs() < 1e-12);
     assert_eq!(refined.observations, problem.observations);
     // Costs of accepted steps only fall; the first is the start, the last the result.
@@ -97,7 +98,7 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
     let options = MultiViewProblemOptions::default()
         .with_noise_px(0.5)
         .with_seed(3);
-    let file = folder.write("noise.txt", &problem(&options).to_text());
+    let file = folder.write("noise.txt", &write_bal(&problem(&options)));
     let result = json(&["ba", path(&file)]);
     // ½ σ² per degree of freedom: two an observation, less nine a camera, three a point, plus the
     // seven of the free frame.
@@ -107,13 +108,13 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
 
     let wild = options.with_outlier_fraction(0.05);
     let clean = problem(&options);
-    let file = folder.write("wild.txt", &problem(&wild).to_text());
+    let file = folder.write("wild.txt", &write_bal(&problem(&wild)));
     // Distance of the points from their positions without outliers.
     let distance = |loss: &str| {
         let out = folder.file("out.txt");
         let options = ["--loss", loss, "--loss-width", "2"];
         json(&[&["ba", path(&file), "-o", path(&out)], &options[..]].concat());
-        let refined = BalProblem::parse(&std::fs::read_to_string(&out).unwrap()).unwrap();
+        let refined = read_bal(&std::fs::read_to_string(&out).unwrap()).unwrap();
         let align = epipole::sfm::align_points(
             &refined.points,
             &clean.points,
@@ -140,7 +141,7 @@ fn tolerances_say_when_the_steps_end() {
     let folder = Folder::new("ba-tolerances");
     let mut problem = problem(&MultiViewProblemOptions::default());
     disturb(&mut problem);
-    let file = folder.write("problem.txt", &problem.to_text());
+    let file = folder.write("problem.txt", &write_bal(&problem));
     for (flag, value, termination) in [
         // Any step lowers the cost by less than the whole.
         ("--cost-tolerance", "1", "small-cost-change"),

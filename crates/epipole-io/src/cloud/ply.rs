@@ -5,9 +5,9 @@
 //!
 //! Source: Turk 1994, "The PLY polygon file format".
 
-use super::ColoredPoint;
 use crate::bytes::Bytes;
 use crate::{Error, Result, text};
+use epipole::stereo::PointCloud;
 use nalgebra::Point3;
 use std::str::SplitAsciiWhitespace;
 
@@ -228,8 +228,8 @@ impl Body<'_> {
     }
 }
 
-/// Points of a PLY file; gray where it has no colors. Returned with them: the number of points with
-/// NaN or infinite coordinates, which are left out.
+/// Points of a PLY file. Returned with them: the number of points with NaN or infinite coordinates,
+/// which are left out.
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line or byte.
@@ -238,10 +238,11 @@ impl Body<'_> {
 /// use epipole_io::cloud::read_ply;
 /// let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n\
 ///             property double z\nend_header\n1 2 3.5\n";
-/// let (points, _) = read_ply(text.as_bytes()).unwrap();
-/// assert_eq!(points[0].position, nalgebra::Point3::new(1.0, 2.0, 3.5));
+/// let (cloud, _) = read_ply(text.as_bytes()).unwrap();
+/// assert_eq!(cloud.points, [nalgebra::Point3::new(1.0, 2.0, 3.5)]);
+/// assert!(cloud.colors.is_empty());
 /// ```
-pub fn read_ply(bytes: &[u8]) -> Result<(Vec<ColoredPoint>, usize)> {
+pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, usize)> {
     let header = header(bytes)?;
     let mut body = match header.encoding {
         Encoding::Ascii => Body::Ascii {
@@ -277,13 +278,14 @@ pub fn read_ply(bytes: &[u8]) -> Result<(Vec<ColoredPoint>, usize)> {
         place(&[name]).ok_or_else(|| Error::malformed(format!("the vertices have no {name}")))
     };
     let at = [coordinate("x")?, coordinate("y")?, coordinate("z")?];
-    let colors = [
+    let channels = [
         place(&["red", "r", "diffuse_red"]),
         place(&["green", "g", "diffuse_green"]),
         place(&["blue", "b", "diffuse_blue"]),
     ];
     let mut values = vec![0.0; vertices.properties.len()];
-    let (mut points, mut num_not_finite) = (Vec::new(), 0);
+    let has_colors = channels.iter().any(Option::is_some);
+    let (mut cloud, mut num_not_finite) = (PointCloud::default(), 0);
     for _ in 0..vertices.count {
         body.begin()?;
         for (value, property) in values.iter_mut().zip(&vertices.properties) {
@@ -294,7 +296,8 @@ pub fn read_ply(bytes: &[u8]) -> Result<(Vec<ColoredPoint>, usize)> {
             num_not_finite += 1;
             continue;
         }
-        let color = colors.map(|place| match place {
+        cloud.points.push(position);
+        let color = channels.map(|place| match place {
             // A cast saturates; of NaN it is 0.
             Some(place) => {
                 let scale = vertices.properties[place].scalar.color_scale();
@@ -302,32 +305,45 @@ pub fn read_ply(bytes: &[u8]) -> Result<(Vec<ColoredPoint>, usize)> {
             }
             None => 128,
         });
-        points.push(ColoredPoint { position, color });
+        if has_colors {
+            cloud.colors.push(color);
+        }
     }
-    Ok((points, num_not_finite))
+    Ok((cloud, num_not_finite))
 }
 
-/// Bytes of a binary little-endian PLY file: x, y, z as `float`, red, green, blue as `uchar`.
+/// Bytes of a binary little-endian PLY file: x, y, z as `float`, and red, green, blue as `uchar` if
+/// the points have colors.
 ///
 /// ```
-/// use epipole_io::cloud::{ColoredPoint, read_ply, write_ply};
+/// use epipole::stereo::PointCloud;
+/// use epipole_io::cloud::{read_ply, write_ply};
 /// use nalgebra::Point3;
-/// let points = [ColoredPoint { position: Point3::new(0.5, -1.0, 2.0), color: [255, 0, 7] }];
-/// assert_eq!(read_ply(&write_ply(&points)).unwrap().0, points);
+/// let cloud = PointCloud {
+///     points: vec![Point3::new(0.5, -1.0, 2.0)],
+///     colors: vec![[255, 0, 7]],
+/// };
+/// assert_eq!(read_ply(&write_ply(&cloud)).unwrap().0, cloud);
 /// ```
-pub fn write_ply(points: &[ColoredPoint]) -> Vec<u8> {
+pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
+    let has_colors = !cloud.points.is_empty() && cloud.colors.len() == cloud.points.len();
+    let colors = match has_colors {
+        true => "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        false => "",
+    };
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n\
-         property float x\nproperty float y\nproperty float z\n\
-         property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-        points.len()
+         property float x\nproperty float y\nproperty float z\n{colors}end_header\n",
+        cloud.points.len()
     )
     .into_bytes();
-    for point in points {
-        for value in point.position.iter() {
+    for (index, point) in cloud.points.iter().enumerate() {
+        for value in point.iter() {
             bytes.extend((*value as f32).to_le_bytes());
         }
-        bytes.extend(point.color);
+        if has_colors {
+            bytes.extend(cloud.colors[index]);
+        }
     }
     bytes
 }
@@ -337,16 +353,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cloud_has_fifteen_bytes_a_point() {
-        let points = [ColoredPoint {
-            position: Point3::new(0.0, 0.0, 5.0),
-            color: [10, 20, 30],
-        }];
-        let ply = write_ply(&points);
+    fn a_point_has_fifteen_bytes_with_a_color_and_twelve_without() {
+        let mut cloud = PointCloud {
+            points: vec![Point3::new(0.0, 0.0, 5.0)],
+            colors: vec![[10, 20, 30]],
+        };
+        let ply = write_ply(&cloud);
         let header = ply.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
         assert_eq!(ply.len() - header, 15);
         assert_eq!(&ply[header + 8..header + 12], 5f32.to_le_bytes());
         assert_eq!(&ply[header + 12..], [10, 20, 30]);
+        cloud.colors.clear();
+        assert!(write_ply(&cloud).ends_with(&ply[header..header + 12]));
+        assert_eq!(read_ply(&write_ply(&cloud)).unwrap(), (cloud, 0));
     }
 
     #[test]
@@ -361,11 +380,11 @@ mod tests {
             )
         };
         let text = head("ascii") + "3 0 1 1\n0.5 3 2 1 1 0.5 0\n\n0.5 nan 2 1 0 0 0\n";
-        let expected = ColoredPoint {
-            position: Point3::new(1.0, 2.0, 3.0),
-            color: [255, 128, 0],
+        let expected = PointCloud {
+            points: vec![Point3::new(1.0, 2.0, 3.0)],
+            colors: vec![[255, 128, 0]],
         };
-        assert_eq!(read_ply(text.as_bytes()).unwrap(), (vec![expected], 1));
+        assert_eq!(read_ply(text.as_bytes()).unwrap(), (expected.clone(), 1));
         let mut big = head("binary_big_endian").into_bytes();
         big.extend([1, 0, 0, 0, 7]);
         for z in [3.0, f64::INFINITY] {
@@ -375,7 +394,7 @@ mod tests {
             big.extend(1i16.to_be_bytes());
             big.extend([1f32, 0.5, 0.0].iter().flat_map(|c| c.to_be_bytes()));
         }
-        assert_eq!(read_ply(&big).unwrap(), (vec![expected], 1));
+        assert_eq!(read_ply(&big).unwrap(), (expected, 1));
     }
 
     #[test]

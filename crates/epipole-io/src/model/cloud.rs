@@ -1,16 +1,16 @@
 //! The points of a model.
 
 use super::Model;
-use crate::cloud::{ColoredPoint, write_ply};
+use crate::cloud::write_ply;
+use epipole::stereo::PointCloud;
 
 impl Model {
     /// The points with their colors.
-    pub fn cloud(&self) -> Vec<ColoredPoint> {
-        let points = self.points.iter().map(|point| ColoredPoint {
-            position: point.position,
-            color: point.color,
-        });
-        points.collect()
+    pub fn cloud(&self) -> PointCloud {
+        PointCloud {
+            points: self.points.iter().map(|point| point.position).collect(),
+            colors: self.points.iter().map(|point| point.color).collect(),
+        }
     }
 
     /// The points with their colors as a binary little-endian PLY file.

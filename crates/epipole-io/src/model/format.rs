@@ -2,8 +2,8 @@
 
 use super::notes::has_blank;
 use super::{
-    Beside, Model, ModelFile, ModelPoint, bundler, colmap_binary, colmap_text, nerfstudio, notes,
-    openmvg,
+    Beside, Model, ModelFile, bundler, colmap_binary, colmap_text, nerfstudio, notes, openmvg,
+    points_of,
 };
 use crate::cloud::read_ply;
 use crate::{Error, Result};
@@ -193,7 +193,7 @@ pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<
     if first.starts_with(b"ply") {
         let (cloud, num_lost) = read_ply(bytes)?;
         let model = Model {
-            points: cloud.into_iter().map(ModelPoint::from).collect(),
+            points: points_of(cloud),
             ..Model::default()
         };
         let notes = notes::not_finite(num_lost).into_iter().collect();

@@ -7,7 +7,7 @@
 //! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
 //! equation of the lens.
 
-use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use super::{Beside, CameraList, Model, ModelFile, ModelImage, points_of};
 use crate::camera::nerfstudio::camera_of_frame;
 use crate::cloud::read_ply;
 use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
@@ -78,7 +78,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
         match beside(path.trim_start_matches("./")) {
             Some(bytes) => {
                 let (cloud, num_lost) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
-                points = cloud.into_iter().map(ModelPoint::from).collect();
+                points = points_of(cloud);
                 notes.extend(super::notes::not_finite(num_lost));
             }
             None => notes.push(format!("{path} is not there: no points")),

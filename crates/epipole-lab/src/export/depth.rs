@@ -4,6 +4,8 @@ use super::archive::Archive;
 use super::model::Order;
 use crate::tasks::{CameraFound, Dense};
 use epipole::stereo::{DisparityImage, PointCloud};
+use epipole_io::cloud::write_ply;
+use epipole_io::disparity::write_pfm;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use serde_json::{Value, json};
 use std::io::Cursor;
@@ -28,7 +30,7 @@ pub(super) fn add(archive: &mut Archive, order: &Order<'_>) -> Result<(), String
         // An image with one arbitrary number per pixel.
         let depths = DisparityImage::from_raw(pair.width, pair.height, depths.collect())
             .map_err(|_| broken())?;
-        archive.add(&format!("depth/{name}.pfm"), &depths.to_pfm())?;
+        archive.add(&format!("depth/{name}.pfm"), &write_pfm(&depths))?;
         let picture =
             RgbImage::from_raw(pair.width, pair.height, pair.left.to_vec()).ok_or_else(broken)?;
         let mut bytes = Cursor::new(Vec::new());
@@ -43,7 +45,7 @@ pub(super) fn add(archive: &mut Archive, order: &Order<'_>) -> Result<(), String
             cloud.colors.push(color);
         }
     }
-    archive.add("dense.ply", &cloud.to_ply())
+    archive.add("dense.ply", &write_ply(&cloud))
 }
 
 /// Entries of `reconstruction.json` for the pairs: files, and camera of the depth image.

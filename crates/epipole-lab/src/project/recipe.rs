@@ -183,22 +183,22 @@ impl Project {
                         camera.size.0,
                         camera.size.1
                     ),
-                    "Keep, PrepareOptions, Undistortion, prepare_photo",
+                    "use epipole::calibration::{Keep, Undistortion};\n",
                     "Camera, Intrinsics, Lens, LensKind",
                 )
             }
             None => (
                 "    let undistortion = None;\n".to_owned(),
-                "PrepareOptions, prepare_photo",
+                "",
                 "Camera, Intrinsics",
             ),
         };
         format!(
             "//! The Lab's reconstruction, bit for bit. Needs the crates epipole, epipole-io and image 0.25.\n\n\
-             use epipole::calibration::{{{imports}}};\nuse epipole::camera::{{{kinds}}};\n\
+             {imports}use epipole::camera::{{{kinds}}};\n\
              use epipole::feature::FeatureKind;\n\
              use epipole::sfm::{{Photo, PhotoOptions, SfmOptions, reconstruct_photos}};\n\
-             use epipole_io::model::Model;\n\n\
+             use epipole_io::model::Model;\nuse epipole_io::photo::{{PrepareOptions, prepare_photo}};\n\n\
              pub fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
              // Files, and their focal lengths in pixels where they do not tell it.\n    \
              let files: [(&str, Option<f64>); {count}] = [\n{photos}    ];\n{undistortion}    \

@@ -6,7 +6,8 @@ use super::convert::{core_board, unreadable};
 use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Thumbnail, Told};
 use epipole::calibration::{BoardSearch, find_board};
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, decode_rgb, reduce_rgb};
+use epipole::imaging::reduce_rgb;
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 use image::RgbImage;
 
 /// Pixels of the picture for the screen.

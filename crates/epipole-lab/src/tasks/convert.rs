@@ -31,9 +31,9 @@ pub(super) fn sentence(error: epipole::Error) -> String {
 
 /// Why a file is no photograph, in words that follow "cannot be read: ".
 #[cfg(feature = "files")]
-pub(super) fn unreadable(error: epipole::Error) -> String {
+pub(super) fn unreadable(error: epipole_io::Error) -> String {
     match error {
-        epipole::Error::BadImage { why } => why,
+        epipole_io::Error::BadImage { why } => why,
         other => other.to_string(),
     }
 }

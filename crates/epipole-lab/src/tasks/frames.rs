@@ -2,7 +2,8 @@
 
 use super::{Blob, Progress, Told};
 use epipole::feature::photo_to_gray;
-use epipole::imaging::{DecodeOptions, decode_rgb, sharpness};
+use epipole::imaging::sharpness;
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 
 /// The sharpest frame, as `epipole frames` chooses it, with a name that says which part it is of;
 /// nothing, if none can be read.

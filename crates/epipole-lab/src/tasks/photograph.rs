@@ -4,10 +4,11 @@
 use super::board_sample;
 use super::convert::{core_lens_camera, unreadable};
 use super::{LensCamera, Photograph, Progress, Sample, Source, Thumbnail, ask};
-use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
+use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
 use epipole::stereo::PixelMap;
+use epipole_io::photo::{PrepareOptions, prepare_photo};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};

@@ -3,7 +3,6 @@
 
 use super::{answer, exported, finish};
 use epipole::camera::{PosedCamera, look_at};
-use epipole::stereo::DisparityImage;
 use epipole_lab::project::{Event, Project, Step};
 use epipole_lab::tasks::{
     Answer, CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Request,
@@ -186,7 +185,7 @@ fn depth(project: &Project, first: usize, second: usize) -> Dense {
 fn in_the_files(project: &mut Project, [a, b]: [u32; 2], pair: &Dense) {
     project.update(Event::Dense(a, b, true));
     let mut read = exported(project);
-    let depths = DisparityImage::from_pfm(&read("depth/table-4_table-5.pfm")).unwrap();
+    let depths = epipole_io::disparity::read_pfm(&read("depth/table-4_table-5.pfm")).unwrap();
     let scale = project.scale().map_or(1.0, |scale| scale.meters_per_unit);
     for (u, v) in [(100, 100), (240, 180), (300, 200)] {
         let expected = pair.depth(u, v).map(|depth| (depth * scale) as f32);

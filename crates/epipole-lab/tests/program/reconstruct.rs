@@ -1,10 +1,11 @@
 //! The Lab's reconstruction, bit for bit. Needs the crates epipole, epipole-io and image 0.25.
 
-use epipole::calibration::{Keep, PrepareOptions, Undistortion, prepare_photo};
+use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 use epipole::feature::FeatureKind;
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
 use epipole_io::model::Model;
+use epipole_io::photo::{PrepareOptions, prepare_photo};
 
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Files, and their focal lengths in pixels where they do not tell it.

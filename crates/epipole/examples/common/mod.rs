@@ -4,6 +4,7 @@
 
 use epipole::prelude::*;
 use epipole::sfm::Photo;
+use epipole_io::photo::{DecodeOptions, decode_gray, decode_rgb};
 use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 
 pub(crate) type Outcome<T> = Result<T, Box<dyn std::error::Error>>;

@@ -7,8 +7,6 @@
 //! 3. [`calibrate_rig`] adds how a second camera stands beside the first.
 //! 4. [`photograph_of_board`] makes photographs to try this on, with exact truth.
 //! 5. [`Undistortion`] redraws photographs as a camera without distortion would show them.
-//! 6. With the feature `decode`, `prepare_photo` does so with files, turns them upright and reduces
-//!    them.
 //!
 //! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at
 //! the origin.
@@ -28,8 +26,6 @@ mod crossing;
 mod find_board;
 mod footprint;
 mod lattice;
-#[cfg(feature = "decode")]
-mod prepare;
 mod problem;
 mod rig;
 mod saddles;
@@ -45,8 +41,6 @@ pub use calibrate::{Calibration, CalibrationOptions, calibrate};
 pub use calibrated_view::CalibratedView;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::find_board;
-#[cfg(feature = "decode")]
-pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use rig::{RigCalibration, calibrate_rig};
 pub use synthetic::photograph_of_board;
 pub use undistort::{Keep, Undistortion};

@@ -24,11 +24,6 @@ pub(crate) fn data(relative: &str) -> Option<PathBuf> {
     None
 }
 
-/// The same for the files of people who do this work, in a folder beside the photographs.
-pub(crate) fn field(relative: &str) -> Option<PathBuf> {
-    data(&format!("../field/{relative}"))
-}
-
 fn read(name: &str, kind: &str) -> (Vec<usize>, Vec<u8>) {
     let path = PathBuf::from(concat!(
         env!("CARGO_MANIFEST_DIR"),

@@ -1,4 +1,4 @@
-//! Gray images: decoding, borders, filters, gradients, pyramids, resizing and warps.
+//! Gray images: borders, filters, gradients, pyramids, resizing and warps.
 //!
 //! Pixel centers are at integers and (u, v) = (column, row). Filters are sums over pixels: a NaN
 //! pixel makes the results that touch it NaN, and nothing else; [`is_finite`] tells beforehand.
@@ -11,18 +11,12 @@ pub(crate) mod approx;
 mod border;
 mod bytes;
 mod correlate;
-#[cfg(feature = "decode")]
-mod decode;
-#[cfg(feature = "decode")]
-mod exif;
 #[cfg(test)]
 pub(crate) mod fixture;
 mod gaussian;
 mod gradient;
 mod gray;
 mod integral;
-#[cfg(feature = "decode")]
-mod jpeg;
 pub(crate) mod kernel;
 mod pyramid;
 mod reduce;
@@ -37,8 +31,6 @@ mod weigh;
 pub use border::Border;
 pub use bytes::gaussian_blur_u8;
 pub use correlate::{correlate, noise_gain};
-#[cfg(feature = "decode")]
-pub use decode::{DecodeOptions, Decoded, PixelRange, decode_gray, decode_rgb};
 pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{
     DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,

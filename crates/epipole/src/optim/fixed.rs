@@ -243,11 +243,6 @@ pub(super) fn cholesky_in_place<const P: usize>(a: &mut SMatrix<f64, P, P>) -> b
     true
 }
 
-/// Whether a symmetric matrix has a Cholesky factor.
-pub(crate) fn is_positive_definite<const P: usize>(matrix: &SMatrix<f64, P, P>) -> bool {
-    cholesky_in_place(&mut matrix.clone())
-}
-
 /// Solves `L Lᵀ x = b` in place.
 pub(super) fn solve_cholesky_in_place<const P: usize>(
     lower: &SMatrix<f64, P, P>,

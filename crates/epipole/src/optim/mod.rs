@@ -27,7 +27,7 @@ mod subset;
 
 pub use check::check_jacobian;
 pub use dense::{DenseProblem, minimize_dense};
-pub(crate) use fixed::{FixedProblem, NormalEquations, is_positive_definite, minimize_fixed};
+pub(crate) use fixed::{FixedProblem, NormalEquations, minimize_fixed};
 pub use graph::EdgeTerms;
 pub(crate) use graph::{GraphProblem, GraphSystem};
 pub(crate) use levenberg_marquardt::minimize;

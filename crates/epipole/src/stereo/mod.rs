@@ -4,7 +4,6 @@ mod block_matching;
 mod clean;
 mod depth;
 mod disparity_image;
-mod export;
 mod fill;
 mod filter;
 mod matching_cost;

@@ -1,7 +1,8 @@
 //! Published bundle adjustment problems.
 
 use epipole::optim::{LmOptions, RobustLoss};
-use epipole::sfm::{BalProblem, adjust_bal};
+use epipole::sfm::adjust_bal;
+use epipole_io::bundle::read_bal;
 use std::path::PathBuf;
 
 /// A file of the test data, or `None`, said aloud, where it is absent.
@@ -33,7 +34,7 @@ fn ladybug_49_reaches_the_known_optimum() {
     let Some(text) = data("ba/ladybug-problem-49-7776-pre.txt") else {
         return;
     };
-    let mut problem = BalProblem::parse(&text).expect("a BAL problem");
+    let mut problem = read_bal(&text).expect("a BAL problem");
     assert_eq!(
         (
             problem.cameras.len(),
@@ -59,7 +60,7 @@ fn dubrovnik_3_is_under_determined() {
     let Some(text) = data("ba/dubrovnik-3-7-pre.txt") else {
         return;
     };
-    let mut problem = BalProblem::parse(&text).expect("a BAL problem");
+    let mut problem = read_bal(&text).expect("a BAL problem");
     let report =
         adjust_bal(&mut problem, &tight(500), RobustLoss::Trivial, &mut ()).expect("an adjustment");
     println!("{report:?}");

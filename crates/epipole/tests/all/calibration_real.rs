@@ -1,12 +1,10 @@
 //! Calibration on photographs of a chessboard by a stereo rig.
 
-#![cfg(feature = "decode")]
-
 use epipole::calibration::{
     Board, BoardView, CalibrationOptions, Pattern, calibrate, calibrate_rig, find_board,
 };
 use epipole::camera::LensKind;
-use epipole::imaging::{DecodeOptions, decode_gray};
+use epipole_io::photo::{DecodeOptions, decode_gray};
 use std::path::PathBuf;
 
 /// OpenCV 5.0 on the same photographs, corners by its own search: `findChessboardCorners`,

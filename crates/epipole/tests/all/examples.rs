@@ -1,6 +1,5 @@
 //! The examples, run as they are without arguments.
 
-#![cfg(feature = "decode")]
 #![allow(
     clippy::duplicate_mod,
     reason = "each example is a program of its own and names what they share"

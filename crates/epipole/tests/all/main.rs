@@ -8,7 +8,6 @@ mod absolute_pose_with_focal;
 mod bundle_real;
 mod calibration_real;
 mod examples;
-mod fuzz_formats;
 mod gathered_matches;
 mod invariance_of_points;
 mod names;

@@ -1,14 +1,12 @@
 //! Visual odometry on a real drive with known poses.
 
-#![cfg(feature = "decode")]
-
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
-use epipole::imaging::{DecodeOptions, decode_rgb};
 use epipole::progress::Status;
 use epipole::sfm::{
     AlignmentKind, OdometryOptions, Photo, PhotoOptions, SfmInput, absolute_trajectory_error,
     match_photos, monocular_odometry,
 };
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 use nalgebra::Point3;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

@@ -1,12 +1,10 @@
 //! Structure from motion on real photographs with known cameras.
 
-#![cfg(feature = "decode")]
-
 use epipole::camera::{Camera, Intrinsics};
-use epipole::imaging::{DecodeOptions, decode_rgb};
 use epipole::sfm::{
     AlignmentKind, Photo, PhotoOptions, SfmOptions, absolute_trajectory_error, reconstruct_photos,
 };
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 use nalgebra::Point3;
 use std::ops::ControlFlow;
 use std::path::PathBuf;

@@ -496,7 +496,6 @@ fn bad_2(disparity: &DisparityImage, truth: &[f32]) -> [f64; 3] {
 /// Beside OpenCV 4.14 on the same pairs: StereoSGBM (block 5, P1 200, P2 800, disp12 1,
 /// uniqueness 10, speckle 100/2, all eight directions) and StereoBM (block 15), gaps filled from
 /// the row's background.
-#[cfg(feature = "decode")]
 #[test]
 fn real_pairs_are_matched_better_than_by_the_usual_matcher() {
     for (name, num_disparities, sgbm, bm) in [

@@ -10,6 +10,7 @@ use crate::kit::picture::{Own, Picture, pair_slots};
 use crate::kit::question::{Asked, carry_out};
 use crate::kit::reconstruction::{Answer, CloudPoint, Question, Source, Stage};
 use epipole::stereo::PointCloud;
+use epipole_io::cloud::write_ply;
 use image::RgbImage;
 use nalgebra::Point3;
 
@@ -285,7 +286,8 @@ impl Model for TwoViewSfm {
     }
 
     fn file_bytes(&self) -> Vec<u8> {
-        self.cloud().map_or_else(Vec::new, |cloud| cloud.to_ply())
+        self.cloud()
+            .map_or_else(Vec::new, |cloud| write_ply(&cloud))
     }
 
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {

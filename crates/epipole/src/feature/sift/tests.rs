@@ -270,8 +270,10 @@ fn keypoints_equal_those_of_opencv_where_both_find_them() {
 fn photograph() -> Option<GrayImage32> {
     let path = fixture::data("homography/graf/img1.png")?;
     let bytes = std::fs::read(path).unwrap();
-    let options = crate::imaging::DecodeOptions::default();
-    let whole = crate::imaging::decode_gray(&bytes, &options).unwrap().image;
+    let options = epipole_io::photo::DecodeOptions::default();
+    let whole = epipole_io::photo::decode_gray(&bytes, &options)
+        .unwrap()
+        .image;
     Some(image::imageops::crop_imm(&whole, 200, 120, 360, 360).to_image())
 }
 

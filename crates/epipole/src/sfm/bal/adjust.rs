@@ -234,16 +234,12 @@ mod tests {
     }
 
     #[test]
-    fn the_text_is_read_back_unchanged() {
-        let problem = ring(3, 5, 0.7, 10);
-        let text = problem.to_text();
-        assert_eq!(BalProblem::parse(&text).unwrap(), problem);
-    }
-
-    #[test]
     fn a_point_in_the_center_plane_is_an_error() {
-        let mut problem =
-            BalProblem::parse("1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 0\n").unwrap();
+        let mut problem = ring(1, 1, 0.0, 10);
+        let camera = problem.cameras[0];
+        problem.points[0] = Point3::from(
+            -(nalgebra::Rotation3::new(camera.rotation).inverse() * camera.translation),
+        );
         let result = adjust_bal(
             &mut problem,
             &LmOptions::default(),

@@ -4,7 +4,6 @@ mod adjust;
 mod problem;
 mod radial;
 mod residuals;
-mod text;
 
 pub use adjust::adjust_bal;
 pub use problem::{BalCamera, BalProblem};

@@ -27,11 +27,15 @@ pub struct BalCamera {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::nalgebra::{Point2, Point3};
 /// use epipole::optim::RobustLoss;
-/// use epipole::sfm::BalProblem;
+/// use epipole::sfm::{BalCamera, BalProblem, BundleObservation};
 /// // One camera at the origin with f = 100 sees a point at (1, 2, −10), 1 px too far right.
-/// let text = "1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 -10\n";
-/// let problem = BalProblem::parse(text)?;
+/// let problem = BalProblem {
+///     cameras: vec![BalCamera { focal_px: 100.0, ..BalCamera::default() }],
+///     points: vec![Point3::new(1.0, 2.0, -10.0)],
+///     observations: vec![BundleObservation { camera: 0, point: 0, pixel: Point2::new(11.0, 20.0) }],
+/// };
 /// assert_eq!(problem.cost(RobustLoss::Trivial), 0.5);
 /// # Ok(()) }
 /// ```

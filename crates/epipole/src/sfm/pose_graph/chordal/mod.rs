@@ -109,11 +109,21 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::sfm::PoseGraph;
+    /// use epipole::nalgebra::{Isometry2, Matrix3, Vector2};
+    /// use epipole::sfm::{Edge, Graph};
     /// // Vertex 1 was measured 1 ahead and a quarter turn to the left, but stands anywhere.
-    /// let mut graph = PoseGraph::parse_g2o(
-    ///     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 -7 3 3\nEDGE_SE2 0 1 1 0 1.5707963267948966 4 0 0 4 0 4\n",
-    /// )?;
+    /// let quarter = std::f64::consts::FRAC_PI_2;
+    /// let mut graph = Graph {
+    ///     ids: vec![0, 1],
+    ///     vertices: vec![Isometry2::identity(), Isometry2::new(Vector2::new(-7.0, 3.0), 3.0)],
+    ///     edges: vec![Edge {
+    ///         from: 0,
+    ///         to: 1,
+    ///         from_from_to: Isometry2::new(Vector2::new(1.0, 0.0), quarter),
+    ///         information: 4.0 * Matrix3::identity(),
+    ///     }],
+    ///     fixed: vec![],
+    /// };
     /// graph.initialize()?;
     /// assert!(graph.chi2() < 1e-20);
     /// # Ok(()) }

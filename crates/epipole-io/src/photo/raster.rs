@@ -1,8 +1,8 @@
 //! Samples of any depth, and the images made of them.
 
 use super::range::{PixelRange, of_floats, of_words, to_byte, to_unit};
-use crate::imaging::gray::{GrayImage32, from_vec, rgb_to_gray};
 use crate::{Error, Result};
+use epipole::imaging::{GrayImage32, rgb_to_gray};
 use image::{DynamicImage, RgbImage};
 
 /// Pixels as a file has them, row by row.
@@ -20,6 +20,11 @@ pub(super) enum Samples {
     Bytes(Vec<u8>),
     Words(Vec<u16>),
     Floats(Vec<f32>),
+}
+
+/// An image with a value for each pixel.
+fn gray(width: u32, height: u32, values: Vec<f32>) -> GrayImage32 {
+    GrayImage32::from_raw(width, height, values).expect("every pixel has a sample")
 }
 
 impl Raster {
@@ -105,9 +110,9 @@ impl Raster {
     pub(super) fn into_gray(self, mapped: Option<[f64; 2]>) -> GrayImage32 {
         let (width, height) = (self.width, self.height);
         if self.channels > 2 {
-            let gray = rgb_to_gray(&self.into_rgb(mapped)).into_raw();
-            let values = gray.into_iter().map(|v| f32::from(v) / 255.0);
-            return from_vec(width, height, values.collect());
+            let bytes = rgb_to_gray(&self.into_rgb(mapped)).into_raw();
+            let values = bytes.into_iter().map(|v| f32::from(v) / 255.0);
+            return gray(width, height, values.collect());
         }
         let range = mapped.unwrap_or(self.full);
         let unit = |value: f64| to_unit(value, range) as f32;
@@ -119,7 +124,7 @@ impl Raster {
             Samples::Words(words) => self.seen(words).map(|v| unit(v.into())).collect(),
             Samples::Floats(floats) => self.seen(floats).map(|v| unit(v.into())).collect(),
         };
-        from_vec(width, height, values)
+        gray(width, height, values)
     }
 
     /// * `mapped`: values of black and white, if not those of the format

@@ -1,9 +1,14 @@
 //! Files of all formats, made here or by others.
 
+use super::decode::{MAX_METADATA_BYTES, limits};
 use super::*;
-use crate::imaging::fixture;
+use crate::{Error, shared};
 use image::codecs::png::PngEncoder;
-use image::{GrayImage, ImageEncoder, Luma};
+use image::metadata::Orientation;
+use image::{
+    DynamicImage, GrayImage, ImageDecoder, ImageEncoder, ImageFormat, ImageReader, Limits, Luma,
+};
+use std::io::Cursor;
 
 fn png(image: &DynamicImage) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -83,7 +88,7 @@ fn a_gray_png_comes_back_exactly() {
         &DecodeOptions::default(),
     )
     .unwrap();
-    assert_eq!(crate::imaging::gray_to_u8(&decoded.image), image);
+    assert_eq!(epipole::imaging::gray_to_u8(&decoded.image), image);
     assert_eq!(decoded.focal_px, None);
 }
 
@@ -191,13 +196,13 @@ fn the_limit_is_checked_before_decoding_and_can_be_raised() {
 
 #[test]
 fn a_photograph_from_the_data_folder() {
-    let Some(path) = fixture::data("multiview/fountain_p11/0000.jpg") else {
+    let Some(path) = shared::data("multiview/fountain_p11/0000.jpg") else {
         return;
     };
     let bytes = std::fs::read(path).unwrap();
     let gray = decode_gray(&bytes, &DecodeOptions::default()).unwrap();
     assert_eq!(gray.image.dimensions(), (768, 512));
-    assert!(crate::imaging::is_finite(&gray.image));
+    assert!(epipole::imaging::is_finite(&gray.image));
 }
 
 /// Files of 5 × 3 pixels as OpenCV writes them by `libtiff`: 7 u + 13 v + 29 c of color c (blue,
@@ -362,7 +367,7 @@ fn damaged_files_of_all_formats_are_errors_or_other_images() {
 
 #[test]
 fn a_thermal_picture_is_that_of_its_twin_in_eight_bits() {
-    let Some(path) = fixture::field("11/thermal00.png") else {
+    let Some(path) = shared::field("11/thermal00.png") else {
         return;
     };
     let bytes = std::fs::read(path).unwrap();

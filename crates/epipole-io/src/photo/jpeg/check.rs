@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 /// Parts that an intact file leaves out, and its decoder needs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(in crate::imaging) struct Missing {
+pub(in crate::photo) struct Missing {
     /// End of the last block, where there is no end-of-image marker.
     pub(super) end_at: Option<usize>,
     /// Whether it has no Huffman tables, and is coded by the standard ones.
@@ -18,7 +18,7 @@ pub(in crate::imaging) struct Missing {
 
 impl Missing {
     /// The file with these parts.
-    pub(in crate::imaging) fn added_to(self, file: &[u8]) -> Cow<'_, [u8]> {
+    pub(in crate::photo) fn added_to(self, file: &[u8]) -> Cow<'_, [u8]> {
         let mut whole = Cow::from(file);
         if let Some(at) = self.end_at {
             // The decoder would take the last rows for lost.
@@ -35,7 +35,7 @@ impl Missing {
 ///
 /// # Errors
 /// The damage to its data in words, if there is any.
-pub(in crate::imaging) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, String> {
+pub(in crate::photo) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, String> {
     let mut tables = Tables::default();
     let mut missing = Missing::default();
     let mut frame: Option<Frame> = None;

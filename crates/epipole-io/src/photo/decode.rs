@@ -1,22 +1,14 @@
 //! Photographs from the bytes of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
 
-mod format;
-mod range;
-mod raster;
-#[cfg(test)]
-mod tests;
-mod tiff;
-
-pub use self::range::PixelRange;
-
-use self::format::{Format, bad, check_size, recognize};
-use self::raster::Raster;
 use super::exif::Facts;
-use super::gray::GrayImage32;
-use super::jpeg;
-use crate::math::Geodetic;
+use super::format::{Format, bad, check_size, recognize};
+use super::range::PixelRange;
+use super::raster::Raster;
+use super::{jpeg, tiff};
 use crate::{Error, Result};
 use derive_setters::Setters;
+use epipole::imaging::GrayImage32;
+use epipole::math::Geodetic;
 use image::codecs::pnm::PnmDecoder;
 use image::metadata::Orientation;
 use image::{
@@ -28,15 +20,10 @@ use std::io::Cursor;
 
 /// Maximum memory for data of a PNG file beside its pixels, bytes. A color profile that unpacks to
 /// more is ignored; larger stored data are an error.
-const MAX_METADATA_BYTES: u64 = 64 << 20;
+pub(super) const MAX_METADATA_BYTES: u64 = 64 << 20;
 
 /// Options of [`decode_gray`] and [`decode_rgb`].
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct DecodeOptions {
@@ -77,14 +64,13 @@ pub struct Decoded<I> {
 
 /// The gray image in [0, 1] of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
 ///
-/// Colors become gray as in [`rgb_to_gray`](super::rgb_to_gray); gray of more than eight bits keeps
+/// Colors become gray as in [`rgb_to_gray`](epipole::imaging::rgb_to_gray); gray of more than eight bits keeps
 /// its depth; transparency is ignored. Of a TIFF file the first image is read: gray or RGB,
 /// integers or floats, in any compression but JPEG 2000, WebP and Zstandard.
 ///
 /// # Errors
 /// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
-/// [`Error::TooManyPixels`] beyond the limit; [`Error::NotFinite`] and [`Error::OutOfRange`] for an
-/// empty range.
+/// [`Error::TooManyPixels`] beyond the limit; [`Error::Invalid`] for an empty range.
 ///
 /// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or have
 /// more blocks than the image. There is no checksum: changed data that still decode are another
@@ -92,8 +78,8 @@ pub struct Decoded<I> {
 /// marker behind the last block. Without Huffman tables it is read by the standard ones.
 ///
 /// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::imaging::{DecodeOptions, PixelRange, decode_gray};
+/// # fn main() -> Result<(), epipole_io::Error> {
+/// use epipole_io::photo::{DecodeOptions, PixelRange, decode_gray};
 /// // Twelve bits, of which the sensor used a few values.
 /// let file = b"P2 3 1 4095 1000 1010 1040";
 /// let gray = decode_gray(file, &DecodeOptions::default())?;
@@ -113,7 +99,7 @@ pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<Gray
 /// As [`decode_gray`].
 ///
 /// ```
-/// use epipole::imaging::{DecodeOptions, decode_rgb};
+/// use epipole_io::photo::{DecodeOptions, decode_rgb};
 /// assert!(decode_rgb(&[], &DecodeOptions::default()).is_err());
 /// ```
 pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbImage>> {
@@ -201,7 +187,7 @@ fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
 }
 
 /// Limits of the decoder: none for pixels, which are checked against the caller's own.
-fn limits() -> Limits {
+pub(super) fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_METADATA_BYTES);
     limits

@@ -1,22 +1,13 @@
-//! Pose graphs as text, in the format of g2o.
+//! Pose graphs: the text format of g2o.
 
-use super::pose_graph::{Edge, Graph, PoseGraph};
 use crate::{Error, Result};
+use epipole::sfm::{Edge, Graph, PoseGraph};
 use nalgebra::{
-    Isometry2, Isometry3, Quaternion, SMatrix, Similarity3, Translation3, UnitQuaternion, Vector2,
+    Cholesky, Isometry2, Isometry3, Quaternion, SMatrix, Similarity3, Translation3, UnitQuaternion,
+    Vector2,
 };
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-const WHAT: &str = "the pose graph";
-
-fn malformed(line: usize, why: String) -> Error {
-    Error::Malformed {
-        what: WHAT,
-        line,
-        why,
-    }
-}
 
 /// A pose in a file: tags and numbers.
 trait Written<const D: usize>: Sized {
@@ -118,7 +109,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             return Ok(false);
         };
         if words.len() != num_ids + num_numbers {
-            return Err(malformed(
+            return Err(Error::at(
                 line,
                 format!(
                     "{tag} needs {} values, but has {}",
@@ -135,17 +126,17 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
         for word in &words[num_ids..] {
             match word.parse::<f64>() {
                 Ok(value) if value.is_finite() => numbers.push(value),
-                _ => return Err(malformed(line, no_number(word))),
+                _ => return Err(Error::at(line, no_number(word))),
             }
         }
-        let pose = T::read(&numbers[..T::NUMBERS]).map_err(|why| malformed(line, why.into()))?;
+        let pose = T::read(&numbers[..T::NUMBERS]).map_err(|why| Error::at(line, why))?;
         if num_ids == 1 {
             if self
                 .index
                 .insert(ids[0], self.graph.vertices.len())
                 .is_some()
             {
-                return Err(malformed(line, format!("vertex {} is there twice", ids[0])));
+                return Err(Error::at(line, format!("vertex {} is there twice", ids[0])));
             }
             self.graph.ids.push(ids[0]);
             self.graph.vertices.push(pose);
@@ -160,12 +151,12 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
                 }
             }
             if !is_positive_semidefinite(&information) {
-                let why = "the information matrix is not positive semi-definite".into();
-                return Err(malformed(line, why));
+                let why = "the information matrix is not positive semi-definite";
+                return Err(Error::at(line, why));
             }
             if ids[0] == ids[1] {
                 let why = format!("the edge joins vertex {} with itself", ids[0]);
-                return Err(malformed(line, why));
+                return Err(Error::at(line, why));
             }
             self.edges.push((line, ids[0], ids[1], pose, information));
         }
@@ -178,7 +169,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             self.index
                 .get(&id)
                 .copied()
-                .ok_or_else(|| malformed(line, format!("there is no vertex {id}")))
+                .ok_or_else(|| Error::at(line, format!("there is no vertex {id}")))
         };
         for (line, from, to, pose, information) in self.edges {
             graph.edges.push(Edge {
@@ -229,7 +220,7 @@ fn unknown(tag: &str) -> String {
 
 fn parse_id(line: usize, word: &str) -> Result<u64> {
     word.parse()
-        .map_err(|_| malformed(line, format!("“{word}” is not the number of a vertex")))
+        .map_err(|_| Error::at(line, format!("“{word}” is not the number of a vertex")))
 }
 
 /// Whether all eigenvalues are at least about zero.
@@ -239,7 +230,7 @@ fn is_positive_semidefinite<const D: usize>(matrix: &SMatrix<f64, D, D>) -> bool
     for i in 0..D {
         shifted[(i, i)] += 1e-9 * largest + f64::MIN_POSITIVE;
     }
-    crate::optim::is_positive_definite(&shifted)
+    Cholesky::new(shifted).is_some()
 }
 
 fn write_graph<T: Written<D>, const D: usize>(graph: &Graph<T, D>) -> String {
@@ -276,89 +267,88 @@ fn write_graph<T: Written<D>, const D: usize>(graph: &Graph<T, D>) -> String {
     text
 }
 
-impl PoseGraph {
-    /// Reads g2o's text format: `VERTEX_SE2` and `EDGE_SE2`, or `VERTEX_SE3:QUAT` and
-    /// `EDGE_SE3:QUAT`, or `VERTEX_SIM3:QUAT` and `EDGE_SIM3:QUAT`, and `FIX`.
-    ///
-    /// The similarities are an extension: as SE(3), with the scale after the quaternion and an
-    /// information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
-    /// information matrices are written as their upper triangles, row by row. Empty lines, those
-    /// that start with `#`, and `PARAMS_…` are skipped.
-    ///
-    /// # Errors
-    /// [`Error::Malformed`] with the line for unknown tags, priors, landmarks, mixed kinds, missing
-    /// or surplus values, values that are not finite, vertices that are there twice or not at all,
-    /// and information matrices that are not positive semi-definite; [`Error::TooFew`] without
-    /// vertices.
-    ///
-    /// ```
-    /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::sfm::PoseGraph;
-    /// // Measured 1 ahead, placed 1.5 ahead, information 4: χ² = 0.5² · 4.
-    /// let graph = PoseGraph::parse_g2o(
-    ///     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0 0\nEDGE_SE2 0 1 1 0 0 4 0 0 4 0 4\n",
-    /// )?;
-    /// assert_eq!(graph.chi2(), 1.0);
-    /// # Ok(()) }
-    /// ```
-    pub fn parse_g2o(text: &str) -> Result<Self> {
-        let mut se2 = Reader::<Isometry2<f64>, 3>::new();
-        let mut se3 = Reader::<Isometry3<f64>, 6>::new();
-        let mut sim3 = Reader::<Similarity3<f64>, 7>::new();
-        let mut fixed = Vec::new();
-        let mut kind = None;
-        for (index, content) in text.lines().enumerate() {
-            let line = index + 1;
-            let words: Vec<&str> = content.split_whitespace().collect();
-            let Some((&tag, words)) = words.split_first() else {
-                continue;
-            };
-            // Only priors and landmarks have parameters, and those lines are refused.
-            if tag.starts_with('#') || tag.starts_with("PARAMS_") {
-                continue;
-            }
-            if tag == "FIX" {
-                for word in words {
-                    fixed.push((line, parse_id(line, word)?));
-                }
-                continue;
-            }
-            let this = if se2.accept(line, tag, words)? {
-                2
-            } else if se3.accept(line, tag, words)? {
-                3
-            } else if sim3.accept(line, tag, words)? {
-                7
-            } else {
-                return Err(malformed(line, unknown(tag)));
-            };
-            if *kind.get_or_insert(this) != this {
-                let why = format!("“{tag}” is of another kind than the lines before");
-                return Err(malformed(line, why));
-            }
-        }
-        let graph = match kind {
-            Some(2) => PoseGraph::Se2(se2.finish(&fixed)?),
-            Some(3) => PoseGraph::Se3(se3.finish(&fixed)?),
-            Some(_) => PoseGraph::Sim3(sim3.finish(&fixed)?),
-            None => {
-                return Err(Error::TooFew {
-                    what: "a pose graph from vertices",
-                    needed: 1,
-                    got: 0,
-                });
-            }
+/// Reads g2o's text format: `VERTEX_SE2` and `EDGE_SE2`, or `VERTEX_SE3:QUAT` and
+/// `EDGE_SE3:QUAT`, or `VERTEX_SIM3:QUAT` and `EDGE_SIM3:QUAT`, and `FIX`.
+///
+/// The similarities are an extension: as SE(3), with the scale after the quaternion and an
+/// information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
+/// information matrices are written as their upper triangles, row by row. Empty lines, those
+/// that start with `#`, and `PARAMS_…` are skipped.
+///
+/// # Errors
+/// [`Error::Malformed`] with the line for unknown tags, priors, landmarks, mixed kinds, missing
+/// or surplus values, values that are not finite, vertices that are there twice or not at all,
+/// and information matrices that are not positive semi-definite; [`Error::Invalid`] without
+/// vertices.
+///
+/// ```
+/// # fn main() -> Result<(), epipole_io::Error> {
+/// use epipole_io::pose_graph::read_g2o;
+/// // Measured 1 ahead, placed 1.5 ahead, information 4: χ² = 0.5² · 4.
+/// let graph = read_g2o(
+///     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 0 0\nEDGE_SE2 0 1 1 0 0 4 0 0 4 0 4\n",
+/// )?;
+/// assert_eq!(graph.chi2(), 1.0);
+/// # Ok(()) }
+/// ```
+pub fn read_g2o(text: &str) -> Result<PoseGraph> {
+    let mut se2 = Reader::<Isometry2<f64>, 3>::new();
+    let mut se3 = Reader::<Isometry3<f64>, 6>::new();
+    let mut sim3 = Reader::<Similarity3<f64>, 7>::new();
+    let mut fixed = Vec::new();
+    let mut kind = None;
+    for (index, content) in text.lines().enumerate() {
+        let line = index + 1;
+        let words: Vec<&str> = content.split_whitespace().collect();
+        let Some((&tag, words)) = words.split_first() else {
+            continue;
         };
-        Ok(graph)
-    }
-
-    /// Writes g2o's text format; see [`PoseGraph::parse_g2o`].
-    pub fn to_g2o(&self) -> String {
-        match self {
-            PoseGraph::Se2(graph) => write_graph(graph),
-            PoseGraph::Se3(graph) => write_graph(graph),
-            PoseGraph::Sim3(graph) => write_graph(graph),
+        // Only priors and landmarks have parameters, and those lines are refused.
+        if tag.starts_with('#') || tag.starts_with("PARAMS_") {
+            continue;
         }
+        if tag == "FIX" {
+            for word in words {
+                fixed.push((line, parse_id(line, word)?));
+            }
+            continue;
+        }
+        let this = if se2.accept(line, tag, words)? {
+            2
+        } else if se3.accept(line, tag, words)? {
+            3
+        } else if sim3.accept(line, tag, words)? {
+            7
+        } else {
+            return Err(Error::at(line, unknown(tag)));
+        };
+        if *kind.get_or_insert(this) != this {
+            let why = format!("“{tag}” is of another kind than the lines before");
+            return Err(Error::at(line, why));
+        }
+    }
+    let graph = match kind {
+        Some(2) => PoseGraph::Se2(se2.finish(&fixed)?),
+        Some(3) => PoseGraph::Se3(se3.finish(&fixed)?),
+        Some(_) => PoseGraph::Sim3(sim3.finish(&fixed)?),
+        None => {
+            return Err(epipole::Error::TooFew {
+                what: "a pose graph from vertices",
+                needed: 1,
+                got: 0,
+            }
+            .into());
+        }
+    };
+    Ok(graph)
+}
+
+/// Writes g2o's text format; see [`read_g2o`].
+pub fn write_g2o(graph: &PoseGraph) -> String {
+    match graph {
+        PoseGraph::Se2(graph) => write_graph(graph),
+        PoseGraph::Se3(graph) => write_graph(graph),
+        PoseGraph::Sim3(graph) => write_graph(graph),
     }
 }
 
@@ -373,17 +363,17 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back() {
         for text in [SE2, SE3] {
-            let graph = PoseGraph::parse_g2o(text).unwrap();
-            let again = PoseGraph::parse_g2o(&graph.to_g2o()).unwrap();
+            let graph = read_g2o(text).unwrap();
+            let again = read_g2o(&write_g2o(&graph)).unwrap();
             assert_eq!(graph.size(), again.size());
             assert!((graph.chi2() - again.chi2()).abs() < 1e-15);
         }
-        let PoseGraph::Se2(graph) = PoseGraph::parse_g2o(SE2).unwrap() else {
+        let PoseGraph::Se2(graph) = read_g2o(SE2).unwrap() else {
             panic!("a planar graph");
         };
         assert_eq!((graph.ids, graph.fixed), (vec![5, 9], vec![0]));
         assert_eq!(graph.edges[0].information[(1, 0)], 0.5);
-        let PoseGraph::Se3(graph) = PoseGraph::parse_g2o(SE3).unwrap() else {
+        let PoseGraph::Se3(graph) = read_g2o(SE3).unwrap() else {
             panic!("a spatial graph");
         };
         assert!(graph.chi2() < 1e-15);
@@ -392,13 +382,13 @@ mod tests {
     #[test]
     fn quaternions_may_be_as_long_as_numbers_are() {
         let text = "VERTEX_SE3:QUAT 0 0 0 0 0 0 1.5e300 -1.5e300\n";
-        let PoseGraph::Se3(graph) = PoseGraph::parse_g2o(text).unwrap() else {
+        let PoseGraph::Se3(graph) = read_g2o(text).unwrap() else {
             panic!("a spatial graph");
         };
         let turn = graph.vertices[0].rotation;
         assert!((turn.angle() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
-        let text = PoseGraph::Se3(graph).to_g2o();
-        assert!(PoseGraph::parse_g2o(&text).is_ok(), "{text}");
+        let text = write_g2o(&PoseGraph::Se3(graph));
+        assert!(read_g2o(&text).is_ok(), "{text}");
     }
 
     #[test]
@@ -416,9 +406,9 @@ mod tests {
             from_from_to: graph.vertices[1],
             information: SMatrix::identity(),
         });
-        let text = PoseGraph::Sim3(graph.clone()).to_g2o();
-        assert_eq!(PoseGraph::parse_g2o(&text).unwrap(), PoseGraph::Sim3(graph));
-        assert!(PoseGraph::parse_g2o("VERTEX_SIM3:QUAT 0 0 0 0 0 0 0 1 -2\n").is_err());
+        let text = write_g2o(&PoseGraph::Sim3(graph.clone()));
+        assert_eq!(read_g2o(&text).unwrap(), PoseGraph::Sim3(graph));
+        assert!(read_g2o("VERTEX_SIM3:QUAT 0 0 0 0 0 0 0 1 -2\n").is_err());
     }
 
     #[test]
@@ -460,21 +450,20 @@ mod tests {
             ),
             ("VERTEX_SE2 0 0 0 0\nFIX 3\n", 2, "no vertex 3"),
         ] {
-            match PoseGraph::parse_g2o(bad) {
+            match read_g2o(bad) {
                 Err(Error::Malformed {
                     line: got,
-                    why: said,
-                    ..
+                    message: said,
                 }) => {
-                    assert_eq!(got, line, "{bad:?}");
+                    assert_eq!(got, Some(line), "{bad:?}");
                     assert!(said.contains(why), "{said}");
                 }
                 other => panic!("{bad:?} gave {other:?}"),
             }
         }
         assert!(matches!(
-            PoseGraph::parse_g2o("\n"),
-            Err(Error::TooFew { .. })
+            read_g2o("\n"),
+            Err(Error::Invalid(epipole::Error::TooFew { .. }))
         ));
     }
 }

@@ -1,9 +1,8 @@
 //! PNG, JPEG and WebP with the EXIF data in them, TIFF, BMP and PNM.
 
-use super::config;
-use super::damage::{damage_bytes, some_damage};
-use epipole::Error;
-use epipole::imaging::{DecodeOptions, decode_gray, decode_rgb};
+use crate::Error;
+use crate::damage::{config, damage_bytes, some_damage};
+use crate::photo::{DecodeOptions, decode_gray, decode_rgb};
 use image::codecs::{jpeg::JpegEncoder, png::PngEncoder, webp::WebPEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, RgbImage};
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! EXIF data: a guess of the focal length, and the position.
 
-use crate::math::Geodetic;
+use epipole::math::{Geodetic, local_from_geodetic};
 use exif::{Exif, In, Reader, Tag, Value};
 
 /// Diagonal of a 36 mm × 24 mm frame, squared, mm².
@@ -94,7 +94,7 @@ impl Facts {
             longitude_deg: degrees(Tag::GPSLongitude, Tag::GPSLongitudeRef, b'W')?,
             height_m: height_m.map_or(0.0, |h| if below { -h } else { h }),
         };
-        place.check().is_ok().then_some(place)
+        local_from_geodetic(&place, &place).ok().map(|_| place)
     }
 }
 

@@ -2,7 +2,8 @@
 //! variants.
 
 use super::check::{Missing, check};
-use crate::imaging::{DecodeOptions, decode_rgb, fixture};
+use crate::photo::{DecodeOptions, decode_rgb};
+use crate::shared;
 use image::RgbImage;
 
 /// In one scan.
@@ -247,7 +248,7 @@ fn a_file_without_tables_is_read_by_the_standard_ones() {
 
 #[test]
 fn a_frame_of_a_webcam_is_read() {
-    let Some(path) = fixture::field("28/mjpeg_no_dht.jpg") else {
+    let Some(path) = shared::field("28/mjpeg_no_dht.jpg") else {
         return;
     };
     let image = decode_rgb(&std::fs::read(path).unwrap(), &DecodeOptions::default());

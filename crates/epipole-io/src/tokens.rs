@@ -3,31 +3,25 @@
 use crate::{Error, Result};
 
 /// Hands out the words of a text, numbers checked.
-pub(super) struct Tokens<'a> {
-    what: &'static str,
+pub(crate) struct Tokens<'a> {
     words: Box<dyn Iterator<Item = (usize, &'a str)> + 'a>,
     line: usize,
 }
 
 impl<'a> Tokens<'a> {
-    pub(super) fn new(what: &'static str, text: &'a str) -> Self {
+    pub(crate) fn new(text: &'a str) -> Self {
         let words = text.lines().enumerate().flat_map(|(line, content)| {
             content.split_whitespace().map(move |word| (line + 1, word))
         });
         Self {
-            what,
             words: Box::new(words),
             line: 1,
         }
     }
 
     /// An error at the last word that was handed out.
-    pub(super) fn error(&self, why: String) -> Error {
-        Error::Malformed {
-            what: self.what,
-            line: self.line,
-            why,
-        }
+    pub(crate) fn error(&self, why: String) -> Error {
+        Error::at(self.line, why)
     }
 
     fn word(&mut self, meaning: &str) -> Result<&'a str> {
@@ -41,7 +35,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// A finite number.
-    pub(super) fn number(&mut self, meaning: &str) -> Result<f64> {
+    pub(crate) fn number(&mut self, meaning: &str) -> Result<f64> {
         let word = self.word(meaning)?;
         match word.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
@@ -51,7 +45,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// A whole number below `bound`.
-    pub(super) fn index(&mut self, meaning: &str, bound: usize) -> Result<usize> {
+    pub(crate) fn index(&mut self, meaning: &str, bound: usize) -> Result<usize> {
         let word = self.word(meaning)?;
         match word.parse::<usize>() {
             Ok(value) if value < bound => Ok(value),
@@ -63,7 +57,7 @@ impl<'a> Tokens<'a> {
     }
 
     /// Nothing but blanks may follow.
-    pub(super) fn end(&mut self) -> Result<()> {
+    pub(crate) fn end(&mut self) -> Result<()> {
         match self.words.next() {
             Some((line, word)) => {
                 self.line = line;

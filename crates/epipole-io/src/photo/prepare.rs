@@ -1,12 +1,13 @@
 //! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is
 //! known, not too large.
 
-use super::Undistortion;
+use super::{DecodeOptions, PixelRange, decode_rgb};
 use crate::Result;
-use crate::camera::{Camera, Intrinsics};
-use crate::imaging::{DecodeOptions, PixelRange, decode_rgb, reduce_rgb};
-use crate::math::Geodetic;
 use derive_setters::Setters;
+use epipole::calibration::Undistortion;
+use epipole::camera::{Camera, Intrinsics};
+use epipole::imaging::reduce_rgb;
+use epipole::math::Geodetic;
 use image::metadata::Orientation;
 use image::{DynamicImage, RgbImage};
 
@@ -110,7 +111,7 @@ impl PreparedPhoto {
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// use epipole::calibration::{PrepareOptions, prepare_photo};
+/// use epipole_io::photo::{PrepareOptions, prepare_photo};
 /// let mut file = std::io::Cursor::new(Vec::new());
 /// image::RgbImage::new(40, 30).write_to(&mut file, image::ImageFormat::Png)?;
 /// let options = PrepareOptions::default().with_max_pixels(300);
@@ -175,8 +176,8 @@ fn quarters(orientation: Orientation) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::Keep;
-    use crate::camera::{Lens, LensKind};
+    use epipole::calibration::Keep;
+    use epipole::camera::{Lens, LensKind};
     use image::{ExtendedColorType, ImageEncoder, Rgb};
 
     /// A PNG file with an EXIF orientation.
@@ -243,8 +244,12 @@ mod tests {
             // With its distortion kept, the camera is rotated with the image.
             let kept = prepare_photo(&file(&smooth(), orientation), &PrepareOptions::default());
             let kept = kept.unwrap().camera(&camera()).unwrap().unwrap();
-            let bent = camera().ray(&place(u, v)).unwrap();
-            let its_bent = kept.ray(&place(at.0, at.1)).unwrap();
+            let ray_of = |camera: &Camera, pixel| {
+                let ray = camera.unproject(&pixel).unwrap();
+                nalgebra::Point2::new(ray.x / ray.z, ray.y / ray.z)
+            };
+            let bent = ray_of(&camera(), place(u, v));
+            let its_bent = ray_of(&kept, place(at.0, at.1));
             let expected = match orientation {
                 6 => [-bent.y, bent.x],
                 3 => [-bent.x, -bent.y],

@@ -1,6 +1,7 @@
 //! Sample values that become black and white.
 
-use crate::{Error, Result};
+use crate::Result;
+use epipole::Error;
 
 /// Share of the samples that may lie beyond each end of a robust range.
 const BEYOND: f64 = 0.001;
@@ -9,7 +10,6 @@ const MAX_STRETCH: f64 = 2.0;
 
 /// Sample values of a file that become black and white.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum PixelRange {
     /// 0 to 255 in 8 bits; otherwise the values in use, since few sensors use all values that a
@@ -25,19 +25,21 @@ pub enum PixelRange {
 
 impl PixelRange {
     /// # Errors
-    /// [`Error::NotFinite`] and [`Error::OutOfRange`] for an empty range.
+    /// [`Invalid`](crate::Error::Invalid) for an empty range.
     pub(super) fn check(self) -> Result<()> {
         match self {
             Self::Between(low, high) if !low.is_finite() || !high.is_finite() => {
                 Err(Error::NotFinite {
                     what: "the range of pixels",
-                })
+                }
+                .into())
             }
             Self::Between(low, high) if low >= high => Err(Error::OutOfRange {
                 what: "the upper end of the range of pixels",
                 requirement: "greater than the lower end",
                 value: high,
-            }),
+            }
+            .into()),
             _ => Ok(()),
         }
     }

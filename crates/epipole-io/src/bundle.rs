@@ -1,0 +1,134 @@
+//! Bundle adjustment problems: the text format of "Bundle Adjustment in the Large".
+//!
+//! Source: Agarwal et al. 2010, "Bundle Adjustment in the Large".
+
+use crate::Result;
+use crate::tokens::Tokens;
+use epipole::sfm::{BalCamera, BalProblem, BundleObservation};
+use nalgebra::{Point2, Point3, Vector3};
+use std::fmt::Write;
+
+/// Reads the format: numbers of cameras, points and observations; then one observation a line
+/// (camera, point, u, v); then nine numbers a camera (rotation, translation, f, k1, k2); then
+/// three a point.
+///
+/// # Errors
+/// [`Error::Malformed`](crate::Error::Malformed) with the line, if words are missing, left
+/// over, not finite, or index what is not there.
+pub fn read_bal(text: &str) -> Result<BalProblem> {
+    let mut tokens = Tokens::new(text);
+    let limit = u32::MAX as usize;
+    let num_cameras = tokens.index("the number of cameras", limit)?;
+    let num_points = tokens.index("the number of points", limit)?;
+    let num_observations = tokens.index("the number of observations", limit)?;
+    // A header may promise anything; room is made for what the text can hold.
+    let room = |promised: usize| promised.min(text.len() / 2);
+    let mut problem = BalProblem {
+        cameras: Vec::with_capacity(room(num_cameras)),
+        points: Vec::with_capacity(room(num_points)),
+        observations: Vec::with_capacity(room(num_observations)),
+    };
+    for _ in 0..num_observations {
+        problem.observations.push(BundleObservation {
+            camera: tokens.index("an observation's camera", num_cameras)?,
+            point: tokens.index("an observation's point", num_points)?,
+            pixel: Point2::new(
+                tokens.number("an observation's u")?,
+                tokens.number("an observation's v")?,
+            ),
+        });
+    }
+    for _ in 0..num_cameras {
+        let mut v = [0.0; 9];
+        for value in &mut v {
+            *value = tokens.number("a camera's parameter")?;
+        }
+        problem.cameras.push(BalCamera {
+            rotation: Vector3::new(v[0], v[1], v[2]),
+            translation: Vector3::new(v[3], v[4], v[5]),
+            focal_px: v[6],
+            k1: v[7],
+            k2: v[8],
+        });
+    }
+    for _ in 0..num_points {
+        let mut v = [0.0; 3];
+        for value in &mut v {
+            *value = tokens.number("a point's coordinate")?;
+        }
+        problem.points.push(Point3::from(v));
+    }
+    tokens.end()?;
+    Ok(problem)
+}
+
+/// Writes the format; numbers have as many digits as they need to be read back unchanged.
+pub fn write_bal(problem: &BalProblem) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{} {} {}",
+        problem.cameras.len(),
+        problem.points.len(),
+        problem.observations.len()
+    );
+    for o in &problem.observations {
+        let _ = writeln!(
+            text,
+            "{} {} {:e} {:e}",
+            o.camera, o.point, o.pixel.x, o.pixel.y
+        );
+    }
+    for camera in &problem.cameras {
+        for value in camera.rotation.iter().chain(&camera.translation) {
+            let _ = writeln!(text, "{value:e}");
+        }
+        let _ = writeln!(
+            text,
+            "{:e}\n{:e}\n{:e}",
+            camera.focal_px, camera.k1, camera.k2
+        );
+    }
+    for point in &problem.points {
+        let _ = writeln!(text, "{:e}\n{:e}\n{:e}", point.x, point.y, point.z);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Error;
+
+    #[test]
+    fn malformed_texts_name_the_line() {
+        let good = "1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 -10\n";
+        assert!(read_bal(good).is_ok());
+        for (bad, line, why) in [
+            ("", 1, "ends"),
+            ("1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2\n", 4, "ends"),
+            ("1 1 1\n0 0 11 nan\n", 2, "not finite"),
+            ("1 1 1\n0 0 eleven 20\n", 2, "not a number"),
+            ("1 1 1\n1 0 11 20\n", 2, "less than 1"),
+            ("1 1 1\n0 -1 11 20\n", 2, "whole"),
+            (
+                "1 1 1\n0 0 11 20\n0 0 0 0 0 0 100 0 0\n1 2 -10\n7\n",
+                5,
+                "should end",
+            ),
+            ("99999999 9 4000000000\n", 1, "ends"),
+        ] {
+            match read_bal(bad) {
+                Err(Error::Malformed {
+                    line: got,
+                    message: said,
+                }) => {
+                    assert_eq!(got, Some(line), "{bad:?}");
+                    assert!(said.contains(why), "{said}");
+                }
+                other => panic!("{bad:?} gave {other:?}"),
+            }
+        }
+    }
+}

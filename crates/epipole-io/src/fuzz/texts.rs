@@ -1,0 +1,193 @@
+//! Cameras and trajectories.
+
+use crate::camera::{CameraFormat, read_cameras};
+use crate::damage::{config, damage_bytes, some_damage};
+use crate::trajectory::read_trajectory;
+use proptest::prelude::*;
+
+const OPENCV: &str = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   \
+    data: [ 500., 0., 320., 0., 501., 240., 0., 0., 1. ]\nD1: [ 0.1, 0.2, 0., 0. ]\nM2: [500,0,320,0,501,240,0,0,1]\nD2: [ 0.1, 0.2, 0., 0. ]\n\
+    R: [1,0,0,0,1,0,0,0,1]\nT: [-0.1, 0., 0.]\n";
+const ROS: &str = "image_width: 640\nimage_height: 480\ncamera_name: a\ncamera_matrix:\n  rows: 3\n  cols: 3\n  \
+    data: [414.3, 0, 304.8, 0, 414.1, 240.5, 0, 0, 1]\ndistortion_model: rational_polynomial\ndistortion_coefficients:\n  data: [1, 2, 3, 4, 5, 6, 7, 8]\n";
+const KALIBR: &str = "cam0: {camera_model: pinhole, intrinsics: [1,1,1,1], distortion_model: radtan, distortion_coeffs: [0,0,0,0], resolution: [752, 480]}\n\
+    cam1:\n  camera_model: pinhole\n  intrinsics: [1,1,1,1]\n  distortion_model: equidistant\n  distortion_coeffs: [0,0,0,0]\n  resolution: [752, 480]\n  \
+    T_cn_cnm1:\n  - [1, 0, 0, 1]\n  - [0, 1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n";
+const COLMAP: &str = "# cameras\n1 SIMPLE_RADIAL 640 480 500 320 240 0.1\n2 FULL_OPENCV 640 480 500 500 320 240 1 2 3 4 5 6 7 8\n";
+const NERF: &str = r#"{"camera_angle_x": 0.69, "w": 800, "h": 600, "k1": 0.1, "frames": [{"file_path": "a", "fl_x": 500.5}]}"#;
+const METASHAPE: &str = "<?xml version=\"1.0\"?>\n<document><chunk><sensors>\n<sensor id=\"0\" label=\"a &amp; b\"><resolution width=\"640\" height=\"480\"/>\
+    <calibration type=\"frame\"><f>500</f><cx>1</cx><k1>0.1</k1><b1>0.5</b1></calibration></sensor></sensors></chunk></document>";
+const OPENCV_XML: &str = "<?xml version=\"1.0\"?>\n<opencv_storage><image_width>640</image_width><image_height>480</image_height>\
+    <K type_id=\"opencv-matrix\"><data>\n500. 0. 320. 0. 500. 240. 0. 0. 1.</data></K></opencv_storage>";
+const MATLAB: &str = r#"{"CameraParameters1": {"RadialDistortion": [0.1, 0.2], "K": [[1,0,1],[0,1,1],[0,0,1]], "ImageSize": [480, 640]},
+    "CameraParameters2": {"RadialDistortion": [0.1, 0.2], "IntrinsicMatrix": [[1,0,0],[0,1,0],[1,1,1]], "ImageSize": [480, 640]},
+    "RotationOfCamera2": [[1,0,0],[0,1,0],[0,0,1]], "TranslationOfCamera2": [1, 2, 3]}"#;
+const EPIPOLE: &str = r#"{ "image": { "width": 640, "height": 480 }, "k": [ 532.8 , 532.9 , 342.5 , 233.9 ],
+    "distortion": { "model": "brown", "coefficients": [ -0.28 , 0.03 , 0.001 , -0.0001 , 0.1 ] },
+    "right": { "image": { "width": 640, "height": 480 }, "k": [ 530 , 531 , 320 , 240 ],
+    "distortion": { "model": "fisheye", "coefficients": [ 0.1 , 0 , 0 , 0 ] } },
+    "stereo": { "right_from_left": { "rotation": [ 1 , 0 , 0 , 0 , 1 , 0 , 0 , 0 , 1 ], "translation": [ -0.1 , 0.01 , 2e-3 ] } } }"#;
+
+const CAMERAS: [(CameraFormat, &str); 9] = [
+    (CameraFormat::OpenCv, OPENCV),
+    (CameraFormat::Ros, ROS),
+    (CameraFormat::Kalibr, KALIBR),
+    (CameraFormat::Colmap, COLMAP),
+    (CameraFormat::NerfStudio, NERF),
+    (CameraFormat::Metashape, METASHAPE),
+    (CameraFormat::OpenCv, OPENCV_XML),
+    (CameraFormat::Matlab, MATLAB),
+    (CameraFormat::Epipole, EPIPOLE),
+];
+
+const TRAJECTORIES: [&str; 3] = [
+    "# t tx ty tz qx qy qz qw\n1305031102.175304 1.5 0 -2e-3 0 0 0 1\n1305031102.2 1 2 3 0.1 0.2 0.3 0.9\n",
+    "1 0 0 0.5 0 1 0 1e-3 0 0 1 2\n0 -1 0 0.5 1 0 0 1e-3 0 0 1 2\n",
+    "#timestamp,x,y,z,w,x,y,z\r\n1403636580838555648,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n1403636580838555649,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n",
+];
+
+/// COLMAP's binary file of one `SIMPLE_PINHOLE` camera.
+fn colmap_binary() -> Vec<u8> {
+    let mut bytes = 1_u64.to_le_bytes().to_vec();
+    bytes.extend(1_u32.to_le_bytes());
+    bytes.extend(0_i32.to_le_bytes());
+    bytes.extend([640_u64, 480].iter().flat_map(|side| side.to_le_bytes()));
+    bytes.extend(
+        [500.0_f64, 320.0, 240.0]
+            .iter()
+            .flat_map(|x| x.to_le_bytes()),
+    );
+    bytes
+}
+
+fn check_cameras(bytes: &[u8]) {
+    match read_cameras(bytes, Some((640, 480))) {
+        Ok((_, cameras)) => {
+            assert!(!cameras.cameras.is_empty());
+            for named in &cameras.cameras {
+                let camera = &named.camera;
+                assert!(camera.width > 0 && camera.height > 0);
+                assert!(camera.intrinsics.matrix().iter().all(|x| x.is_finite()));
+                assert!(camera.lens.coefficients().iter().all(|x| x.is_finite()));
+            }
+            let motion = cameras.right_from_left.unwrap_or_default();
+            assert!(motion.to_homogeneous().iter().all(|x| x.is_finite()));
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+fn check_trajectory(bytes: &[u8]) {
+    match read_trajectory(bytes) {
+        Ok((_, path)) => {
+            let poses = &path.world_from_cam;
+            assert!(!poses.is_empty());
+            assert!(
+                poses
+                    .iter()
+                    .all(|pose| pose.to_homogeneous().iter().all(|x| x.is_finite()))
+            );
+            if let Some(stamps) = path.stamps_ns {
+                assert_eq!(stamps.len(), poses.len());
+                assert!(stamps.is_sorted());
+            }
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+#[test]
+fn the_files_to_damage_are_right() {
+    for (format, text) in CAMERAS {
+        assert_eq!(read_cameras(text.as_bytes(), None).unwrap().0, format);
+    }
+    let (format, cameras) = read_cameras(&colmap_binary(), None).unwrap();
+    assert_eq!(format, CameraFormat::Colmap);
+    assert_eq!(
+        cameras.cameras[0].camera.intrinsics.principal_point().x,
+        319.5
+    );
+    for text in TRAJECTORIES {
+        assert_eq!(
+            read_trajectory(text.as_bytes())
+                .unwrap()
+                .1
+                .world_from_cam
+                .len(),
+            2
+        );
+    }
+}
+
+/// Half a megabyte of one pattern each: 15 ms, but minutes in quadratic time.
+#[test]
+fn long_files_take_no_quadratic_time() {
+    let patterns = [
+        "[",
+        "{",
+        "- ",
+        "? ",
+        "a: ",
+        "&a ",
+        "!a ",
+        "<a>",
+        "<a b=''>",
+        "\n",
+        "#",
+        "\"",
+        "'",
+        "a: 1\n",
+        "a, ",
+        "[a, ",
+        "{a: ",
+        "%",
+        "---\n",
+        "...\n",
+        "*a ",
+        "|\n",
+        ">\n ",
+        "&amp;",
+        "a b=\"\" ",
+        "1 ",
+        "cam0: ",
+        "-\n ",
+    ];
+    for pattern in patterns {
+        for before in ["", "K: [", "{\"K\": [", "<a ", "<a>", "a: \"", "K: {"] {
+            let text = format!("{before}{}", pattern.repeat((1 << 19) / pattern.len()));
+            check_cameras(text.as_bytes());
+            check_trajectory(text.as_bytes());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn damaged_cameras(which in 0..CAMERAS.len(), changes in some_damage()) {
+        check_cameras(&damage_bytes(CAMERAS[which].1.as_bytes(), &changes));
+    }
+
+    #[test]
+    fn damaged_binary_cameras(changes in some_damage()) {
+        check_cameras(&damage_bytes(&colmap_binary(), &changes));
+    }
+
+    #[test]
+    fn damaged_trajectories(which in 0..TRAJECTORIES.len(), changes in some_damage()) {
+        check_trajectory(&damage_bytes(TRAJECTORIES[which].as_bytes(), &changes));
+    }
+
+    #[test]
+    fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
+        check_cameras(&bytes);
+        check_trajectory(&bytes);
+    }
+
+    #[test]
+    fn random_signs(text in "[\\[\\]{}:,\\-?&*!|>'\"%@`#<>/= \n\t0-9a-eK.]{0,200}") {
+        check_cameras(text.as_bytes());
+        check_trajectory(text.as_bytes());
+    }
+}

@@ -1,0 +1,16 @@
+//! Photographs: PNG, JPEG, WebP, TIFF, BMP and PNM files, with the EXIF data in them.
+
+mod decode;
+mod exif;
+mod format;
+mod jpeg;
+mod prepare;
+mod range;
+mod raster;
+#[cfg(test)]
+mod tests;
+mod tiff;
+
+pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
+pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
+pub use range::PixelRange;
