@@ -13,8 +13,7 @@ use epipole::feature::{
 };
 use epipole::homography::estimate_homography;
 use epipole::imaging::{
-    Border, DerivativeFilter, Gradient, GrayImage32, derivative_into, gaussian_kernel,
-    gray_from_values, separable_filter, sobel,
+    Border, Gradient, GrayImage32, gaussian_kernel, gray_from_values, separable_filter, sobel,
 };
 use epipole::robust::RansacOptions;
 use epipole::stereo::StereoSgm;
@@ -119,10 +118,7 @@ pub extern "C" fn run(work: usize) -> bool {
 fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
     match work {
         SOBEL => {
-            if let Some(gradient) = &mut room.gradient {
-                let border = Border::Reflect101;
-                derivative_into(&room.frame, DerivativeFilter::Sobel3, border, gradient);
-            }
+            room.gradient = Some(sobel(&room.frame, Border::Reflect101));
         }
         GAUSSIAN => {
             let kernel = gaussian_kernel(1.1, 5)?;

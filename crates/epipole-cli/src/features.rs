@@ -12,8 +12,8 @@ use crate::photo::Photo;
 use crate::progress::Progress;
 use clap::{ArgAction, Args, ValueEnum};
 use epipole::feature::{
-    AnyFeatures, FeatureKind, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
-    match_any_descriptors,
+    FeatureKind, FeatureOptions, Features, Keypoint, Match, MatchOptions, detect_features,
+    match_descriptors,
 };
 use nalgebra::Point2;
 
@@ -77,7 +77,7 @@ impl FeatureArguments {
     ///
     /// # Errors
     /// As the core's detectors.
-    pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<AnyFeatures, Failure> {
+    pub(crate) fn detect(&self, photo: &Photo, context: &Context) -> Result<Features, Failure> {
         let progress = Progress::new(context, "features");
         let watch = &mut |status| progress.show(status);
         Ok(detect_features(&photo.gray(), &self.options(), watch)?)
@@ -120,8 +120,8 @@ impl MatchArguments {
     /// As [`MatchArguments::run`].
     pub(crate) fn run_best_first(
         &self,
-        first: &AnyFeatures,
-        second: &AnyFeatures,
+        first: &Features,
+        second: &Features,
     ) -> Result<Vec<Match>, Failure> {
         let mut matches = self.run(first, second)?;
         matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
@@ -132,21 +132,17 @@ impl MatchArguments {
     ///
     /// # Errors
     /// As the core's matchers.
-    pub(crate) fn run(
-        &self,
-        first: &AnyFeatures,
-        second: &AnyFeatures,
-    ) -> Result<Vec<Match>, Failure> {
+    pub(crate) fn run(&self, first: &Features, second: &Features) -> Result<Vec<Match>, Failure> {
         let (a, b) = (&first.descriptors, &second.descriptors);
-        Ok(match_any_descriptors(a, b, &self.options(), &mut ())?)
+        Ok(match_descriptors(a, b, &self.options(), &mut ())?)
     }
 }
 
 /// The pixels of matches in both photographs, in their order.
 pub(crate) fn matched_pixels(
     matches: &[Match],
-    first: &AnyFeatures,
-    second: &AnyFeatures,
+    first: &Features,
+    second: &Features,
 ) -> [Vec<Point2<f64>>; 2] {
     let pixels1 = matches.iter().map(|m| first.keypoints[m.index1].point());
     let pixels2 = matches.iter().map(|m| second.keypoints[m.index2].point());

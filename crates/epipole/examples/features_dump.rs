@@ -13,14 +13,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let kind = arguments.get(1).map_or("sift", String::as_str);
     let max_features = arguments.get(2).map_or(Ok(0), |n| n.parse())?;
     let image = decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image;
-    let (keypoints, bytes, length) = if kind == "orb" {
-        let options = OrbOptions::default().with_max_features(if max_features == 0 {
+    let features = if kind == "orb" {
+        let count = if max_features == 0 {
             1000
         } else {
             max_features
-        });
-        let features = detect_orb(&image, &options)?;
-        (features.keypoints, features.descriptors.to_bytes(), 32)
+        };
+        detect_orb(&image, &OrbOptions::default().with_max_features(count))?
     } else {
         let options = SiftOptions::default()
             .with_max_features(max_features)
@@ -28,12 +27,23 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 "rootsift" => SiftNormalization::Root,
                 _ => SiftNormalization::L2,
             });
-        let features = detect_sift(&image, &options, &mut ())?;
-        let bytes = features.descriptors.as_bytes().unwrap_or_default().to_vec();
-        (features.keypoints, bytes, 128)
+        detect_sift(&image, &options, &mut ())?
     };
+    let bytes: Vec<u8> = match features.descriptors.as_bits() {
+        Some(words) => words
+            .iter()
+            .flatten()
+            .flat_map(|word| word.to_le_bytes())
+            .collect(),
+        None => features.descriptors.as_bytes().unwrap_or_default().to_vec(),
+    };
+    let length = bytes.len() / features.keypoints.len().max(1);
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-    for (k, descriptor) in keypoints.iter().zip(bytes.chunks_exact(length)) {
+    for (k, descriptor) in features
+        .keypoints
+        .iter()
+        .zip(bytes.chunks_exact(length.max(1)))
+    {
         write!(
             out,
             "{} {} {} {} {}",

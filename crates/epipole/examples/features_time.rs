@@ -15,10 +15,7 @@ use epipole::feature::{
     Descriptors, OrbOptions, Scaling, SiftOptions, StructureTensorOptions, Window, detect_orb,
     detect_sift, harris_response, nearest_two,
 };
-use epipole::imaging::{
-    Border, DerivativeFilter, derivative_into, gaussian_kernel, gray_from_values, separable_filter,
-    sobel,
-};
+use epipole::imaging::{Border, gaussian_kernel, gray_from_values, separable_filter, sobel};
 use epipole_io::photo::{DecodeOptions, decode_gray};
 use std::path::Path;
 use std::time::Instant;
@@ -84,12 +81,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let max_features: usize = arguments.get(2).map_or(Ok(0), |n| n.parse())?;
 
     let frame = gray_from_values(FRAME.0, FRAME.1, read(&folder.join("frame.f32"))?)?;
-    let mut gradient = sobel(&frame, Border::Reflect101);
-    let again = || {
-        let border = Border::Reflect101;
-        derivative_into(&frame, DerivativeFilter::Sobel3, border, &mut gradient);
-    };
-    time("sobel", 10 * rounds, again, no_note);
+    let slopes = || sobel(&frame, Border::Reflect101);
+    let gradient = time("sobel", 10 * rounds, slopes, no_note);
     let both = gradient.du.iter().chain(gradient.dv.iter()).copied();
     write(&folder.join("sobel.f32"), both)?;
     let kernel = gaussian_kernel(1.1, 5)?;

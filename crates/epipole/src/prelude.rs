@@ -22,7 +22,7 @@ pub use crate::epipolar::{
 };
 pub use crate::feature::{
     FeatureKind, FeatureOptions, Keypoint, MatchOptions, SiftOptions, detect_features, detect_sift,
-    match_any_descriptors, match_descriptors, refine_corners,
+    match_descriptors, refine_corners,
 };
 pub use crate::homography::{estimate_homography, transfer};
 pub use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray, rgb_to_gray_f32};

@@ -18,7 +18,6 @@ use crate::report::Report;
 use crate::robust::RobustArguments;
 use clap::{ArgAction, Args};
 use epipole::camera::{Camera, RigidTransform};
-use epipole::feature::Match;
 use epipole::progress::Part;
 use epipole::robust::SamplerKind;
 use epipole::sfm::{
@@ -213,9 +212,8 @@ impl Work<'_> {
         for (index, Listed { path, name }) in listed.iter().enumerate() {
             let photo = self.photo(path, camera.as_ref())?;
             let (width, height) = photo.color.dimensions();
-            let first =
-                (frames.as_ref()).and_then(|frames| Some((frames, frames.features.first()?)));
-            if let Some((frames, PhotoFeatures { image: first, .. })) = first {
+            if let Some(frames) = &frames {
+                let first = frames.camera;
                 if (first.width, first.height) != (width, height) {
                     let message = format!(
                         "all frames must have the size of the first, {} × {}, but this one is {width} × \
@@ -286,7 +284,7 @@ impl Work<'_> {
         for (a, b) in left.iter().zip(&right) {
             let mut part = Part::new(watch, MATCHED, MATCHED);
             let matches = match_rectified(a, b, &self.options, &mut part)?;
-            left_right.push(matches.iter().map(Match::indices).collect::<Vec<_>>());
+            left_right.push(matches);
         }
         // Descriptors are the larger part of the memory.
         let images = |features: Vec<PhotoFeatures>| -> Vec<SfmImage> {

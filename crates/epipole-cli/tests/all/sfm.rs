@@ -84,8 +84,8 @@ fn commands_find_the_same_features() {
     assert!(expected.len() > 100);
     assert_eq!(places(&found["keypoints"]), expected);
     let matched = json(&["match", path(&files[0]), path(&files[1])]);
-    let expected = epipole::sfm::match_pair(&features[0], &features[1], &options, &mut ()).unwrap();
-    let expected: Vec<_> = (expected.iter())
+    let pairs = epipole::sfm::match_features(&features, &options, &mut ()).unwrap();
+    let expected: Vec<_> = (pairs[0].matches.iter())
         .map(|found| (found.index1 as f64, found.index2 as f64))
         .collect();
     assert!(expected.len() > 50);

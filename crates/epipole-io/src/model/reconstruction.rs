@@ -52,8 +52,6 @@ impl Model {
         self.check()?;
         let image = |image: &ModelImage| SfmImage {
             name: image.name.clone(),
-            width: self.cameras[image.camera].width,
-            height: self.cameras[image.camera].height,
             keypoints: image.keypoints.clone(),
             lens: image.camera,
             ..SfmImage::default()
@@ -112,8 +110,6 @@ mod tests {
     fn small() -> (Reconstruction, Vec<SfmImage>) {
         let image = |name: &str| SfmImage {
             name: name.into(),
-            width: 640,
-            height: 480,
             keypoints: vec![Point2::new(1.0, 2.0), Point2::new(319.5, 239.5)],
             ..SfmImage::default()
         };

@@ -93,8 +93,6 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
 pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
     let plain = |image: &ImagePoints| SfmImage {
         name: image.name.clone(),
-        width: image.camera.width,
-        height: image.camera.height,
         keypoints: image
             .points
             .iter()

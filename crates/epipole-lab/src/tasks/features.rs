@@ -4,7 +4,7 @@ use super::convert::{sentence, to_image};
 use super::{
     Described, Feature, FeatureKind, FeatureOptions, Features, Photograph, Progress, Told,
 };
-use epipole::feature::{self, Descriptors};
+use epipole::feature;
 use epipole::sfm::{Photo, PhotoOptions, photo_features};
 
 /// Finds features just as `epipole sfm` does.
@@ -38,12 +38,11 @@ pub(super) fn features(
             color: *color,
         })
         .collect();
-    let vectors = found.descriptors.as_vectors();
-    let values = vectors.and_then(Descriptors::as_bytes).map(<[u8]>::to_vec);
+    let values = found.descriptors.as_bytes().map(<[u8]>::to_vec);
     Ok(Features {
         list,
         described: Described {
-            dimension: vectors.map_or(0, Descriptors::dimension) as u32,
+            dimension: found.descriptors.dimension() as u32,
             values: values.unwrap_or_default().into(),
         },
     })

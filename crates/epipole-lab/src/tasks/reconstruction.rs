@@ -6,6 +6,7 @@ use super::{
     Reconstructed, SfmOptions, Told,
 };
 use epipole::camera::{Camera, Lens, PosedCamera};
+use epipole::feature::Match;
 use epipole::progress::Status;
 use epipole::sfm::{
     IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
@@ -24,7 +25,9 @@ pub(super) fn reconstruct(
     let plain = |pair: &PairOf| PairMatches {
         image1: pair.first as usize,
         image2: pair.second as usize,
-        matches: pair.matches.clone(),
+        matches: (pair.matches.iter())
+            .map(|&(first, second)| Match::new(first as usize, second as usize))
+            .collect(),
     };
     let input = SfmInput {
         images: sfm_images(images),

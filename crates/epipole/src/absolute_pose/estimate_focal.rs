@@ -28,8 +28,7 @@ impl AbsolutePoseWithFocal {
     }
 }
 
-/// Camera poses with an unknown focal length from points and their pixels, for
-/// [`Ransac`](crate::robust::Ransac).
+/// Camera poses with an unknown focal length from points and their pixels.
 ///
 /// A sample is four points, and of its solutions only those are looked at whose focal length is
 /// plausible: at least a fifth of the distance from the principal point within which three of four
@@ -39,7 +38,7 @@ impl AbsolutePoseWithFocal {
 ///
 /// Source: as [`pose_p4pf`](super::pose_p4pf).
 #[derive(Debug, Clone)]
-pub struct AbsolutePoseFocalEstimator {
+struct AbsolutePoseFocalEstimator {
     points: Vec<Point3<f64>>,
     /// About the principal point.
     pixels: Vec<Point2<f64>>,
@@ -59,7 +58,7 @@ impl AbsolutePoseFocalEstimator {
     /// a principal point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as
     /// four may have several poses. A point at infinity, and a pixel there or beyond 10⁹, is left
     /// out.
-    pub fn new(
+    fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
         principal: &Point2<f64>,
@@ -199,8 +198,10 @@ impl Estimator for AbsolutePoseFocalEstimator {
 /// same holds for points whose depths hardly differ.
 ///
 /// # Errors
-/// As [`AbsolutePoseFocalEstimator::new`] and [`ransac`]; points on one line give
-/// [`Error::NoConsensus`].
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a
+/// principal point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as four
+/// may have several poses, and as [`ransac`]; points on one line give [`Error::NoConsensus`]. A
+/// point at infinity, and a pixel there or beyond 10⁹, is left out.
 ///
 /// Source: Fischler & Bolles 1981, with [`pose_p4pf`](super::pose_p4pf) as the minimal solver.
 ///

@@ -15,7 +15,7 @@ mod sides;
 
 pub use dlt::pose_dlt;
 pub use estimate::{AbsolutePoseEstimator, estimate_absolute_pose};
-pub use estimate_focal::{AbsolutePoseFocalEstimator, estimate_absolute_pose_and_focal};
+pub use estimate_focal::estimate_absolute_pose_and_focal;
 pub use fit::fit_absolute_pose;
 pub use p3p::pose_p3p;
 pub use p4pf::pose_p4pf;

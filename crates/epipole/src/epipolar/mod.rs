@@ -51,9 +51,7 @@ pub use essential::{SelectedPose, decompose_essential, project_to_essential, sel
 pub use essential_estimator::EssentialEstimator;
 pub use estimate_essential::{estimate_essential, estimate_relative_pose};
 pub use estimate_fundamental::{FundamentalEstimator, estimate_fundamental};
-pub use estimate_pose_and_focal::{
-    FocalEstimator, PoseWithFocal, estimate_relative_pose_and_focal,
-};
+pub use estimate_pose_and_focal::{PoseWithFocal, estimate_relative_pose_and_focal};
 pub use estimate_with_gravity::{GravityEstimator, estimate_relative_pose_with_gravity};
 pub use five_point::essential_5point;
 pub use focal_lengths::focal_lengths_from_fundamental;

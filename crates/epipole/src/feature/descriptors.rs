@@ -1,8 +1,19 @@
-//! Lists of vectors that describe keypoints.
+//! Descriptors of keypoints, and keypoints with them.
 
+use super::Keypoint;
 use crate::{Error, Result};
 
-/// Descriptors of equal length, as bytes or as floats.
+/// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Features {
+    /// Keypoints.
+    pub keypoints: Vec<Keypoint>,
+    /// Their descriptors.
+    pub descriptors: Descriptors,
+}
+
+/// Descriptors of equal length: numbers, compared by Euclidean distance (SIFT, RootSIFT, patches),
+/// or bits, compared by Hamming distance (ORB).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Descriptors {
     dimension: usize,
@@ -13,7 +24,11 @@ pub struct Descriptors {
 pub(crate) enum Values {
     Bytes(Vec<u8>),
     Floats(Vec<f32>),
+    Bits(Vec<[u64; 4]>),
 }
+
+/// Bits of a binary descriptor.
+const NUM_BITS: usize = 256;
 
 impl Descriptors {
     /// Descriptors of whole numbers 0 to 255, one after the other.
@@ -58,13 +73,27 @@ impl Descriptors {
         })
     }
 
+    /// Descriptors of 256 bits each, as four 64-bit words; bit 0 of word 0 comes first.
+    ///
+    /// ```
+    /// let descriptors = epipole::feature::Descriptors::from_bits(vec![[0b101, 0, 0, 0]]);
+    /// assert_eq!((descriptors.len(), descriptors.dimension()), (1, 256));
+    /// assert_eq!(descriptors.to_floats()[..4], [1.0, 0.0, 1.0, 0.0]);
+    /// ```
+    pub fn from_bits(bits: Vec<[u64; 4]>) -> Self {
+        Self {
+            dimension: NUM_BITS,
+            values: Values::Bits(bits),
+        }
+    }
+
     /// Number of descriptors.
     pub fn len(&self) -> usize {
-        let total = match &self.values {
-            Values::Bytes(values) => values.len(),
-            Values::Floats(values) => values.len(),
-        };
-        total / self.dimension
+        match &self.values {
+            Values::Bytes(values) => values.len() / self.dimension,
+            Values::Floats(values) => values.len() / self.dimension,
+            Values::Bits(words) => words.len(),
+        }
     }
 
     /// Whether there are none.
@@ -72,12 +101,12 @@ impl Descriptors {
         self.len() == 0
     }
 
-    /// Numbers in one descriptor.
+    /// Numbers or bits in one descriptor.
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// Descriptor `index` as floats, or `None` past the end.
+    /// Descriptor `index` as floats, or `None` past the end; bits are 0 and 1.
     pub fn get(&self, index: usize) -> Option<Vec<f32>> {
         let range = index.checked_mul(self.dimension)?..(index + 1).checked_mul(self.dimension)?;
         match &self.values {
@@ -85,6 +114,7 @@ impl Descriptors {
                 Some(values.get(range)?.iter().map(|&v| f32::from(v)).collect())
             }
             Values::Floats(values) => Some(values.get(range)?.to_vec()),
+            Values::Bits(words) => Some(bits_of(words.get(index)?).collect()),
         }
     }
 
@@ -92,21 +122,35 @@ impl Descriptors {
     pub fn as_bytes(&self) -> Option<&[u8]> {
         match &self.values {
             Values::Bytes(values) => Some(values),
-            Values::Floats(_) => None,
+            _ => None,
         }
     }
 
-    /// All values as floats.
+    /// The words of all descriptors of bits; `None` for numbers.
+    pub fn as_bits(&self) -> Option<&[[u64; 4]]> {
+        match &self.values {
+            Values::Bits(words) => Some(words),
+            _ => None,
+        }
+    }
+
+    /// All values as floats; bits are 0 and 1.
     pub fn to_floats(&self) -> Vec<f32> {
         match &self.values {
             Values::Bytes(values) => values.iter().map(|&v| f32::from(v)).collect(),
             Values::Floats(values) => values.clone(),
+            Values::Bits(words) => words.iter().flat_map(bits_of).collect(),
         }
     }
 
     pub(crate) fn values(&self) -> &Values {
         &self.values
     }
+}
+
+fn bits_of(words: &[u64; 4]) -> impl Iterator<Item = f32> {
+    let words = *words;
+    (0..NUM_BITS).map(move |bit| (words[bit / 64] >> (bit % 64) & 1) as f32)
 }
 
 fn check(dimension: usize, count: usize) -> Result<()> {

@@ -1,6 +1,5 @@
 //! Features of photographs by any of the detectors.
 
-use super::any::{AnyDescriptors, AnyFeatures};
 use super::{
     FeatureKind, FeatureOptions, Features, Keypoint, RefineOptions, SiftOptions, describe_patches,
     detect_orb, detect_sift, good_features_to_track, refine_corners,
@@ -52,22 +51,10 @@ pub fn detect_features(
     image: &GrayImage32,
     options: &FeatureOptions,
     monitor: &mut dyn Monitor,
-) -> Result<AnyFeatures> {
+) -> Result<Features> {
     match options.kind {
-        FeatureKind::Sift | FeatureKind::RootSift => {
-            let found = sift(image, options, monitor)?;
-            Ok(AnyFeatures {
-                keypoints: found.keypoints,
-                descriptors: AnyDescriptors::Vectors(found.descriptors),
-            })
-        }
-        FeatureKind::Orb => {
-            let found = detect_orb(image, &options.orb())?;
-            Ok(AnyFeatures {
-                keypoints: found.keypoints,
-                descriptors: AnyDescriptors::Bits(found.descriptors),
-            })
-        }
+        FeatureKind::Sift | FeatureKind::RootSift => sift(image, options, monitor),
+        FeatureKind::Orb => detect_orb(image, &options.orb()),
         FeatureKind::Harris => harris(image, options),
     }
 }
@@ -102,7 +89,7 @@ fn sift(
     detect_sift(image, &twice, &mut Part::new(monitor, before, 1.0))
 }
 
-fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> {
+fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<Features> {
     let corners = good_features_to_track(image, &options.harris())?;
     let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
     let refined = refine_corners(image, &places, &RefineOptions::default())?;
@@ -117,9 +104,9 @@ fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> 
         })
         .collect();
     let descriptors = describe_patches(image, &keypoints, options.patch_px, 1.0)?;
-    Ok(AnyFeatures {
+    Ok(Features {
         keypoints,
-        descriptors: AnyDescriptors::Vectors(descriptors),
+        descriptors,
     })
 }
 
@@ -127,7 +114,7 @@ fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<AnyFeatures> 
 mod tests {
     use super::*;
     use crate::Error;
-    use crate::feature::{MatchOptions, match_any_descriptors};
+    use crate::feature::{MatchOptions, match_descriptors};
     use crate::progress::Status;
     use image::{Luma, Rgb};
     use std::ops::ControlFlow;
@@ -420,16 +407,14 @@ mod tests {
         });
         for features in &found {
             let to = &features.descriptors;
-            let matches = match_any_descriptors(to, to, &MatchOptions::default(), &mut ()).unwrap();
+            let matches = match_descriptors(to, to, &MatchOptions::default(), &mut ()).unwrap();
             assert!(!matches.is_empty());
             assert!(matches.iter().all(|m| m.index1 == m.index2));
         }
         let [sift, _, orb, _] = &found;
         let options = MatchOptions::default();
-        assert!(
-            match_any_descriptors(&sift.descriptors, &orb.descriptors, &options, &mut ()).is_err()
-        );
-        assert!(sift.descriptors.as_vectors().is_some() && orb.descriptors.as_vectors().is_none());
+        assert!(match_descriptors(&sift.descriptors, &orb.descriptors, &options, &mut ()).is_err());
+        assert!(sift.descriptors.as_bits().is_none() && orb.descriptors.as_bits().is_some());
     }
 
     #[test]

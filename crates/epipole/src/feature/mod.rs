@@ -4,7 +4,6 @@
 //! images that are flat or too small. Lists are in a fixed order, strongest first, that does not
 //! depend on the number of threads. Gray values are taken to lie in [0, 1].
 
-mod any;
 mod corners;
 mod descriptors;
 mod extract;
@@ -22,23 +21,19 @@ mod structure_tensor;
 mod track;
 mod window_tensor;
 
-pub use any::{AnyDescriptors, AnyFeatures, match_any_descriptors};
 pub use corners::{harris_response, min_eigenvalue_response};
-pub use descriptors::Descriptors;
+pub use descriptors::{Descriptors, Features};
 pub use extract::{detect_features, photo_to_gray};
 pub use good_features::{CornerMeasure, GoodFeaturesOptions, Grid, good_features_to_track};
 pub use keypoint::Keypoint;
-pub use matching::{
-    BinaryDescriptors, Match, MatchOptions, Neighbors, match_descriptors, match_hamming,
-    nearest_few, nearest_two, nearest_two_hamming,
-};
+pub use matching::{Match, MatchOptions, Neighbors, match_descriptors, nearest_few, nearest_two};
 pub use nms::non_maximum_suppression;
 pub use options::{FeatureKind, FeatureOptions};
-pub use orb::{BinaryFeatures, OrbOptions, detect_orb};
+pub use orb::{OrbOptions, detect_orb};
 pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
 pub use sift::{
-    Features, ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
+    ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
     scale_space, sift_directions,
 };
 pub use structure_tensor::{

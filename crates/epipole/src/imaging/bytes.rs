@@ -16,15 +16,7 @@ use image::GrayImage;
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for another size or σ.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::imaging::{Border, gaussian_blur_u8};
-/// let flat = image::GrayImage::from_pixel(4, 4, image::Luma([77]));
-/// assert_eq!(gaussian_blur_u8(&flat, Some(5), 1.1, Border::Reflect101)?, flat);
-/// # Ok(()) }
-/// ```
-pub fn gaussian_blur_u8(
+pub(crate) fn gaussian_blur_u8(
     image: &GrayImage,
     size: Option<usize>,
     sigma_px: f64,

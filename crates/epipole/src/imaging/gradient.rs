@@ -3,7 +3,7 @@
 use super::approx::atan2;
 use super::gaussian::gaussian_derivative_kernels;
 use super::gray::from_vec;
-use super::separable::{filter, filter_into};
+use super::separable::filter;
 use super::{Border, GrayImage32};
 use crate::Result;
 use crate::math::simd::dispatched;
@@ -89,7 +89,8 @@ pub enum DerivativeFilter {
     Sobel3,
     /// `[−1 −2 0 2 1]` along, `[1 4 6 4 1]` across: 128 times the slope.
     Sobel5,
-    /// `[−1 0 1]` along, `[3 10 3]` across: 32 times the slope; the direction is more accurate.
+    /// `[−1 0 1]` along, `[3 10 3]` across: 32 times the slope; the direction is more accurate
+    /// (Scharr 2000, "Optimal operators in digital image processing").
     Scharr,
 }
 
@@ -133,29 +134,6 @@ pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -
     Gradient { du, dv }
 }
 
-/// [`derivative`] into a gradient whose memory is used again, for frame after frame of a video.
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::imaging::{Border, DerivativeFilter, derivative, derivative_into, gray_from_values};
-/// let ramp = gray_from_values(3, 1, vec![0.0, 1.0, 2.0])?;
-/// let mut gradient = derivative(&ramp, DerivativeFilter::Sobel3, Border::Replicate);
-/// let other = gray_from_values(2, 1, vec![0.0, 1.0])?;
-/// derivative_into(&other, DerivativeFilter::Sobel3, Border::Replicate, &mut gradient);
-/// assert_eq!(gradient.du.as_raw(), &[4.0, 4.0]);
-/// # Ok(()) }
-/// ```
-pub fn derivative_into(
-    image: &GrayImage32,
-    kind: DerivativeFilter,
-    border: Border,
-    gradient: &mut Gradient,
-) {
-    let (along, across) = kind.kernels();
-    let targets = [&mut gradient.du, &mut gradient.dv];
-    filter_into(image, [(along, across), (across, along)], border, targets);
-}
-
 /// The gradient by centered differences, `Iᵤ = (I(u+1, v) − I(u−1, v)) / 2`, likewise along v.
 ///
 /// ```
@@ -184,21 +162,6 @@ pub fn centered_difference(image: &GrayImage32, border: Border) -> Gradient {
 /// ```
 pub fn sobel(image: &GrayImage32, border: Border) -> Gradient {
     derivative(image, DerivativeFilter::Sobel3, border)
-}
-
-/// The gradient by the 3×3 Scharr filter, 32 times the slope, as OpenCV's `Scharr` gives it.
-///
-/// Source: Scharr 2000, "Optimal operators in digital image processing".
-///
-/// ```
-/// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::imaging::{Border, gray_from_values, scharr};
-/// let ramp = gray_from_values(3, 1, vec![0.0, 1.0, 2.0])?;
-/// assert_eq!(scharr(&ramp, Border::Replicate).du.as_raw(), &[16.0, 32.0, 16.0]);
-/// # Ok(()) }
-/// ```
-pub fn scharr(image: &GrayImage32, border: Border) -> Gradient {
-    derivative(image, DerivativeFilter::Scharr, border)
 }
 
 /// The gradient of the image blurred by a Gaussian, `Iᵤ = ∂g/∂u ∗ I`: slopes per pixel at a scale.

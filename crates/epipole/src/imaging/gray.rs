@@ -124,12 +124,7 @@ pub fn rgb_to_gray_f32(image: &RgbImage, weights: &[f32; 3]) -> GrayImage32 {
 }
 
 /// Whether every pixel is a finite number.
-///
-/// ```
-/// let image = epipole::imaging::GrayImage32::from_pixel(2, 2, image::Luma([f32::NAN]));
-/// assert!(!epipole::imaging::is_finite(&image));
-/// ```
-pub fn is_finite(image: &GrayImage32) -> bool {
+pub(crate) fn is_finite(image: &GrayImage32) -> bool {
     // 0·v is 0 for a finite v and NaN otherwise; eight sums let the loop run in vectors.
     let (chunks, rest) = image.as_raw().as_chunks::<8>();
     let mut lanes = [0.0f32; 8];

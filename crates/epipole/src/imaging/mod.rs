@@ -1,7 +1,7 @@
 //! Gray images: borders, filters, gradients, pyramids, resizing and warps.
 //!
 //! Pixel centers are at integers and (u, v) = (column, row). Filters are sums over pixels: a NaN
-//! pixel makes the results that touch it NaN, and nothing else; [`is_finite`] tells beforehand.
+//! pixel makes the results that touch it NaN, and nothing else.
 //! An image without pixels gives an image without pixels.
 //!
 //! Image types are those of the `image` crate: [`GrayImage32`] for floats, `image::GrayImage` for
@@ -29,16 +29,17 @@ mod warp;
 mod weigh;
 
 pub use border::Border;
-pub use bytes::gaussian_blur_u8;
+pub(crate) use bytes::gaussian_blur_u8;
 pub use correlate::{correlate, noise_gain};
 pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{
-    DerivativeFilter, Gradient, centered_difference, derivative, derivative_into,
-    gaussian_derivative, scharr, sobel,
+    DerivativeFilter, Gradient, centered_difference, derivative, gaussian_derivative, sobel,
 };
+#[cfg(test)]
+pub(crate) use gray::is_finite;
 pub use gray::{
     BT601_WEIGHTS, BT709_WEIGHTS, GrayImage32, gray_from_values, gray_to_f32, gray_to_u8,
-    is_finite, rgb_to_gray, rgb_to_gray_f32,
+    rgb_to_gray, rgb_to_gray_f32,
 };
 pub(crate) use gray::{from_vec, require_finite};
 pub use integral::{IntegralImage, box_filter};

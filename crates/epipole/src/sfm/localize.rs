@@ -5,7 +5,7 @@ use super::photos::PhotoFeatures;
 use super::reconstruction::Reconstruction;
 use crate::absolute_pose::estimate_absolute_pose;
 use crate::camera::{Camera, RigidTransform};
-use crate::feature::{MatchOptions, match_any_descriptors};
+use crate::feature::{MatchOptions, match_descriptors};
 use crate::progress::{Monitor, Part};
 use crate::robust::RansacOptions;
 use crate::{Error, Result};
@@ -70,7 +70,7 @@ impl Reconstruction {
     /// [`Error::SizeMismatch`] for features of another number of images and for keypoints without
     /// descriptors, [`Error::OutOfRange`] for a track with a keypoint that is not there,
     /// [`Error::TooFew`] where fewer than [`LocalizeOptions::min_num_inliers`] points are matched
-    /// or agree with a pose, and as [`match_any_descriptors`] and [`estimate_absolute_pose`].
+    /// or agree with a pose, and as [`match_descriptors`] and [`estimate_absolute_pose`].
     ///
     /// Source: Sattler, Leibe & Kobbelt 2011, "Fast image-based localization using direct 2D-to-3D
     /// matching" (the problem); Schönberger & Frahm 2016, §4.2.
@@ -78,7 +78,7 @@ impl Reconstruction {
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
-    /// use epipole::feature::{AnyDescriptors, Descriptors};
+    /// use epipole::feature::Descriptors;
     /// use epipole::sfm::{LocalizeOptions, PhotoFeatures, Reconstruction, ScenePoint, SfmImage, TrackElement};
     /// use nalgebra::{Point2, Point3, Vector3};
     /// let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480);
@@ -90,7 +90,7 @@ impl Reconstruction {
     ///     let values = (0..30u8).flat_map(|i| [i * 8, 255 - i * 8]).collect();
     ///     Ok(PhotoFeatures {
     ///         image: SfmImage { keypoints: keypoints?, ..SfmImage::default() },
-    ///         descriptors: AnyDescriptors::Vectors(Descriptors::from_bytes(2, values)?),
+    ///         descriptors: Descriptors::from_bytes(2, values)?,
     ///         keypoints: Vec::new(),
     ///     })
     /// };
@@ -192,7 +192,7 @@ impl Reconstruction {
             let mut part = Part::new(monitor, share(done), share(done + 1));
             let known = &features[image].descriptors;
             let matches =
-                match_any_descriptors(known, &photo.descriptors, &options.matching, &mut part)?;
+                match_descriptors(known, &photo.descriptors, &options.matching, &mut part)?;
             for found in matches {
                 if let Some(point) = point_of[image][found.index1] {
                     let ratio = ratios.entry((point, found.index2)).or_insert(found.ratio);
@@ -213,7 +213,7 @@ const MATCHED: f32 = 0.8;
 mod tests {
     use super::*;
     use crate::camera::Intrinsics;
-    use crate::feature::{AnyDescriptors, Descriptors};
+    use crate::feature::Descriptors;
     use crate::sfm::{ScenePoint, SfmImage, TrackElement};
     use nalgebra::{Point2, Point3};
 
@@ -224,7 +224,7 @@ mod tests {
                 keypoints: vec![Point2::new(1.0, 2.0); num_keypoints],
                 ..SfmImage::default()
             },
-            descriptors: AnyDescriptors::Vectors(Descriptors::from_bytes(2, values).unwrap()),
+            descriptors: Descriptors::from_bytes(2, values).unwrap(),
             keypoints: Vec::new(),
         }
     }

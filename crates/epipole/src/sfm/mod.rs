@@ -57,7 +57,7 @@ pub use odometry_options::OdometryOptions;
 pub use odometry_result::OdometryResult;
 pub use options::{SfmInput, SfmOptions};
 pub use photos::{
-    Photo, PhotoFeatures, PhotoOptions, match_features, match_pair, match_photos, match_rectified,
+    Photo, PhotoFeatures, PhotoOptions, match_features, match_photos, match_rectified,
     photo_features, reconstruct_photos,
 };
 pub use pose_graph::{

@@ -11,6 +11,7 @@ use super::reconstruction::SfmImage;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::camera::{Camera, RigidTransform};
+use crate::feature::Match;
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use std::collections::VecDeque;
@@ -71,7 +72,7 @@ pub fn monocular_odometry(
 pub fn stereo_odometry(
     left: &SfmInput,
     right: &[SfmImage],
-    left_right: &[Vec<(u32, u32)>],
+    left_right: &[Vec<Match>],
     right_from_left: &RigidTransform,
     right_camera: &Camera,
     options: &OdometryOptions,
@@ -139,7 +140,7 @@ impl Odometry {
     pub fn stereo(
         left: &SfmInput,
         right: &[SfmImage],
-        left_right: &[Vec<(u32, u32)>],
+        left_right: &[Vec<Match>],
         right_from_left: &RigidTransform,
         right_camera: &Camera,
         options: &OdometryOptions,

@@ -7,8 +7,8 @@ use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Camera;
 use crate::feature::{
-    AnyDescriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features,
-    match_any_descriptors, photo_to_gray,
+    Descriptors, FeatureOptions, Keypoint, Match, MatchOptions, detect_features, match_descriptors,
+    photo_to_gray,
 };
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
@@ -56,7 +56,7 @@ pub struct PhotoFeatures {
     /// Size, keypoints and their colors.
     pub image: SfmImage,
     /// Descriptors of the keypoints, in the same order.
-    pub descriptors: AnyDescriptors,
+    pub descriptors: Descriptors,
     /// The keypoints once more, with their scales and directions.
     pub keypoints: Vec<Keypoint>,
 }
@@ -83,8 +83,6 @@ pub fn photo_features(
     };
     let image = SfmImage {
         name: photo.name.clone(),
-        width,
-        height,
         colors: features.keypoints.iter().map(|k| color(k.u, k.v)).collect(),
         keypoints: features.keypoints.iter().map(|k| k.point()).collect(),
         lens: photo.lens,
@@ -102,7 +100,7 @@ pub fn photo_features(
 /// * `monitor`: the one stage is [`Stage::FeatureMatching`]
 ///
 /// # Errors
-/// As [`match_any_descriptors`].
+/// As [`match_descriptors`].
 ///
 /// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
 pub fn match_features(
@@ -126,9 +124,7 @@ pub fn match_features(
             pairs.push(PairMatches {
                 image1,
                 image2,
-                matches: (match_pair(first, second, options, &mut part)?.iter())
-                    .map(Match::indices)
-                    .collect(),
+                matches: match_pair(first, second, options, &mut part)?,
             });
         }
     }
@@ -140,7 +136,7 @@ pub fn match_features(
 /// within 2 pixels and are further right in the left image.
 ///
 /// # Errors
-/// As [`match_any_descriptors`].
+/// As [`match_descriptors`].
 ///
 /// Source: Lowe 2004.
 pub fn match_rectified(
@@ -164,20 +160,14 @@ pub fn match_rectified(
 const MAX_ROW_ERROR_PX: f64 = 2.0;
 
 /// Matches between the features of two photographs.
-///
-/// # Errors
-/// As [`match_any_descriptors`].
-///
-/// Source: Lowe 2004.
-pub fn match_pair(
+fn match_pair(
     first: &PhotoFeatures,
     second: &PhotoFeatures,
     options: &PhotoOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Match>> {
     let descriptors = (&first.descriptors, &second.descriptors);
-    let mut matches =
-        match_any_descriptors(descriptors.0, descriptors.1, &options.matching, monitor)?;
+    let mut matches = match_descriptors(descriptors.0, descriptors.1, &options.matching, monitor)?;
     if options.best_first {
         matches.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
     }

@@ -10,10 +10,6 @@ use nalgebra::{Point2, Point3, Similarity3, Translation3};
 pub struct SfmImage {
     /// A name, such as that of its file.
     pub name: String,
-    /// Width, pixels.
-    pub width: u32,
-    /// Height, pixels.
-    pub height: u32,
     /// Positions of its keypoints, pixels.
     pub keypoints: Vec<Point2<f64>>,
     /// Their colors, red, green, blue; empty if not known.

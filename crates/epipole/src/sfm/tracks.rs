@@ -1,6 +1,7 @@
 //! Tracks: which keypoints of which photographs show the same point of the scene.
 
 use super::union_find::UnionFind;
+use crate::feature::Match;
 use crate::{Error, Result};
 
 /// A keypoint of an image.
@@ -13,14 +14,14 @@ pub struct TrackElement {
 }
 
 /// Matches between the keypoints of two images.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PairMatches {
     /// Index of the first image.
     pub image1: usize,
     /// Index of the second image.
     pub image2: usize,
-    /// Indices of matching keypoints, first image first.
-    pub matches: Vec<(u32, u32)>,
+    /// Matching keypoints.
+    pub matches: Vec<Match>,
 }
 
 /// Joins matches into tracks: each is a list of keypoints, at most one an image, sorted by image.
@@ -38,10 +39,15 @@ pub struct PairMatches {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::Match;
 /// use epipole::sfm::{PairMatches, build_tracks};
-/// let pair = |image1, image2, matches: &[(u32, u32)]| PairMatches { image1, image2, matches: matches.to_vec() };
+/// let pair = |image1, image2, index1, index2| PairMatches {
+///     image1,
+///     image2,
+///     matches: vec![Match::new(index1, index2)],
+/// };
 /// // Keypoint 0 of image 0 is keypoint 1 of image 1, and that is keypoint 2 of image 2.
-/// let tracks = build_tracks(&[3, 3, 3], &[pair(0, 1, &[(0, 1)]), pair(1, 2, &[(1, 2)])])?;
+/// let tracks = build_tracks(&[3, 3, 3], &[pair(0, 1, 0, 1), pair(1, 2, 1, 2)])?;
 /// assert_eq!(tracks.len(), 1);
 /// assert_eq!(tracks[0].len(), 3);
 /// # Ok(()) }
@@ -66,9 +72,9 @@ pub fn build_tracks(
         if a >= num_keypoints.len() || b >= num_keypoints.len() || a == b {
             return refuse(a.max(b));
         }
-        for &(i, j) in &pair.matches {
-            if i as usize >= num_keypoints[a] || j as usize >= num_keypoints[b] {
-                return refuse(i.max(j) as usize);
+        for found in &pair.matches {
+            if found.index1 >= num_keypoints[a] || found.index2 >= num_keypoints[b] {
+                return refuse(found.index1.max(found.index2));
             }
         }
     }
@@ -81,10 +87,10 @@ pub fn build_tracks(
     let mut images: Vec<Vec<u32>> = vec![Vec::new(); total];
     for &p in &order {
         let pair = &pairs[p];
-        for &(i, j) in &pair.matches {
+        for found in &pair.matches {
             let (a, b) = (
-                starts[pair.image1] + i as usize,
-                starts[pair.image2] + j as usize,
+                starts[pair.image1] + found.index1,
+                starts[pair.image2] + found.index2,
             );
             let (root_a, root_b) = (sets.root(a), sets.root(b));
             if root_a == root_b {
@@ -154,7 +160,9 @@ mod tests {
         PairMatches {
             image1,
             image2,
-            matches: matches.to_vec(),
+            matches: (matches.iter())
+                .map(|&(i, j)| Match::new(i as usize, j as usize))
+                .collect(),
         }
     }
 

@@ -6,6 +6,7 @@ use super::tracks::PairMatches;
 use super::views::Views;
 use crate::camera::{Camera, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
+use crate::feature::Match;
 use crate::homography::estimate_homography;
 use crate::progress::{Monitor, Stage, report};
 use crate::robust::{RansacOptions, RansacReport};
@@ -49,13 +50,15 @@ pub fn verify_matches(
     options: &SfmOptions,
 ) -> Result<Option<VerifiedPair>> {
     let counts = images.map(|image| image.keypoints.len());
-    if let Some(&(i, j)) =
-        (pair.matches.iter()).find(|(i, j)| *i as usize >= counts[0] || *j as usize >= counts[1])
-    {
+    let is_absent = |found: &&Match| found.index1 >= counts[0] || found.index2 >= counts[1];
+    if let Some(found) = pair.matches.iter().find(is_absent) {
         return Err(Error::OutOfRange {
             what: "the keypoint of a match",
             requirement: "the index of one that its image has",
-            value: f64::from(if i as usize >= counts[0] { i } else { j }),
+            value: match found.index1 >= counts[0] {
+                true => found.index1 as f64,
+                false => found.index2 as f64,
+            },
         });
     }
     let images = images.map(Clone::clone);
@@ -127,10 +130,10 @@ pub(super) fn verify_pair(
     }
     let pixels = both.map(|image| &views.pixels[image][..]);
     let pixels1: Vec<_> = (pair.matches.iter())
-        .map(|(i, _)| pixels[0][*i as usize])
+        .map(|found| pixels[0][found.index1])
         .collect();
     let pixels2: Vec<_> = (pair.matches.iter())
-        .map(|(_, j)| pixels[1][*j as usize])
+        .map(|found| pixels[1][found.index2])
         .collect();
     // Without consensus the two photographs simply do not overlap.
     let report = estimate_relative_pose(&pixels1, &pixels2, cameras, options, &mut ()).ok()?;

@@ -152,14 +152,14 @@ pub fn why_unregistered(
         let mut sees = vec![false; num_keypoints];
         let mut has_placed_neighbor = false;
         for pair in verified.iter().map(|verified| &verified.pair) {
-            for &(i, j) in &pair.matches {
+            for found in &pair.matches {
                 let (mine, other, there) = if pair.image1 == image {
-                    (i, pair.image2, j)
+                    (found.index1, pair.image2, found.index2)
                 } else {
-                    (j, pair.image1, i)
+                    (found.index2, pair.image1, found.index1)
                 };
-                let is_point = has_point[other][there as usize];
-                sees[mine as usize] |= is_point;
+                let is_point = has_point[other][there];
+                sees[mine] |= is_point;
                 has_placed_neighbor |= is_point;
             }
         }
@@ -195,6 +195,7 @@ mod tests {
     use super::super::tracks::PairMatches;
     use super::*;
     use crate::camera::{Camera, Intrinsics, RigidTransform};
+    use crate::feature::Match;
     use crate::math::random::Random;
     use nalgebra::{Point2, Point3, Vector3};
 
@@ -232,8 +233,8 @@ mod tests {
         keypoints.push(anywhere(80));
         keypoints.push(anywhere(80));
         keypoints.push(see(&at(-0.3)));
-        let all: Vec<(u32, u32)> = (0..80).map(|i| (i, i)).collect();
-        let pair = |image1, image2, matches: &[(u32, u32)]| PairMatches {
+        let all: Vec<Match> = (0..80).map(|i| Match::new(i, i)).collect();
+        let pair = |image1, image2, matches: &[Match]| PairMatches {
             image1,
             image2,
             matches: matches.to_vec(),
@@ -243,8 +244,6 @@ mod tests {
                 .into_iter()
                 .map(|keypoints| SfmImage {
                     keypoints,
-                    width: 640,
-                    height: 480,
                     ..SfmImage::default()
                 })
                 .collect(),

@@ -1,6 +1,7 @@
 //! Reconstruction through lenses that no pinhole camera approximates, against exact truth.
 
 use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
+use epipole::feature::Match;
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, BundleObservation, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult,
@@ -80,8 +81,6 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
         };
         let mut image = SfmImage {
             name: format!("{n}.png"),
-            width: SIZE,
-            height: SIZE,
             ..SfmImage::default()
         };
         let mut keypoints = vec![None; points.len()];
@@ -112,7 +111,8 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
                 if let (Some(i), Some(j)) = (i, j) {
                     let other = random.below(world.input.images[b].keypoints.len()) as u32;
                     let is_wrong = random.unit() < making.wrong;
-                    matches.push((*i, if is_wrong { other } else { *j }));
+                    let j = if is_wrong { other } else { *j };
+                    matches.push(Match::new(*i as usize, j as usize));
                 }
             }
             world.input.pairs.push(PairMatches {
@@ -394,8 +394,6 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     let reach = 3.0 * libm::tan(half_deg.to_radians().min(1.2));
     let mut images = [0, 1].map(|n| SfmImage {
         name: format!("{n}.png"),
-        width: SIZE,
-        height: SIZE,
         ..SfmImage::default()
     });
     while images[0].keypoints.len() < 300 {
@@ -423,7 +421,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     let pair = PairMatches {
         image1: 0,
         image2: 1,
-        matches: (0..300).map(|i| (i, i)).collect(),
+        matches: (0..300).map(|i| Match::new(i, i)).collect(),
     };
     let camera = Camera {
         intrinsics: k,

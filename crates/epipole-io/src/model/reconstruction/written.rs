@@ -33,10 +33,8 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
         .prop_map(|(list, points, (k1, is_bent))| {
             let images: Vec<SfmImage> = list
                 .iter()
-                .map(|(name, side, keypoints, _)| SfmImage {
+                .map(|(name, _, keypoints, _)| SfmImage {
                     name: name.clone(),
-                    width: *side,
-                    height: side / 2 + 1,
                     keypoints: keypoints.iter().map(|&(u, v)| Point2::new(u, v)).collect(),
                     ..SfmImage::default()
                 })

@@ -9,8 +9,7 @@ use crate::{Error, Result};
 use core::ops::Range;
 use nalgebra::Point2;
 
-/// Relative poses of two cameras with one unknown focal length from matches, for
-/// [`Ransac`](crate::robust::Ransac).
+/// Relative poses of two cameras with one unknown focal length from matches.
 ///
 /// A sample is six matches, and of its solutions only those are looked at that put the six points
 /// in front of both cameras, and whose focal length is plausible: at least a fifth of the distance
@@ -22,7 +21,7 @@ use nalgebra::Point2;
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point).
 #[derive(Debug, Clone)]
-pub struct FocalEstimator {
+pub(in crate::epipolar) struct FocalEstimator {
     pub(in crate::epipolar) matches: MatchSet,
     pub(in crate::epipolar) pixels: Coordinates,
     pub(in crate::epipolar) in_frame: Coordinates,
@@ -43,7 +42,7 @@ impl FocalEstimator {
     /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of
     /// an image lie on one line, or are equal, [`Error::NotFinite`] for principal points that are
     /// not.
-    pub fn new(
+    pub(super) fn new(
         matches: MatchSet,
         principal1: &Point2<f64>,
         principal2: &Point2<f64>,

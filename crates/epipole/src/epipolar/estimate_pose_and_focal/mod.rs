@@ -5,5 +5,5 @@ mod focal_estimator;
 mod pose_with_focal;
 
 pub use estimate::estimate_relative_pose_and_focal;
-pub use focal_estimator::FocalEstimator;
+pub(super) use focal_estimator::FocalEstimator;
 pub use pose_with_focal::PoseWithFocal;

@@ -101,6 +101,7 @@ fn gather<D: Distance>(
 fn whole_bytes(descriptors: &Descriptors) -> Option<Cow<'_, [u8]>> {
     match descriptors.values() {
         Values::Bytes(values) => Some(Cow::Borrowed(values)),
+        Values::Bits(_) => None,
         Values::Floats(values) => values
             .iter()
             .all(|&v| f32::from(v as u8) == v)

@@ -2,16 +2,15 @@
 
 mod dense;
 mod dots;
-mod euclidean;
 mod floats;
 mod hamming;
 mod integers;
+mod nearest;
 mod neighbors;
 mod options;
 mod select;
 
-pub use euclidean::{match_descriptors, nearest_few, nearest_two};
-pub use hamming::{BinaryDescriptors, match_hamming, nearest_two_hamming};
+pub use nearest::{match_descriptors, nearest_few, nearest_two};
 pub use neighbors::Neighbors;
 pub use options::MatchOptions;
 pub use select::Match;

@@ -18,14 +18,20 @@ pub struct Match {
 }
 
 impl Match {
-    /// Both indices, as [`PairMatches`](crate::sfm::PairMatches) has them.
+    /// A match from elsewhere, whose descriptors are unknown: distance and ratio are 0.
     ///
     /// ```
     /// use epipole::feature::Match;
-    /// assert_eq!(Match { index1: 3, index2: 5, distance: 0.2, ratio: 0.7 }.indices(), (3, 5));
+    /// let known = Match { distance: 0.2, ratio: 0.7, ..Match::new(3, 5) };
+    /// assert_eq!((known.index1, known.index2), (3, 5));
     /// ```
-    pub fn indices(&self) -> (u32, u32) {
-        (self.index1 as u32, self.index2 as u32)
+    pub fn new(index1: usize, index2: usize) -> Self {
+        Self {
+            index1,
+            index2,
+            distance: 0.0,
+            ratio: 0.0,
+        }
     }
 }
 

@@ -5,7 +5,7 @@ mod pattern;
 
 use super::keypoint::Keypoint;
 use super::nms::strongest_first;
-use super::{BinaryDescriptors, parallel};
+use super::{Descriptors, Features, parallel};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
 use crate::{Error, Result};
 use derive_setters::Setters;
@@ -50,15 +50,6 @@ impl Default for OrbOptions {
     }
 }
 
-/// Keypoints and their descriptors of bits; entry k of one belongs to entry k of the other.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BinaryFeatures {
-    /// Keypoints.
-    pub keypoints: Vec<Keypoint>,
-    /// Its descriptor.
-    pub descriptors: BinaryDescriptors,
-}
-
 /// The oriented FAST corners of an image, strongest first, each with 256 comparisons of blurred
 /// gray values around it.
 ///
@@ -85,7 +76,7 @@ pub struct BinaryFeatures {
 /// assert_eq!(features.keypoints.len(), 4);
 /// # Ok(()) }
 /// ```
-pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<BinaryFeatures> {
+pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
     let levels: Vec<usize> = (0..options.num_levels).collect();
@@ -105,9 +96,9 @@ pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<BinaryFea
     features.sort_by(|a, b| super::nms::stronger(&a.0, &b.0));
     features.truncate(options.max_features);
     let (keypoints, bits) = features.into_iter().unzip();
-    Ok(BinaryFeatures {
+    Ok(Features {
         keypoints,
-        descriptors: BinaryDescriptors { bits },
+        descriptors: Descriptors::from_bits(bits),
     })
 }
 
@@ -218,7 +209,7 @@ fn check(options: &OrbOptions) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::feature::{MatchOptions, match_hamming};
+    use crate::feature::{MatchOptions, match_descriptors};
     use crate::imaging::{Interpolation, WarpOptions, warp_affine};
     use crate::math::random::Random;
     use nalgebra::Matrix2x3;
@@ -254,7 +245,7 @@ mod tests {
         let other = warp_affine(&image, &map, &options).unwrap();
         let a = detect_orb(&image, &OrbOptions::default()).unwrap();
         let b = detect_orb(&other, &OrbOptions::default()).unwrap();
-        let matches = match_hamming(
+        let matches = match_descriptors(
             &a.descriptors,
             &b.descriptors,
             &MatchOptions::default(),

@@ -8,19 +8,10 @@ use super::scale_space::{Octave, OctaveGrid};
 use crate::Result;
 use crate::feature::keypoint::Keypoint;
 use crate::feature::nms::stronger;
-use crate::feature::{Descriptors, parallel};
+use crate::feature::{Descriptors, Features, parallel};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::{at_rank, order_by};
 use crate::progress::{self, Monitor, Stage};
-
-/// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Features {
-    /// Keypoints.
-    pub keypoints: Vec<Keypoint>,
-    /// Its descriptor.
-    pub descriptors: Descriptors,
-}
 
 /// The SIFT features of an image, strongest first: extrema of differences of Gaussians in place
 /// and scale, located to a fraction of a pixel, with directions and 4×4×8 histograms of gradients.

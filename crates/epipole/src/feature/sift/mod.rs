@@ -12,6 +12,6 @@ mod scale_space;
 mod tests;
 
 pub use describe::{describe_sift, sift_directions};
-pub use detect::{Features, detect_sift};
+pub use detect::detect_sift;
 pub use layers::{ScaleOctave, ScaleSpace, scale_space};
 pub use options::{SiftNormalization, SiftOptions};

@@ -224,7 +224,7 @@ impl Builder {
             if visible.len() < self.options.min_num_inliers.max(again + again / 4 + 1) {
                 continue;
             }
-            let (width, height) = (self.images[image].width, self.images[image].height);
+            let Camera { width, height, .. } = self.views.cameras[image];
             let mut score = 0;
             for level in 1..=4 {
                 let side = 1usize << level;

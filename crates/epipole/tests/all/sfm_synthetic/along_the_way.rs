@@ -188,7 +188,7 @@ fn bad_input_is_refused() {
         Err(Error::NotFinite { .. })
     ));
     assert!(matches!(
-        attempt(&|i, _| i.pairs[0].matches[0].1 = 9999),
+        attempt(&|i, _| i.pairs[0].matches[0].index2 = 9999),
         Err(Error::OutOfRange { .. })
     ));
     assert!(matches!(

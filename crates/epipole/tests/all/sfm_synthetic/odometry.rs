@@ -3,6 +3,7 @@
 use super::world::{Making, World, ball, errors, intrinsics, photograph};
 use epipole::Error;
 use epipole::camera::{Camera, PosedCamera, RigidTransform};
+use epipole::feature::Match;
 use epipole::math::random::Random;
 use epipole::sfm::{OdometryOptions, monocular_odometry, stereo_odometry};
 use nalgebra::{Point3, Vector3};
@@ -116,7 +117,7 @@ fn a_stereo_rig_is_followed_in_meters() {
         .collect();
     let right = photograph(right_cameras, &points, making, 33);
     // Points carry their number in a color; that is how the test matches left and right.
-    let left_right: Vec<Vec<(u32, u32)>> = left
+    let left_right: Vec<Vec<Match>> = left
         .input
         .images
         .iter()
@@ -130,7 +131,7 @@ fn a_stereo_rig_is_followed_in_meters() {
                         && (p.y - q.y).abs() < 1.5
                         && (1.0..200.0).contains(&disparity)
                     {
-                        matches.push((i as u32, j as u32));
+                        matches.push(Match::new(i, j));
                         break;
                     }
                 }
@@ -138,7 +139,7 @@ fn a_stereo_rig_is_followed_in_meters() {
             matches
         })
         .collect();
-    let run = |right_from_left: &RigidTransform, left_right: &[Vec<(u32, u32)>]| {
+    let run = |right_from_left: &RigidTransform, left_right: &[Vec<Match>]| {
         stereo_odometry(
             &left.input,
             &right.input.images,

@@ -1,6 +1,7 @@
 //! Synthetic scenes and images: matches with known ground truth.
 
 use epipole::camera::{Camera, Distortion, Intrinsics, PosedCamera, look_at};
+use epipole::feature::Match;
 use epipole::math::random::Random;
 use epipole::sfm::{
     AlignmentKind, PairMatches, SfmImage, SfmInput, SfmOptions, SfmResult, align_points,
@@ -51,8 +52,6 @@ pub(crate) fn photograph(
     for (index, camera) in cameras.iter().enumerate() {
         let mut image = SfmImage {
             name: format!("{index}.png"),
-            width: 640,
-            height: 480,
             ..SfmImage::default()
         };
         let mut keypoints = vec![None; points.len()];
@@ -88,10 +87,10 @@ pub(crate) fn photograph(
             for n in 0..points.len() {
                 if let (Some(i), Some(j)) = (keypoint_of[a][n], keypoint_of[b][n]) {
                     if random.unit() < making.wrong {
-                        let other = random.below(input.images[b].keypoints.len()) as u32;
-                        matches.push((i, other));
+                        let other = random.below(input.images[b].keypoints.len());
+                        matches.push(Match::new(i as usize, other));
                     } else {
-                        matches.push((i, j));
+                        matches.push(Match::new(i as usize, j as usize));
                     }
                 }
             }

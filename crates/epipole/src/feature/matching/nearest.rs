@@ -1,23 +1,24 @@
-//! Matches between descriptors of numbers.
+//! Nearest descriptors and matches, by the distance of their kind.
 
-use super::dense;
-use super::neighbors::Neighbors;
+use super::neighbors::{Found, Neighbors};
 use super::options::{MatchOptions, check};
 use super::select::{Match, select};
+use super::{dense, hamming};
 use crate::feature::Descriptors;
 use crate::math::order::{at_rank, order_by};
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// For each descriptor of `first` its two nearest in `second`, by Euclidean distance, without
-/// approximation.
+/// For each descriptor of `first` its two nearest in `second`, without approximation: by Euclidean
+/// distance, bits by the number that differ.
 ///
 /// Empty lists give an empty result. Whole numbers from 0 to 255, such as SIFT's, are compared in
 /// integers, whether kept as bytes or as floats; other numbers in `f32`. The one stage is
 /// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for descriptors of different length, [`Error::Canceled`].
+/// [`Error::Degenerate`] if one list is of numbers and the other of bits, [`Error::SizeMismatch`]
+/// for descriptors of different length, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -33,7 +34,18 @@ pub fn nearest_two(
     second: &Descriptors,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Neighbors>> {
-    Ok(dense::search(first, second, monitor)?.rows)
+    Ok(search(first, second, monitor)?.rows)
+}
+
+fn search(first: &Descriptors, second: &Descriptors, monitor: &mut dyn Monitor) -> Result<Found> {
+    match (first.as_bits(), second.as_bits()) {
+        (Some(first), Some(second)) => hamming::search(first, second, monitor),
+        (None, None) => dense::search(first, second, monitor),
+        _ => Err(Error::Degenerate {
+            what: "the distance of two descriptors",
+            why: "one is a list of numbers and the other one of bits",
+        }),
+    }
 }
 
 /// The entries of a list nearest to one descriptor, by Euclidean distance: their indices and
@@ -98,8 +110,7 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
 /// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for descriptors of different length, [`Error::OutOfRange`] for an
-/// option outside its range, [`Error::Canceled`].
+/// As [`nearest_two`], and [`Error::OutOfRange`] for an option outside its range.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -109,6 +120,11 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
 /// let matches = match_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
 /// assert_eq!((matches[0].index1, matches[0].index2, matches[0].distance), (0, 1, 0.25));
 /// assert_eq!((matches[1].index1, matches[1].index2, matches[1].distance), (1, 0, 0.5));
+/// // Binary descriptors are compared by the number of bits that differ.
+/// let first = Descriptors::from_bits(vec![[0b1011, 0, 0, 0]]);
+/// let second = Descriptors::from_bits(vec![[0, 0, 0, 0], [0b1111, 0, 0, 0]]);
+/// let matches = match_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
+/// assert_eq!((matches[0].index2, matches[0].ratio), (1, 1.0 / 3.0));
 /// # Ok(()) }
 /// ```
 pub fn match_descriptors(
@@ -118,7 +134,7 @@ pub fn match_descriptors(
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<Match>> {
     check(options)?;
-    let found = dense::search(first, second, monitor)?;
+    let found = search(first, second, monitor)?;
     Ok(select(&found.rows, &found.columns, options))
 }
 
