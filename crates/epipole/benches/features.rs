@@ -54,7 +54,7 @@ fn features(criterion: &mut Criterion) {
         b.iter(|| detect_sift(black_box(&photograph), &SiftOptions::default(), &mut ()));
     });
     group.bench_function("orb 800x640", |b| {
-        b.iter(|| detect_orb(black_box(&photograph), &OrbOptions::default()));
+        b.iter(|| detect_orb(black_box(&photograph), &OrbOptions::default(), &mut ()));
     });
     let mut random = Random::new(2);
     let mut list = || -> Vec<u8> { (0..2048 * 128).map(|_| random.below(160) as u8).collect() };

@@ -19,7 +19,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         } else {
             max_features
         };
-        detect_orb(&image, &OrbOptions::default().with_max_features(count))?
+        detect_orb(
+            &image,
+            &OrbOptions::default().with_max_features(count),
+            &mut (),
+        )?
     } else {
         let options = SiftOptions::default()
             .with_max_features(max_features)

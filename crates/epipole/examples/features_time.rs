@@ -103,7 +103,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     time("sift", rounds, sift, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()
     })?;
-    let orb = || detect_orb(&image, &OrbOptions::default());
+    let orb = || detect_orb(&image, &OrbOptions::default(), &mut ());
     time("orb", rounds, orb, |f| {
         f.as_ref().map_or(0, |f| f.keypoints.len()).to_string()
     })?;

@@ -14,7 +14,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let (camera, truth) = photograph(&RigidTransform::identity())?;
     let (first, second) = (gray(&truth), gray(&photograph(&step)?.1));
     let options = GoodFeaturesOptions::default().with_max_corners(200);
-    let corners: Vec<_> = good_features_to_track(&first, &options)?
+    let corners: Vec<_> = good_features_to_track(&first, &options, &mut ())?
         .iter()
         .map(Keypoint::point)
         .collect();

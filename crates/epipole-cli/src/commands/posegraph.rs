@@ -8,6 +8,7 @@ use crate::progress::Progress;
 use crate::refinement::RefinementArguments;
 use crate::report::Report;
 use clap::Args;
+use epipole::progress::Part;
 use epipole_io::pose_graph::{read_g2o, write_g2o};
 use std::path::PathBuf;
 
@@ -38,12 +39,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let text = files::read_text(&arguments.graph)?;
     let parsed = read_g2o(&text);
     let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
+    let progress = Progress::new(context, "pose graph");
     if arguments.initialize {
-        graph.initialize()?;
+        let watch = &mut |status| progress.show(status);
+        graph.initialize(&mut Part::new(watch, 0.0, 0.0))?;
     }
     let options = arguments.refinement.options(arguments.max_iterations);
     let loss = arguments.refinement.loss();
-    let progress = Progress::new(context, "pose graph");
     let initial_chi2 = graph.chi2();
     let mut num_reports = 0;
     let report = graph.optimize(&options, loss, &mut |status| {

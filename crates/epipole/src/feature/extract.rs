@@ -24,8 +24,7 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 /// The features of an image, of the kind that `options` names, strongest first.
 ///
 /// Corners of Harris are located between pixels; those that cannot be are dropped. The one stage is
-/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection); ORB and Harris, which are
-/// quick, report nothing.
+/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
 /// # Errors
 /// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
@@ -54,8 +53,8 @@ pub fn detect_features(
 ) -> Result<Features> {
     match options.kind {
         FeatureKind::Sift | FeatureKind::RootSift => sift(image, options, monitor),
-        FeatureKind::Orb => detect_orb(image, &options.orb()),
-        FeatureKind::Harris => harris(image, options),
+        FeatureKind::Orb => detect_orb(image, &options.orb(), monitor),
+        FeatureKind::Harris => harris(image, options, monitor),
     }
 }
 
@@ -89,8 +88,12 @@ fn sift(
     detect_sift(image, &twice, &mut Part::new(monitor, before, 1.0))
 }
 
-fn harris(image: &GrayImage32, options: &FeatureOptions) -> Result<Features> {
-    let corners = good_features_to_track(image, &options.harris())?;
+fn harris(
+    image: &GrayImage32,
+    options: &FeatureOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Features> {
+    let corners = good_features_to_track(image, &options.harris(), monitor)?;
     let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
     let refined = refine_corners(image, &places, &RefineOptions::default())?;
     // A corner that cannot be refined is not one.

@@ -3,6 +3,7 @@
 use super::nms::strongest_first;
 use super::{Keypoint, StructureTensorOptions, harris_response, min_eigenvalue_response};
 use crate::imaging::GrayImage32;
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
@@ -82,7 +83,7 @@ impl Default for GoodFeaturesOptions {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a quality outside (0, 1], a negative or infinite distance or a grid
-/// without cells; else as [`harris_response`].
+/// without cells; [`Error::Canceled`]; else as [`harris_response`].
 ///
 /// Source: Shi & Tomasi 1994; the selection is that of OpenCV's `goodFeaturesToTrack`.
 ///
@@ -95,7 +96,7 @@ impl Default for GoodFeaturesOptions {
 /// let square = GrayImage32::from_fn(20, 20, |u, v| {
 ///     image::Luma([if inside(u) && inside(v) { 1.0 } else { 0.0 }])
 /// });
-/// let corners = good_features_to_track(&square, &GoodFeaturesOptions::default())?;
+/// let corners = good_features_to_track(&square, &GoodFeaturesOptions::default(), &mut ())?;
 /// assert_eq!(corners.len(), 4);
 /// assert_eq!((corners[0].u, corners[0].v), (5.0, 5.0));
 /// # Ok(()) }
@@ -103,6 +104,7 @@ impl Default for GoodFeaturesOptions {
 pub fn good_features_to_track(
     image: &GrayImage32,
     options: &GoodFeaturesOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Keypoint>> {
     if !(options.quality > 0.0 && options.quality <= 1.0) {
         return Err(Error::OutOfRange {
@@ -125,10 +127,12 @@ pub fn good_features_to_track(
             value: 0.0,
         });
     }
+    report(monitor, Stage::FeatureDetection, 0.0)?;
     let response = match options.measure {
         CornerMeasure::ShiTomasi => min_eigenvalue_response(image, &options.tensor)?,
         CornerMeasure::Harris(k) => harris_response(image, k, &options.tensor)?,
     };
+    report(monitor, Stage::FeatureDetection, 0.8)?;
     let mut candidates = inner_maxima(&response, options.quality);
     strongest_first(&mut candidates);
     let limit = if options.max_corners == 0 {
@@ -288,7 +292,7 @@ mod tests {
             options.quality,
             options.min_distance_px,
         ) = (60, 0.05, 7.0);
-        let corners = good_features_to_track(&image, &options).unwrap();
+        let corners = good_features_to_track(&image, &options, &mut ()).unwrap();
         assert_same_corners(&corners, "good_features.npy");
         (
             options.max_corners,
@@ -297,7 +301,7 @@ mod tests {
         ) = (25, 0.01, 10.0);
         options.measure = CornerMeasure::Harris(0.04);
         options.tensor.window = Window::Box(5);
-        let corners = good_features_to_track(&image, &options).unwrap();
+        let corners = good_features_to_track(&image, &options, &mut ()).unwrap();
         assert_same_corners(&corners, "good_features_harris.npy");
     }
 
@@ -318,12 +322,12 @@ mod tests {
         };
         options.quality = 1e-4;
         let right = |corners: &[Keypoint]| corners.iter().filter(|c| c.u > 105.0).count();
-        let plain = good_features_to_track(&image, &options).unwrap();
+        let plain = good_features_to_track(&image, &options, &mut ()).unwrap();
         options.grid = Some(Grid {
             columns: 4,
             rows: 2,
         });
-        let spread = good_features_to_track(&image, &options).unwrap();
+        let spread = good_features_to_track(&image, &options, &mut ()).unwrap();
         assert_eq!((plain.len(), spread.len()), (40, 40));
         assert_eq!(right(&plain), 0);
         assert!(right(&spread) >= 15, "{}", right(&spread));
@@ -334,7 +338,7 @@ mod tests {
         for (w, h) in [(0, 0), (1, 1), (2, 9), (1, 30), (30, 20)] {
             let image = GrayImage32::from_pixel(w, h, image::Luma([0.5]));
             assert!(
-                good_features_to_track(&image, &options())
+                good_features_to_track(&image, &options(), &mut ())
                     .unwrap()
                     .is_empty()
             );
@@ -347,7 +351,7 @@ mod tests {
         let bad = |change: fn(&mut GoodFeaturesOptions)| {
             let mut options = options();
             change(&mut options);
-            assert!(good_features_to_track(&image, &options).is_err());
+            assert!(good_features_to_track(&image, &options, &mut ()).is_err());
         };
         bad(|o| o.quality = 0.0);
         bad(|o| o.quality = f32::NAN);

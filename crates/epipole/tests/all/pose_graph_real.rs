@@ -31,7 +31,7 @@ fn intel_reaches_the_known_optimum() {
     // From the measurements alone the start is nearer than the file's by three orders, and leads to
     // the same.
     let mut anew = read_g2o(&text).expect("a pose graph");
-    anew.initialize().expect("a start");
+    anew.initialize(&mut ()).expect("a start");
     let report = anew
         .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
         .expect("an optimization");

@@ -7,6 +7,7 @@ use super::keypoint::Keypoint;
 use super::nms::strongest_first;
 use super::{Descriptors, Features, parallel};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::GrayImage;
@@ -37,6 +38,9 @@ pub struct OrbOptions {
     pub upright: bool,
 }
 
+/// Levels between two reports of progress.
+const LEVELS_AT_ONCE: usize = 2;
+
 impl Default for OrbOptions {
     /// 1000 features, 8 levels a factor 1.2 apart, threshold 20 of 255.
     fn default() -> Self {
@@ -59,7 +63,8 @@ impl Default for OrbOptions {
 /// image, `octave` its number. An image smaller than 35×35 pixels has no features.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range.
+/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range,
+/// [`Error::Canceled`].
 ///
 /// Source: Rublee, Rabaud, Konolige & Bradski 2011, "ORB: an efficient alternative to SIFT or
 /// SURF"; Rosten & Drummond 2006 for FAST; Calonder et al. 2010 for the comparisons.
@@ -72,11 +77,15 @@ impl Default for OrbOptions {
 /// let square = GrayImage32::from_fn(90, 90, |u, v| {
 ///     image::Luma([if inside(u) && inside(v) { 1.0 } else { 0.0 }])
 /// });
-/// let features = detect_orb(&square, &OrbOptions::default().with_num_levels(1))?;
+/// let features = detect_orb(&square, &OrbOptions::default().with_num_levels(1), &mut ())?;
 /// assert_eq!(features.keypoints.len(), 4);
 /// # Ok(()) }
 /// ```
-pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<Features> {
+pub fn detect_orb(
+    image: &GrayImage32,
+    options: &OrbOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
     let levels: Vec<usize> = (0..options.num_levels).collect();
@@ -84,15 +93,20 @@ pub fn detect_orb(image: &GrayImage32, options: &OrbOptions) -> Result<Features>
     // Each level gets a share in proportion to its side.
     let shrink = 1.0 / options.scale_factor;
     let total: f64 = levels.iter().map(|&k| power(shrink, k)).sum();
-    let described = parallel::map(&levels, |&k| {
+    let describe = |&k: &usize| {
         let share = options.max_features as f64 * power(shrink, k) / total;
         let quota = (share.ceil() as usize).min(options.max_features);
         describe_level(image, options, &pattern, k, quota)
-    });
+    };
     let mut features: Vec<(Keypoint, [u64; 4])> = Vec::new();
-    for level in described {
-        features.extend(level?);
+    for (done, group) in levels.chunks(LEVELS_AT_ONCE).enumerate() {
+        let share = (done * LEVELS_AT_ONCE) as f32 / levels.len() as f32;
+        report(monitor, Stage::FeatureDetection, share)?;
+        for level in parallel::map(group, describe) {
+            features.extend(level?);
+        }
     }
+    report(monitor, Stage::FeatureDetection, 1.0)?;
     features.sort_by(|a, b| super::nms::stronger(&a.0, &b.0));
     features.truncate(options.max_features);
     let (keypoints, bits) = features.into_iter().unzip();
@@ -243,8 +257,8 @@ mod tests {
             ..WarpOptions::new(320, 240)
         };
         let other = warp_affine(&image, &map, &options).unwrap();
-        let a = detect_orb(&image, &OrbOptions::default()).unwrap();
-        let b = detect_orb(&other, &OrbOptions::default()).unwrap();
+        let a = detect_orb(&image, &OrbOptions::default(), &mut ()).unwrap();
+        let b = detect_orb(&other, &OrbOptions::default(), &mut ()).unwrap();
         let matches = match_descriptors(
             &a.descriptors,
             &b.descriptors,
@@ -269,8 +283,13 @@ mod tests {
     #[test]
     fn half_a_turn_turns_the_keypoints() {
         let image = scene(201, 151);
-        let a = detect_orb(&image, &OrbOptions::default()).unwrap();
-        let b = detect_orb(&image::imageops::rotate180(&image), &OrbOptions::default()).unwrap();
+        let a = detect_orb(&image, &OrbOptions::default(), &mut ()).unwrap();
+        let b = detect_orb(
+            &image::imageops::rotate180(&image),
+            &OrbOptions::default(),
+            &mut (),
+        )
+        .unwrap();
         let near = a.keypoints.iter().filter(|p| {
             b.keypoints
                 .iter()
@@ -288,13 +307,14 @@ mod tests {
                 max_features: 37,
                 ..OrbOptions::default()
             },
+            &mut (),
         );
         let few = few.unwrap();
         assert_eq!((few.keypoints.len(), few.descriptors.len()), (37, 37));
         assert!(few.keypoints.is_sorted_by(|a, b| a.response >= b.response));
         for (w, h) in [(0, 0), (1, 50), (50, 1), (34, 34), (90, 60)] {
             let flat = GrayImage32::from_pixel(w, h, image::Luma([0.5]));
-            let none = detect_orb(&flat, &OrbOptions::default()).unwrap();
+            let none = detect_orb(&flat, &OrbOptions::default(), &mut ()).unwrap();
             assert!(none.keypoints.is_empty() && none.descriptors.is_empty());
         }
     }
@@ -304,7 +324,7 @@ mod tests {
         let bad = |change: fn(&mut OrbOptions)| {
             let mut options = OrbOptions::default();
             change(&mut options);
-            assert!(detect_orb(&GrayImage32::new(50, 50), &options).is_err());
+            assert!(detect_orb(&GrayImage32::new(50, 50), &options, &mut ()).is_err());
         };
         bad(|o| o.max_features = 0);
         bad(|o| o.scale_factor = 1.0);
@@ -313,6 +333,6 @@ mod tests {
         bad(|o| o.num_levels = 99);
         bad(|o| o.fast_threshold = -0.1);
         let nan = GrayImage32::from_pixel(60, 60, image::Luma([f32::NAN]));
-        assert!(detect_orb(&nan, &OrbOptions::default()).is_err());
+        assert!(detect_orb(&nan, &OrbOptions::default(), &mut ()).is_err());
     }
 }

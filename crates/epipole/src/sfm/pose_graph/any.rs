@@ -31,11 +31,11 @@ impl PoseGraph {
     ///
     /// # Errors
     /// As [`Graph::initialize`].
-    pub fn initialize(&mut self) -> Result<()> {
+    pub fn initialize(&mut self, monitor: &mut dyn Monitor) -> Result<()> {
         match self {
-            PoseGraph::Se2(graph) => graph.initialize(),
-            PoseGraph::Se3(graph) => graph.initialize(),
-            PoseGraph::Sim3(graph) => graph.initialize(),
+            PoseGraph::Se2(graph) => graph.initialize(monitor),
+            PoseGraph::Se3(graph) => graph.initialize(monitor),
+            PoseGraph::Sim3(graph) => graph.initialize(monitor),
         }
     }
 

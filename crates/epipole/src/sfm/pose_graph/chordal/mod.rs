@@ -5,6 +5,7 @@ use super::{Graph, GraphPose};
 use crate::math::{Svd3, svd3};
 use crate::optim::RobustLoss;
 use crate::optim::sparse::BlockCholesky;
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use nalgebra::{
     Isometry3, Matrix3, Rotation3, SMatrix, SVector, Similarity3, Translation3, UnitQuaternion,
@@ -101,7 +102,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///
     /// # Errors
     /// As [`optimize`](Graph::optimize), and [`Error::Degenerate`] if some vertex hangs on
-    /// measurements without weight.
+    /// measurements without weight. The one stage is [`Stage::PoseGraph`].
     ///
     /// Source: Carlone, Tron, Daniilidis & Dellaert 2015, "Initialization techniques for 3D SLAM: a
     /// survey on rotation estimation and its use in pose graph optimization", §IV.A (chordal
@@ -124,11 +125,11 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///     }],
     ///     fixed: vec![],
     /// };
-    /// graph.initialize()?;
+    /// graph.initialize(&mut ())?;
     /// assert!(graph.chi2() < 1e-20);
     /// # Ok(()) }
     /// ```
-    pub fn initialize(&mut self) -> Result<()> {
+    pub fn initialize(&mut self, monitor: &mut dyn Monitor) -> Result<()> {
         self.check(RobustLoss::Trivial)?;
         let (held, _) = self.held();
         let mut poses: Vec<Similarity3<f64>> = self.vertices.iter().map(T::to_similarity).collect();
@@ -165,13 +166,15 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
                 weight: weight(index, num_axes, num_turns),
             })
             .collect();
+        report(monitor, Stage::PoseGraph, 0.0)?;
         let of_turns = Links::new(&turns, &held).ok_or_else(degenerate)?;
         let mut rows: [Vec<Vector3<f64>>; 3] = core::array::from_fn(|row| {
             let row_of = |pose: &Similarity3<f64>| matrix(pose).row(row).transpose();
             poses.iter().map(row_of).collect()
         });
-        for row in &mut rows {
+        for (done, row) in rows.iter_mut().enumerate() {
             of_turns.solve(row, |_| Vector3::zeros());
+            report(monitor, Stage::PoseGraph, 0.2 * (done + 1) as f32)?;
         }
         for (vertex, pose) in poses.iter_mut().enumerate() {
             if !held[vertex] {
@@ -191,6 +194,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             }
         }
 
+        report(monitor, Stage::PoseGraph, 0.7)?;
         let steps = links(0, num_axes);
         let of_steps = Links::new(&steps, &held).ok_or_else(degenerate)?;
         let moved: Vec<Vector3<f64>> = (self.edges.iter().zip(&measured))
@@ -256,7 +260,7 @@ pub struct RelativeRotation {
 /// # Errors
 /// [`Error::TooFew`] without measurements, [`Error::OutOfRange`] for an invalid index or a view
 /// joined with itself, or for a loss that [`RobustLoss::check`] refuses; [`Error::NotFinite`] for
-/// NaN.
+/// NaN; [`Error::Canceled`].
 ///
 /// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; the start is that of
 /// [`Graph::initialize`].
@@ -271,7 +275,7 @@ pub struct RelativeRotation {
 ///     from, to, to_from_from: UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle),
 /// };
 /// let measured = [turn(0, 1, 0.1), turn(1, 2, 0.2), turn(0, 2, 0.36)];
-/// let (views, errors_rad) = average_rotations(3, &measured, RobustLoss::Trivial)?;
+/// let (views, errors_rad) = average_rotations(3, &measured, RobustLoss::Trivial, &mut ())?;
 /// assert!((views[2].angle() - 0.34).abs() < 1e-6);
 /// assert!(errors_rad.iter().all(|e| (e - 0.02).abs() < 1e-6));
 /// # Ok(()) }
@@ -280,6 +284,7 @@ pub fn average_rotations(
     count: usize,
     measured: &[RelativeRotation],
     loss: RobustLoss,
+    monitor: &mut dyn Monitor,
 ) -> Result<(Vec<UnitQuaternion<f64>>, Vec<f64>)> {
     let turned = |rotation| Isometry3::from_parts(Translation3::identity(), rotation);
     // The error of an edge is the sine of half the angle.
@@ -297,8 +302,9 @@ pub fn average_rotations(
             .collect(),
         fixed: Vec::new(),
     };
-    graph.initialize()?;
-    graph.optimize(&crate::optim::LmOptions::default(), loss, &mut ())?;
+    graph.initialize(&mut Part::new(monitor, 0.0, 0.5))?;
+    let options = crate::optim::LmOptions::default();
+    graph.optimize(&options, loss, &mut Part::new(monitor, 0.5, 1.0))?;
     let views: Vec<_> = (graph.vertices.iter())
         .map(|vertex| vertex.rotation.inverse())
         .collect();

@@ -72,7 +72,7 @@ fn exact_measurements_are_met_from_anywhere() {
     for _ in 0..5 {
         let rigid: Vec<_> = (0..23).map(|_| anywhere(&mut random, 1.0)).collect();
         let mut of_space: Graph<Isometry3<f64>, 6> = graph(&rigid, 0.0, &mut random);
-        of_space.initialize().unwrap();
+        of_space.initialize(&mut ()).unwrap();
         assert!(
             apart(&of_space, &rigid) < 1e-9,
             "{}",
@@ -83,7 +83,7 @@ fn exact_measurements_are_met_from_anywhere() {
             .map(|i| anywhere(&mut random, 0.5 + 0.1 * f64::from(i)))
             .collect();
         let mut of_scale: Graph<Similarity3<f64>, 7> = graph(&scaled, 0.0, &mut random);
-        of_scale.initialize().unwrap();
+        of_scale.initialize(&mut ()).unwrap();
         assert!(
             apart(&of_scale, &scaled) < 1e-8,
             "{}",
@@ -94,7 +94,7 @@ fn exact_measurements_are_met_from_anywhere() {
             .map(|pose| Isometry2::<f64>::from_similarity(pose).to_similarity())
             .collect();
         let mut of_plane: Graph<Isometry2<f64>, 3> = graph(&flat, 0.0, &mut random);
-        of_plane.initialize().unwrap();
+        of_plane.initialize(&mut ()).unwrap();
         assert!(
             apart(&of_plane, &flat) < 1e-9,
             "{}",
@@ -120,7 +120,7 @@ fn noise_is_shared_and_the_optimum_is_near() {
         };
         let least = solve(&mut best).final_chi2;
         let anywhere = found.chi2();
-        found.initialize().unwrap();
+        found.initialize(&mut ()).unwrap();
         let report = solve(&mut found);
         assert!(
             report.initial_chi2 < 1e-3 * anywhere,
@@ -145,16 +145,20 @@ fn what_hangs_on_nothing_is_told() {
         }
     }
     let before = open.clone();
-    let error = open.initialize().unwrap_err();
+    let error = open.initialize(&mut ()).unwrap_err();
     assert!(error.to_string().contains("without weight"), "{error}");
     assert_eq!(open, before);
     // Two parts: each has a vertex that stays.
     let mut parts: Graph<Isometry3<f64>, 6> = graph(&truth, 0.0, &mut random);
     parts.edges.retain(|edge| (edge.from < 3) == (edge.to < 3));
     let stays = parts.vertices[3];
-    parts.initialize().unwrap();
+    parts.initialize(&mut ()).unwrap();
     assert!(parts.chi2() < 1e-18 && parts.vertices[3] == stays);
-    assert!(Graph::<Isometry2<f64>, 3>::default().initialize().is_err());
+    assert!(
+        Graph::<Isometry2<f64>, 3>::default()
+            .initialize(&mut ())
+            .is_err()
+    );
 }
 
 #[test]
@@ -181,7 +185,7 @@ fn rotations_are_averaged_though_some_are_wrong() {
     }
     let list: Vec<_> = measured.iter().map(|(m, _)| *m).collect();
     let loss = RobustLoss::Cauchy { width: 0.01 };
-    let (views, errors_rad) = average_rotations(truth.len(), &list, loss).unwrap();
+    let (views, errors_rad) = average_rotations(truth.len(), &list, loss, &mut ()).unwrap();
     for (view, truth_of_view) in views.iter().zip(&truth) {
         let off = (view * views[0].inverse()).angle_to(&(truth_of_view * truth[0].inverse()));
         assert!(off < 0.01, "{off}");
@@ -189,6 +193,6 @@ fn rotations_are_averaged_though_some_are_wrong() {
     for ((_, wrong), error) in measured.iter().zip(&errors_rad) {
         assert!(*wrong || *error < 0.05, "{error}");
     }
-    assert!(average_rotations(3, &[], loss).is_err());
-    assert!(average_rotations(1, &list, loss).is_err());
+    assert!(average_rotations(3, &[], loss, &mut ()).is_err());
+    assert!(average_rotations(1, &list, loss, &mut ()).is_err());
 }
