@@ -105,6 +105,24 @@ fn frames_follow_each_other_by_their_numbers() {
     assert!((shape(&centers) / shape(&truth) - 1.0).abs() < 0.01);
 }
 
+/// The exact fundamental matrix has its only minimum at 319.9 px.
+#[test]
+fn two_frames_tell_the_focal_length_and_its_deviation() {
+    let Some(frames) = field("09/frames") else {
+        return;
+    };
+    let files = ["frame1.jpg", "frame6.jpg"].map(|name| frames.join(name));
+    let pair = ["two-view", path(&files[0]), path(&files[1])];
+    let essential = [&pair[..], &["--model", "essential"]].concat();
+    let result = json(&essential);
+    let focal_px = numbers(&result["focals_px"])[0];
+    let said = told(&essential);
+    let std_px = said.split("± ").nth(1).unwrap().trim();
+    let std_px: f64 = std_px.split_whitespace().next().unwrap().parse().unwrap();
+    assert!(std_px < 10.0, "{said}");
+    assert!((focal_px - 320.0).abs() < 2.0 * std_px, "{focal_px}: {said}");
+}
+
 #[test]
 fn photographs_of_two_folders_keep_their_names_apart() {
     let Some(frames) = field("09/frames") else {
