@@ -91,7 +91,7 @@ fn rectification(criterion: &mut Criterion) {
     });
     if let Ok(map) = map {
         criterion.bench_function("rectify-warp-640x480", |bencher| {
-            bencher.iter(|| map.warp_gray(black_box(&left)));
+            bencher.iter(|| map.warp(black_box(&left)));
         });
     }
 }

@@ -25,10 +25,13 @@ pub use crate::feature::{
     match_descriptors, refine_corners,
 };
 pub use crate::homography::{estimate_homography, transfer};
-pub use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray, rgb_to_gray_f32};
+pub use crate::imaging::{
+    GrayImage32, WarpOptions, gray_to_f32, rgb_to_gray, rgb_to_gray_f32, warp_perspective,
+};
 pub use crate::robust::{Estimator, RansacOptions, RansacReport, ransac};
 pub use crate::sfm::{PhotoOptions, SfmOptions, reconstruct_photos};
 pub use crate::stereo::{RectifyOptions, StereoSgm, rectify_calibrated};
 pub use crate::triangulation::{triangulate_dlt, triangulate_nview};
 pub use crate::two_view::{TwoViewOptions, estimate_two_view, estimate_two_view_calibrated};
+pub use image::{GrayImage, RgbImage};
 pub use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};

@@ -122,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .zip(&found.maps)
     {
         let path = arguments.output.join(name);
-        files::write(&path, &picture::png(&map.warp_rgb(&photo.color))?)?;
+        files::write(&path, &picture::png(&map.warp(&photo.color))?)?;
         written.push(path.display().to_string());
     }
     let q = found.q.map(|q| q.transpose().as_slice().to_vec());

@@ -120,7 +120,10 @@ fn two_frames_tell_the_focal_length_and_its_deviation() {
     let std_px = said.split("± ").nth(1).unwrap().trim();
     let std_px: f64 = std_px.split_whitespace().next().unwrap().parse().unwrap();
     assert!(std_px < 10.0, "{said}");
-    assert!((focal_px - 320.0).abs() < 2.0 * std_px, "{focal_px}: {said}");
+    assert!(
+        (focal_px - 320.0).abs() < 2.0 * std_px,
+        "{focal_px}: {said}"
+    );
 }
 
 #[test]

@@ -133,7 +133,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     let redrawn = options.undistortion.filter(its_own).zip(quarters);
     let (image, intrinsics) = match redrawn {
         Some((flat, quarters)) => (
-            flat.map.warp_rgb(&decoded.image),
+            flat.map.warp(&decoded.image),
             Some(flat.intrinsics.turned(quarters, sensor_size)),
         ),
         None => (decoded.image, None),
@@ -221,7 +221,7 @@ mod tests {
             ..PrepareOptions::default()
         };
         let lying = prepare_photo(&file(&smooth(), 1), &options).unwrap();
-        assert_eq!(lying.image, flat.map.warp_rgb(&smooth()));
+        assert_eq!(lying.image, flat.map.warp(&smooth()));
         assert_eq!(lying.intrinsics, Some(flat.intrinsics));
         let (u, v) = (13, 41);
         let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));

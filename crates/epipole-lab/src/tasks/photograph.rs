@@ -195,7 +195,7 @@ fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
         * seen
         * print.camera.intrinsics.inverse_matrix();
     let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print)?;
-    Ok(map.warp_rgb(picture))
+    Ok(map.warp(picture))
 }
 
 /// A carpet of patches that are nowhere else.

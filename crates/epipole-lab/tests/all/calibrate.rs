@@ -224,7 +224,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     let flat = Undistortion::new(&truth, Keep::Valid).unwrap();
     let image = image::load_from_memory(&fitting).unwrap().to_rgb8();
     let pixels = project.photograph(fits).unwrap();
-    assert_eq!(pixels.rgb[..], flat.map.warp_rgb(&image).as_raw()[..]);
+    assert_eq!(pixels.rgb[..], flat.map.warp(&image).as_raw()[..]);
     let (k, center) = (flat.intrinsics, flat.intrinsics.principal_point());
     let expected = [k.fu_px(), k.fv_px(), center.x, center.y];
     assert_eq!(project.camera(fits).unwrap().k, expected);

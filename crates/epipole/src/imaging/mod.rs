@@ -10,6 +10,7 @@
 pub(crate) mod approx;
 mod border;
 mod bytes;
+mod channel;
 mod correlate;
 #[cfg(test)]
 pub(crate) mod fixture;
@@ -30,6 +31,7 @@ mod weigh;
 
 pub use border::Border;
 pub(crate) use bytes::gaussian_blur_u8;
+pub(crate) use channel::Channel;
 pub use correlate::{correlate, noise_gain};
 pub use gaussian::{gaussian_blur, gaussian_derivative_kernels, gaussian_kernel};
 pub use gradient::{

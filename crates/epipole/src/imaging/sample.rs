@@ -19,20 +19,28 @@ use super::{Border, GrayImage32};
 /// # Ok(()) }
 /// ```
 pub fn sample_bilinear(image: &GrayImage32, u: f64, v: f64, border: Border) -> f32 {
+    bilinear(image.dimensions(), u, v, border, |i| image.as_raw()[i])
+}
+
+/// * `read`: the value of a pixel, by its index row by row
+pub(super) fn bilinear(
+    (width, height): (u32, u32),
+    u: f64,
+    v: f64,
+    border: Border,
+    read: impl Fn(usize) -> f32,
+) -> f32 {
     let Some((u0, v0)) = base_pixel(u, v) else {
         return border.constant();
     };
     let (a, b) = ((u - u.floor()) as f32, (v - v.floor()) as f32);
-    let (width, height) = (image.width() as isize, image.height() as isize);
-    let [p00, p10, p01, p11] = if u0 >= 0 && v0 >= 0 && u0 + 1 < width && v0 + 1 < height {
-        let at = (v0 * width + u0) as usize;
-        let (top, bottom) = (
-            &image.as_raw()[at..],
-            &image.as_raw()[at + width as usize..],
-        );
-        [top[0], top[1], bottom[0], bottom[1]]
+    let (columns, rows) = (width as isize, height as isize);
+    let [p00, p10, p01, p11] = if u0 >= 0 && v0 >= 0 && u0 + 1 < columns && v0 + 1 < rows {
+        let top = (v0 * columns + u0) as usize;
+        let bottom = top + width as usize;
+        [read(top), read(top + 1), read(bottom), read(bottom + 1)]
     } else {
-        let read = |i, j| pixel(image, u0 + i, v0 + j, border);
+        let read = |i, j| pixel((width, height), u0 + i, v0 + j, border, &read);
         [read(0, 0), read(1, 0), read(0, 1), read(1, 1)]
     };
     // Written as differences, an exact pixel or a constant patch comes back exactly.
@@ -59,6 +67,17 @@ pub fn sample_bilinear(image: &GrayImage32, u: f64, v: f64, border: Border) -> f
 /// # Ok(()) }
 /// ```
 pub fn sample_bicubic(image: &GrayImage32, u: f64, v: f64, border: Border) -> f32 {
+    bicubic(image.dimensions(), u, v, border, |i| image.as_raw()[i])
+}
+
+/// * `read`: the value of a pixel, by its index row by row
+pub(super) fn bicubic(
+    size: (u32, u32),
+    u: f64,
+    v: f64,
+    border: Border,
+    read: impl Fn(usize) -> f32,
+) -> f32 {
     let Some((u0, v0)) = base_pixel(u, v) else {
         return border.constant();
     };
@@ -69,7 +88,7 @@ pub fn sample_bicubic(image: &GrayImage32, u: f64, v: f64, border: Border) -> f3
         let mut row = 0.0;
         for (i, wu) in along_u.iter().enumerate() {
             let (x, y) = (u0 + i as isize - 1, v0 + j as isize - 1);
-            row += wu * pixel(image, x, y, border);
+            row += wu * pixel(size, x, y, border, &read);
         }
         sum += wv * row;
     }
@@ -83,10 +102,16 @@ fn base_pixel(u: f64, v: f64) -> Option<(isize, isize)> {
     (u.is_finite() && v.is_finite()).then(|| (clamp(u), clamp(v)))
 }
 
-fn pixel(image: &GrayImage32, u: isize, v: isize, border: Border) -> f32 {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    match (border.index(u, width), border.index(v, height)) {
-        (Some(x), Some(y)) => image.as_raw()[y * width + x],
+fn pixel(
+    (width, height): (u32, u32),
+    u: isize,
+    v: isize,
+    border: Border,
+    read: &impl Fn(usize) -> f32,
+) -> f32 {
+    let (columns, rows) = (width as usize, height as usize);
+    match (border.index(u, columns), border.index(v, rows)) {
+        (Some(x), Some(y)) => read(y * columns + x),
         _ => border.constant(),
     }
 }

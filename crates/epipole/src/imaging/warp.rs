@@ -1,9 +1,10 @@
 //! Images seen through an affine map or a homography.
 
-use super::gray::from_vec;
-use super::{Border, GrayImage32, sample_bicubic, sample_bilinear};
+use super::sample::{bicubic, bilinear};
+use super::{Border, Channel};
 use crate::{Error, Result};
 use derive_setters::Setters;
+use image::{ImageBuffer, Pixel};
 use nalgebra::{Matrix2x3, Matrix3};
 
 /// Interpolation between pixels.
@@ -70,11 +71,11 @@ impl WarpOptions {
 /// assert_eq!(moved.as_raw(), &[0.0, 1.0, 2.0]);
 /// # Ok(()) }
 /// ```
-pub fn warp_affine(
-    image: &GrayImage32,
+pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
+    image: &ImageBuffer<P, Vec<P::Subpixel>>,
     out_from_image: &Matrix2x3<f64>,
     options: &WarpOptions,
-) -> Result<GrayImage32> {
+) -> Result<ImageBuffer<P, Vec<P::Subpixel>>> {
     let mut map = Matrix3::identity();
     map.fixed_view_mut::<2, 3>(0, 0).copy_from(out_from_image);
     warp_perspective(image, &map, options)
@@ -84,7 +85,7 @@ pub fn warp_affine(
 ///
 /// * `out_from_image`: pixels to pixels, any scale, as OpenCV's `warpPerspective` takes it
 ///
-/// Pixels of the result that no finite pixel maps to read the border's constant, 0 unless set. The
+/// Gray or color, bytes or floats. Pixels of the result that no finite pixel maps to read the border's constant, 0 unless set. The
 /// map is followed backwards, pixel by pixel; a map that shrinks the image aliases, so
 /// [`resize`](super::resize()) or blur first.
 ///
@@ -100,13 +101,16 @@ pub fn warp_affine(
 /// let wider = Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into());
 /// let out = warp_perspective(&image, &wider, &WarpOptions::new(3, 1))?;
 /// assert_eq!(out.as_raw(), &[1.0, 2.0, 3.0]);
+/// let color = image::RgbImage::from_raw(2, 1, vec![0, 10, 20, 100, 10, 21]).expect("two pixels");
+/// let out = warp_perspective(&color, &wider, &WarpOptions::new(3, 1))?;
+/// assert_eq!(out.get_pixel(1, 0).0, [50, 10, 21]);
 /// # Ok(()) }
 /// ```
-pub fn warp_perspective(
-    image: &GrayImage32,
+pub fn warp_perspective<P: Pixel<Subpixel: Channel>>(
+    image: &ImageBuffer<P, Vec<P::Subpixel>>,
     out_from_image: &Matrix3<f64>,
     options: &WarpOptions,
-) -> Result<GrayImage32> {
+) -> Result<ImageBuffer<P, Vec<P::Subpixel>>> {
     if out_from_image.iter().any(|v| !v.is_finite()) {
         return Err(Error::NotFinite {
             what: "every entry of the warp's matrix",
@@ -127,7 +131,10 @@ pub fn warp_perspective(
         return Err(singular);
     }
     let m = image_from_out;
-    let mut values = Vec::with_capacity(options.width as usize * options.height as usize);
+    let (size, border, raw) = (image.dimensions(), options.border, image.as_raw());
+    let num_channels = usize::from(P::CHANNEL_COUNT);
+    let num_pixels = options.width as usize * options.height as usize;
+    let mut values = Vec::with_capacity(num_channels * num_pixels);
     for row in 0..options.height {
         let y = f64::from(row);
         for column in 0..options.width {
@@ -135,19 +142,23 @@ pub fn warp_perspective(
             let w = m[(2, 0)] * x + m[(2, 1)] * y + m[(2, 2)];
             let u = (m[(0, 0)] * x + m[(0, 1)] * y + m[(0, 2)]) / w;
             let v = (m[(1, 0)] * x + m[(1, 1)] * y + m[(1, 2)]) / w;
-            values.push(match options.interpolation {
-                Interpolation::Bilinear => sample_bilinear(image, u, v, options.border),
-                Interpolation::Bicubic => sample_bicubic(image, u, v, options.border),
-            });
+            for channel in 0..num_channels {
+                let read = |pixel: usize| raw[pixel * num_channels + channel].to_float();
+                values.push(Channel::from_float(match options.interpolation {
+                    Interpolation::Bilinear => bilinear(size, u, v, border, read),
+                    Interpolation::Bicubic => bicubic(size, u, v, border, read),
+                }));
+            }
         }
     }
-    Ok(from_vec(options.width, options.height, values))
+    let out = ImageBuffer::from_raw(options.width, options.height, values);
+    Ok(out.expect("every channel of every pixel was computed"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::imaging::fixture;
+    use crate::imaging::{GrayImage32, fixture};
 
     #[test]
     fn warps_equal_scipy() {

@@ -1,7 +1,8 @@
 //! A picture redrawn: for each pixel of the result, where to read.
 
+use crate::imaging::Channel;
 use crate::{Error, Result};
-use image::{GrayImage, ImageBuffer, Luma, RgbImage};
+use image::{GrayImage, ImageBuffer, Pixel};
 use nalgebra::{Matrix3, Point2};
 
 /// For every pixel of a result, the place in a source picture that it is read from, or none.
@@ -50,7 +51,7 @@ impl PixelMap {
     /// let h = Matrix3::new(1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     /// let map = PixelMap::from_homography(3, 1, &h)?;
     /// let row = GrayImage::from_raw(3, 1, vec![10, 20, 30]).unwrap();
-    /// assert_eq!(map.warp_gray(&row).as_raw(), &[0, 10, 20]);
+    /// assert_eq!(map.warp(&row).as_raw(), &[0, 10, 20]);
     /// # Ok(()) }
     /// ```
     pub fn from_homography(
@@ -98,54 +99,36 @@ impl PixelMap {
             .then(|| Point2::new(f64::from(x), f64::from(y)))
     }
 
-    /// The redrawn picture, bilinear, black where nothing is read.
-    pub fn warp_gray(&self, source: &GrayImage) -> GrayImage {
-        let size = (source.width(), source.height());
-        let pixels = self.sample::<1, _>(size, |i| [f32::from(source.as_raw()[i])]);
-        let raw = pixels.map(|p| p.map_or(0, |[x]| (x + 0.5) as u8)).collect();
-        GrayImage::from_raw(self.width, self.height, raw)
-            .expect("one value for every pixel of the map")
-    }
-
-    /// As [`PixelMap::warp_gray`], for floating-point gray values.
-    pub fn warp_gray_f32(
+    /// The redrawn image, bilinear, 0 where nothing is read.
+    pub fn warp<P: Pixel<Subpixel: Channel>>(
         &self,
-        source: &ImageBuffer<Luma<f32>, Vec<f32>>,
-    ) -> ImageBuffer<Luma<f32>, Vec<f32>> {
-        let size = (source.width(), source.height());
-        let pixels = self.sample::<1, _>(size, |i| [source.as_raw()[i]]);
-        let raw = pixels.map(|p| p.map_or(0.0, |[x]| x)).collect();
-        ImageBuffer::from_raw(self.width, self.height, raw)
-            .expect("one value for every pixel of the map")
-    }
-
-    /// As [`PixelMap::warp_gray`], in color.
-    pub fn warp_rgb(&self, source: &RgbImage) -> RgbImage {
-        let size = (source.width(), source.height());
+        source: &ImageBuffer<P, Vec<P::Subpixel>>,
+    ) -> ImageBuffer<P, Vec<P::Subpixel>> {
+        let num_channels = usize::from(P::CHANNEL_COUNT);
         let raw = source.as_raw();
-        let channels = |i: usize| [0, 1, 2].map(|c| f32::from(raw[3 * i + c]));
-        let pixels = self.sample::<3, _>(size, channels);
-        let raw = pixels
-            .flat_map(|p| p.map_or([0; 3], |color| color.map(|x| (x + 0.5) as u8)))
-            .collect();
-        RgbImage::from_raw(self.width, self.height, raw)
-            .expect("three values for every pixel of the map")
+        let mut values = Vec::with_capacity(num_channels * self.sources.len());
+        for corners in self.corners(source.dimensions()) {
+            for channel in 0..num_channels {
+                let read = |pixel: usize| raw[num_channels * pixel + channel].to_float();
+                let value = corners.as_ref().map_or(0.0, |corners| corners.mean(read));
+                values.push(P::Subpixel::from_float(value));
+            }
+        }
+        ImageBuffer::from_raw(self.width, self.height, values)
+            .expect("every channel of every pixel of the map")
     }
 
     /// 255 where a picture of the given size is read, 0 elsewhere.
     pub fn mask(&self, source_width: u32, source_height: u32) -> GrayImage {
-        let pixels = self.sample::<1, _>((source_width, source_height), |_| [0.0]);
-        let raw = pixels.map(|p| if p.is_some() { 255 } else { 0 }).collect();
+        let read = self.corners((source_width, source_height));
+        let raw = read.map(|p| if p.is_some() { 255 } else { 0 }).collect();
         GrayImage::from_raw(self.width, self.height, raw)
             .expect("one value for every pixel of the map")
     }
 
-    /// The bilinear values of all pixels; none outside the source's outermost pixel centers.
-    fn sample<const C: usize, F: Fn(usize) -> [f32; C]>(
-        &self,
-        (width, height): (u32, u32),
-        pixel: F,
-    ) -> impl Iterator<Item = Option<[f32; C]>> {
+    /// The pixels of the source around the place of each pixel; none outside the source's outermost
+    /// pixel centers.
+    fn corners(&self, (width, height): (u32, u32)) -> impl Iterator<Item = Option<Corners>> {
         let (last_u, last_v) = (width as f32 - 1.0, height as f32 - 1.0);
         let (columns, rows) = (width as usize, height as usize);
         // A border place computed with rounding still counts.
@@ -159,45 +142,59 @@ impl PixelMap {
             let (x, y) = (x.max(0.0).min(last_u), y.max(0.0).min(last_v));
             let (u0, v0) = (x as usize, y as usize);
             let (u1, v1) = ((u0 + 1).min(columns - 1), (v0 + 1).min(rows - 1));
-            let (a, b) = (x - u0 as f32, y - v0 as f32);
-            let [p00, p10, p01, p11] =
-                [(u0, v0), (u1, v0), (u0, v1), (u1, v1)].map(|(u, v)| pixel(v * columns + u));
-            Some(std::array::from_fn(|c| {
-                let top = p00[c] + a * (p10[c] - p00[c]);
-                let bottom = p01[c] + a * (p11[c] - p01[c]);
-                top + b * (bottom - top)
-            }))
+            Some(Corners {
+                pixels: [(u0, v0), (u1, v0), (u0, v1), (u1, v1)].map(|(u, v)| v * columns + u),
+                fraction: [x - u0 as f32, y - v0 as f32],
+            })
         })
+    }
+}
+
+/// Four neighboring pixels, and a place between them.
+struct Corners {
+    /// Indices row by row: top left, top right, bottom left, bottom right.
+    pixels: [usize; 4],
+    /// Offset from the top left, in [0, 1].
+    fraction: [f32; 2],
+}
+
+impl Corners {
+    /// The bilinear value.
+    fn mean(&self, read: impl Fn(usize) -> f32) -> f32 {
+        let [p00, p10, p01, p11] = self.pixels.map(read);
+        let [a, b] = self.fraction;
+        let (top, bottom) = (p00 + a * (p10 - p00), p01 + a * (p11 - p01));
+        top + b * (bottom - top)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use image::Rgb;
+    use image::{Luma, Rgb, RgbImage};
 
     #[test]
     fn half_a_pixel_averages() {
         let map = PixelMap::from_fn(2, 1, |u, _| Some(Point2::new(f64::from(u) + 0.5, 0.0)));
         let gray = GrayImage::from_raw(2, 1, vec![10, 20]).unwrap();
         // The second reads beyond the last pixel center.
-        assert_eq!(map.warp_gray(&gray).as_raw(), &[15, 0]);
+        assert_eq!(map.warp(&gray).as_raw(), &[15, 0]);
         assert_eq!(map.mask(2, 1).as_raw(), &[255, 0]);
-        let float = ImageBuffer::from_raw(2, 1, vec![0.25f32, 0.75]).unwrap();
-        assert_eq!(map.warp_gray_f32(&float).as_raw(), &[0.5, 0.0]);
+        let float = ImageBuffer::<Luma<f32>, _>::from_raw(2, 1, vec![0.25, 0.75]).unwrap();
+        assert_eq!(map.warp(&float).as_raw(), &[0.5, 0.0]);
         let rgb = RgbImage::from_fn(2, 1, |u, _| Rgb([u as u8 * 100, 7, 0]));
-        assert_eq!(map.warp_rgb(&rgb).as_raw(), &[50, 7, 0, 0, 0, 0]);
+        assert_eq!(map.warp(&rgb).as_raw(), &[50, 7, 0, 0, 0, 0]);
     }
 
     #[test]
     fn places_without_a_source_stay_black() {
         let map = PixelMap::from_fn(2, 2, |u, v| (u == v).then(|| Point2::new(0.0, 0.0)));
         let gray = GrayImage::from_raw(1, 1, vec![9]).unwrap();
-        assert_eq!(map.warp_gray(&gray).as_raw(), &[9, 0, 0, 9]);
+        assert_eq!(map.warp(&gray).as_raw(), &[9, 0, 0, 9]);
         assert_eq!(map.source(1, 0), None);
         assert_eq!(map.source(0, 7), None);
         let empty = GrayImage::new(0, 0);
-        assert_eq!(map.warp_gray(&empty).as_raw(), &[0; 4]);
+        assert_eq!(map.warp(&empty).as_raw(), &[0; 4]);
     }
 
     #[test]

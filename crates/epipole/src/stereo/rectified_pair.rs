@@ -132,7 +132,7 @@ impl<'a> RectifiedPair<'a> {
         let maps = [rig.map(0)?, rig.map(1)?];
         Ok(Self {
             rig,
-            pictures: [0, 1].map(|index| maps[index].warp_rgb(photographs[index])),
+            pictures: [0, 1].map(|index| maps[index].warp(photographs[index])),
             shown: filled(&maps[0], sizes[0], 0.0),
             trusted: maps.map(|map| filled(&map, sizes[0], EDGE_PX)),
         })
