@@ -6,6 +6,7 @@ use crate::matrices::FAR;
 use clap::ValueEnum;
 use epipole::camera::{Camera, LensKind, RigidTransform};
 use epipole_io::camera::{Cameras, read_cameras};
+use epipole_io::photo::sensor_size;
 use nalgebra::Point2;
 use std::path::Path;
 
@@ -54,7 +55,7 @@ pub(crate) fn unseen_share(camera: &Camera) -> f64 {
 /// A sentence that names the file and what is wrong in it.
 pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
     let (path, name) = split_name(path);
-    let size = photo.and_then(sensor_size);
+    let size = photo.and_then(size_of);
     let cameras = read_all(path, size)?;
     if let Some(name) = name {
         return cameras.named(name).copied().ok_or_else(|| {
@@ -81,7 +82,7 @@ pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure>
 /// # Errors
 /// As [`read`].
 pub(crate) fn read_right(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
-    let cameras = read_all(path, photo.and_then(sensor_size))?;
+    let cameras = read_all(path, photo.and_then(size_of))?;
     let right = cameras.cameras.get(1).ok_or_else(|| no_right(path))?;
     Ok(right.camera)
 }
@@ -94,7 +95,7 @@ pub(crate) fn read_rig(
     path: &Path,
     photo: Option<&Path>,
 ) -> Result<([Camera; 2], RigidTransform), Failure> {
-    let rig = read_all(path, photo.and_then(sensor_size))?;
+    let rig = read_all(path, photo.and_then(size_of))?;
     let [left, right] = &rig.cameras[..] else {
         return Err(match rig.cameras.len() {
             1 => no_right(path),
@@ -139,7 +140,6 @@ fn split_name(path: &Path) -> (&Path, Option<&str>) {
 }
 
 /// Width and height of a photograph as stored, if its header can be read.
-fn sensor_size(photo: &Path) -> Option<(u32, u32)> {
-    let reader = image::ImageReader::open(photo).ok()?;
-    reader.with_guessed_format().ok()?.into_dimensions().ok()
+fn size_of(photo: &Path) -> Option<(u32, u32)> {
+    sensor_size(&std::fs::read(photo).ok()?).ok()
 }

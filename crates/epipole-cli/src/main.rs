@@ -28,6 +28,7 @@ mod refinement;
 mod report;
 mod robust;
 mod rows;
+mod short_help;
 mod turn;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -62,7 +63,11 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    let parsed = command().try_get_matches();
+    let mut command = command();
+    if std::env::args().any(|argument| argument == "-h") {
+        command = short_help::shortened(command);
+    }
+    let parsed = command.try_get_matches();
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return wrong_usage(&error),

@@ -11,6 +11,6 @@ mod raster;
 mod tests;
 mod tiff;
 
-pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb};
+pub use decode::{DecodeOptions, Decoded, decode_gray, decode_rgb, sensor_size};
 pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use range::PixelRange;

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::damage::{config, damage_bytes, some_damage};
-use crate::photo::{DecodeOptions, decode_gray, decode_rgb};
+use crate::photo::{DecodeOptions, decode_gray, decode_rgb, sensor_size};
 use image::codecs::{jpeg::JpegEncoder, png::PngEncoder, webp::WebPEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, RgbImage};
 use proptest::prelude::*;
@@ -127,6 +127,9 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
             let color = decode_rgb(bytes, &OPTIONS).unwrap();
             prop_assert_eq!(color.image.dimensions(), image.dimensions());
             prop_assert_eq!(color.focal_px, decoded.focal_px);
+            let (width, height) = sensor_size(bytes).unwrap();
+            let sides = [image.dimensions(), (image.height(), image.width())];
+            prop_assert!(sides.contains(&(width, height)));
         }
         Err(error) => {
             let told = matches!(error, Error::BadImage { .. } | Error::TooManyPixels { .. });

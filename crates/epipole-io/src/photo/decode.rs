@@ -106,6 +106,28 @@ pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbIm
     decode(bytes, options, Raster::into_rgb)
 }
 
+/// Width and height of an image as the sensor gave it, before its orientation is applied, from the
+/// header alone.
+///
+/// # Errors
+/// As [`decode_gray`], for what the header shows.
+///
+/// ```
+/// use epipole_io::photo::sensor_size;
+/// assert_eq!(sensor_size(b"P2 3 1 255 10 20 30"), Ok((3, 1)));
+/// assert!(sensor_size(b"no image").is_err());
+/// ```
+pub fn sensor_size(bytes: &[u8]) -> Result<(u32, u32)> {
+    let format = match recognize(bytes)? {
+        Format::Tiff => return tiff::size(bytes),
+        Format::Jpeg => ImageFormat::Jpeg,
+        Format::Pnm => ImageFormat::Pnm,
+        Format::Other(format) => format,
+    };
+    let reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.into_dimensions().map_err(|error| said(&error))
+}
+
 /// An image with the given kind of pixels.
 type Buffer<P> = ImageBuffer<P, Vec<<P as Pixel>::Subpixel>>;
 

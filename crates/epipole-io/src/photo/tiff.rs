@@ -17,6 +17,15 @@ const MAX_LIST_BYTES: usize = 16 << 20;
 /// The largest part that may exceed the image, as a tile of a small image does, bytes.
 const MAX_TILE_BYTES: usize = 64 << 20;
 
+/// Width and height of the first image.
+///
+/// # Errors
+/// [`Error::BadImage`] for a damaged file.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32)> {
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(said)?;
+    decoder.dimensions().map_err(said)
+}
+
 /// Reads pixels and orientation.
 ///
 /// # Errors

@@ -1,0 +1,136 @@
+//! The help of `-h`: the options that most people use, on one screen. `--help` has all.
+
+use clap::{Arg, Command};
+
+/// Options that `-h` shows, by their long names, in the order of their definition.
+const COMMON: [&str; 58] = [
+    "align",
+    "baseline-m",
+    "board",
+    "by-index",
+    "camera",
+    "describe",
+    "dictionary",
+    "dpi",
+    "features",
+    "fill",
+    "focal-px",
+    "help",
+    "images",
+    "initialize",
+    "json",
+    "k",
+    "keep",
+    "kind",
+    "lenses",
+    "loss",
+    "marker-mm",
+    "matches",
+    "max-difference-s",
+    "max-disparity",
+    "max-error-px",
+    "max-features",
+    "max-iterations",
+    "max-megapixels",
+    "method",
+    "min-disparity",
+    "model",
+    "num-frames",
+    "output",
+    "paper",
+    "pattern",
+    "ply",
+    "png",
+    "positions",
+    "projection",
+    "ratio",
+    "recursive",
+    "refine-focal",
+    "rig",
+    "right",
+    "scale",
+    "set",
+    "size",
+    "spacing",
+    "square-m",
+    "square-mm",
+    "step",
+    "stereo-baseline-m",
+    "theme",
+    "to",
+    "undistort",
+    "upright",
+    "version",
+    "window",
+];
+
+/// The command with its help cut to one screen.
+pub(crate) fn shortened(command: Command) -> Command {
+    command
+        .mut_args(|argument| match argument.get_long() {
+            Some("json") => argument,
+            _ => argument.hide_short_help(true),
+        })
+        .mut_subcommands(|subcommand| {
+            let name = subcommand.get_name().to_owned();
+            let example = subcommand.get_after_help().map(ToString::to_string);
+            let example = example
+                .as_deref()
+                .and_then(|text| text.split("\n\n").next());
+            let more = format!("All options and the fields of --json: epipole {name} --help");
+            let after = [example.unwrap_or_default(), &more].join("\n");
+            subcommand
+                .mut_args(short)
+                .after_help(after.trim_start().to_owned())
+                .disable_version_flag(true)
+        })
+}
+
+fn short(argument: Arg) -> Arg {
+    let is_common = match argument.get_long() {
+        Some(name) => COMMON.contains(&name),
+        None => true,
+    };
+    if !is_common {
+        return argument.hide_short_help(true);
+    }
+    let help = argument.get_help().map(ToString::to_string);
+    argument
+        .help(first_phrase(&help.unwrap_or_default()).to_owned())
+        .help_heading(None::<&str>)
+        .hide_possible_values(true)
+}
+
+/// The text up to the end of its first phrase.
+fn first_phrase(text: &str) -> &str {
+    let ends = [". ", "; ", " ("];
+    let end = ends.iter().filter_map(|end| text.find(end)).min();
+    end.map_or(text, |end| &text[..end])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::shortened;
+    use crate::command;
+
+    #[test]
+    fn short_help_fits_on_a_screen() {
+        let mut wrong = Vec::new();
+        let mut command = shortened(command());
+        command.build();
+        for subcommand in command.get_subcommands_mut() {
+            let text = subcommand.render_help().to_string();
+            let name = subcommand.get_name();
+            let count = text.trim_end().lines().count();
+            if name != "help" && count > 24 {
+                wrong.push(format!("{name} -h has {count} lines"));
+            }
+            for line in text.lines().filter(|line| line.chars().count() > 80) {
+                wrong.push(format!("{name} -h: over 80 characters: {line}"));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+}
