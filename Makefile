@@ -12,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-licenses bless-listings new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -119,6 +119,9 @@ bless-licenses: setup-build ## lists anew what we ship that is not ours; read th
 bless-listings: setup-test ## records anew what the listings print; read the difference before you commit it
 	$(PYTHON) tests/listings/run.py --bless
 	EPIPOLE_BLESS=1 cargo test --quiet --test rust_listings
+
+pictures: setup build ## makes the pictures of README.md anew, from the built book
+	cd tests/browser && node pictures.mjs
 
 new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 	@crates/epipole-widgets/scaffold/new-figure.sh "$(NAME)"
