@@ -35,6 +35,9 @@ const DOCUMENTS: &[(&str, usize)] = &[
     ("CHANGELOG.md", 60),
     ("CONTRIBUTING.md", 120),
     ("README.md", 110),
+    ("crates/epipole/README.md", 110),
+    ("crates/epipole-cli/README.md", 110),
+    ("crates/epipole-io/README.md", 110),
     ("python/README.md", 110),
     ("web/README.md", 110),
 ];

@@ -29,3 +29,8 @@ pub mod trajectory;
 mod tree;
 
 pub use error::{Error, Result};
+
+/// The examples of the package's README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -68,3 +68,8 @@ pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
 /// The result of an operation that can fail with an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// The examples of the package's README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
