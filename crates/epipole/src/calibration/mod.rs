@@ -28,6 +28,7 @@ mod crossing;
 mod find_board;
 mod footprint;
 mod lattice;
+mod markers;
 #[cfg(feature = "decode")]
 mod prepare;
 mod problem;
@@ -45,6 +46,7 @@ pub use calibrate::{Calibration, CalibrationOptions, calibrate};
 pub use calibrated_view::CalibratedView;
 pub use closed_form::intrinsics_from_planes;
 pub use find_board::find_board;
+pub use markers::{Marker, MarkerDictionary, MarkerOptions, detect_markers};
 #[cfg(feature = "decode")]
 pub use prepare::{PrepareOptions, PreparedPhoto, prepare_photo};
 pub use rig::{RigCalibration, calibrate_rig};
