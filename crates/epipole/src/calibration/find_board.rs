@@ -3,28 +3,16 @@
 use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
-use super::crossing::{edges_through, fit_crossing};
+use super::crossing::edges_through;
+use super::refine_mark::{CLEAR_SQUARES, refine_mark};
 use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
 use crate::Result;
-use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::{Border, GrayImage32, pyramid_down};
 use nalgebra::Point2;
 
 /// Maximum length of the longer side of the image in which the search starts, pixels.
 const FIRST_SIDE: u32 = 1300;
-/// The window of the refinement by gradients, as a share of the distance to the nearest mark.
-const WINDOW: f64 = 0.3;
-const WINDOWS: (usize, usize) = (2, 15);
-/// Radius of the disk in which two edges are fitted, as a share of the spacing: it stays within the
-/// four squares.
-const DISK: f64 = 0.45;
-const DISKS_PX: (f64, f64) = (3.0, 15.0);
-/// The two refinements agree to this share of the distance to the nearest mark, or something else
-/// is in the disk.
-const AGREEMENT: f64 = 0.05;
-const LEAST_AGREEMENT_PX: f64 = 0.5;
-
 /// Finds a board's marks to a fraction of a pixel.
 ///
 /// A chessboard may be partly hidden: half of its corners must be visible, and at least two in each
@@ -101,9 +89,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     Ok(best.unless_by_chance())
 }
 
-/// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients,
-/// and from there by two edges fitted to the gray values. Those that do not stay where they are are
-/// left out.
+/// Corners to a fraction of a pixel. Those that do not stay where they are are left out.
 fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
@@ -112,22 +98,11 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
             continue;
         };
         let spacing = view.spacing(mark, columns).unwrap_or(10.0);
-        let half_window = ((WINDOW * spacing) as usize).clamp(WINDOWS.0, WINDOWS.1);
-        let options = RefineOptions {
-            half_window,
-            max_iterations: 60,
-            tolerance_px: 1e-4,
-        };
-        let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
-            .filter(|refined| (refined - pixel).norm() < 0.25 * spacing);
-        // A corner that the edges do not confirm may be the rim of a hand.
-        pixels.push(by_gradients.and_then(|start| {
-            let edges = edges_through(pixel, beside(view, mark, columns))?;
-            let radius_px = (DISK * spacing).clamp(DISKS_PX.0, DISKS_PX.1);
-            let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
-            fit_crossing(image, &start, edges, radius_px)
-                .filter(|place| (place - start).norm() <= agreement_px)
-        }));
+        let edges = edges_through(pixel, beside(view, mark, columns));
+        pixels.push(match edges {
+            Some(edges) => refine_mark(image, pixel, edges, spacing, &CLEAR_SQUARES)?,
+            None => None,
+        });
     }
     Ok(BoardView { pixels })
 }

@@ -32,6 +32,7 @@ mod markers;
 #[cfg(feature = "decode")]
 mod prepare;
 mod problem;
+mod refine_mark;
 mod rig;
 mod saddles;
 mod start;
