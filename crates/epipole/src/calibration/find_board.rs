@@ -4,6 +4,7 @@ use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
 use super::crossing::edges_through;
+use super::marker_board::find_marker_board;
 use super::refine_mark::{CLEAR_SQUARES, refine_mark};
 use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
@@ -19,6 +20,9 @@ const FIRST_SIDE: u32 = 1300;
 /// of its outermost rows and columns. The first corner has a dark square on its inner side, towards
 /// the other corners; if two do (both numbers of corners even, or both odd), the upper left one is
 /// first. The disks of a circle grid are darker than the board, or brighter.
+///
+/// Of a board with markers any part is enough that shows one marker and six marks in two rows and
+/// two columns: the markers tell which ones.
 ///
 /// * `image`: gray values in [0, 1]
 ///
@@ -50,6 +54,9 @@ const FIRST_SIDE: u32 = 1300;
 #[doc(alias = "findCirclesGrid")]
 pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     check_range(image)?;
+    if board.pattern().has_markers() {
+        return find_marker_board(image, board);
+    }
     let mut levels = vec![image.clone()];
     while let Some(last) = levels.last()
         && last.width().max(last.height()) > FIRST_SIDE / 4
@@ -66,8 +73,10 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     let mut best = BoardSearch::Nothing;
     for level in order {
         let found = match board.pattern() {
-            Pattern::Chessboard => find_chessboard(&levels[level], board)?,
-            Pattern::AsymmetricCircles => find_circle_grid(&levels[level], board)?,
+            Pattern::Circles | Pattern::AsymmetricCircles => {
+                find_circle_grid(&levels[level], board)?
+            }
+            _ => find_chessboard(&levels[level], board)?,
         };
         if let BoardSearch::Found(coarse) = found {
             if best.outdoes(&coarse, board) {
@@ -78,7 +87,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
             let at_full_size = BoardView {
                 pixels: pixels.map(|p| p.map(|p| p * scale)).collect(),
             };
-            if board.pattern() == Pattern::AsymmetricCircles {
+            if board.pattern() != Pattern::Chessboard {
                 return Ok(BoardSearch::Found(at_full_size));
             }
             let refined = refined(image, &at_full_size, board.columns())?;
@@ -298,6 +307,26 @@ mod tests {
         }
         println!("{num_found} of {}", 2 * num_poses);
         assert!(num_poses >= 3 && num_found == 2 * num_poses);
+    }
+
+    /// In rows and columns, the first disk in the upper left, whatever turns the board.
+    #[test]
+    fn circles_in_rows_are_found() {
+        let board = Board::new(Pattern::Circles, 7, 5, 0.03).unwrap();
+        let [camera, ..] = cameras();
+        for (seed, pose) in poses(&board, 4, 14.0, 6).iter().enumerate() {
+            let truth = true_view(&board, &camera, pose);
+            let image = photograph_of_board(&board, &camera, pose, 0.01, seed as u64);
+            let view = find_board(&image, &board).unwrap().view().unwrap();
+            assert_eq!(view.num_seen(), 35);
+            // The center of an ellipse is not the image of the disk's center.
+            let (largest, rms) = errors(&view, &truth);
+            assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
+        }
+        let wider = Board::new(Pattern::Circles, 8, 5, 0.03).unwrap();
+        let image = photograph_of_board(&board, &camera, &poses(&board, 1, 14.0, 6)[0], 0.0, 0);
+        let problem = find_board(&image, &wider).unwrap().problem(&wider).unwrap();
+        assert!(problem.contains("7 × 5"), "{problem}");
     }
 
     #[test]
