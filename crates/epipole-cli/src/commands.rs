@@ -1,6 +1,7 @@
 //! The commands, one a file. A new command is a file here and a line in [`Command`].
 
 mod ba;
+mod board;
 mod calibrate;
 mod compare;
 mod convert;
@@ -38,6 +39,7 @@ pub(crate) enum Command {
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
     Compare(compare::Arguments),
+    Board(board::Arguments),
     Calibrate(calibrate::Arguments),
     Undistort(undistort::Arguments),
     Frames(frames::Arguments),
@@ -61,6 +63,7 @@ impl Command {
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),
             Self::Compare(arguments) => compare::run(&arguments, context),
+            Self::Board(arguments) => board::run(&arguments, context),
             Self::Calibrate(arguments) => calibrate::run(&arguments, context),
             Self::Undistort(arguments) => undistort::run(&arguments, context),
             Self::Frames(arguments) => frames::run(&arguments, context),

@@ -20,6 +20,7 @@ mod listing;
 mod matrices;
 mod model;
 mod output_folder;
+mod pattern;
 mod photo;
 mod picture;
 mod progress;

@@ -92,3 +92,38 @@ fn dot(picture: &mut RgbImage, u: f64, v: f64, color: [u8; 3]) {
         picture.put_pixel(u as u32, v as u32, Rgb(color));
     }
 }
+
+/// The chunk of a PNG file that tells its resolution.
+///
+/// Source: PNG specification (third edition), §11.3.4.3 pHYs.
+pub(crate) fn png_resolution(dpi: f64) -> Vec<u8> {
+    let per_meter = ((dpi / 0.0254).round() as u32).to_be_bytes();
+    let mut chunk = b"pHYs".to_vec();
+    chunk.extend(per_meter);
+    chunk.extend(per_meter);
+    chunk.push(1);
+    let length = (chunk.len() as u32 - 4).to_be_bytes();
+    let check = crc32(&chunk).to_be_bytes();
+    [&length[..], &chunk, &check].concat()
+}
+
+/// Source: PNG specification (third edition), annex D.
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| match crc & 1 {
+            1 => 0xedb8_8320 ^ (crc >> 1),
+            _ => crc >> 1,
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_are_those_of_the_specification() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b"IEND"), 0xae42_6082);
+    }
+}

@@ -9,30 +9,25 @@ use crate::files;
 use crate::lens::Model;
 use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
+use crate::pattern::{PatternArguments, columns_and_rows};
 use crate::progress::Progress;
 use crate::reading::ReadArguments;
 use crate::report::Report;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use epipole::calibration::{
-    Board, Calibration, CalibrationOptions, Pattern, RigCalibration, calibrate, calibrate_rig,
+    Board, Calibration, CalibrationOptions, RigCalibration, calibrate, calibrate_rig,
 };
 use epipole_io::camera::camera_fields;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Printed {
-    /// Squares; COLUMNSxROWS are inner corners.
-    Chessboard,
-    /// Disks in rows, every second one shifted; COLUMNSxROWS are disks in a row and rows.
-    Circles,
-}
-
 /// Calibrate a camera, or a stereo rig, from photographs of a board.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o camera.json\n\n\
-    Of a chessboard half of the corners must be seen, two at least in each of its outermost rows and columns. Ten to twenty\n\
+    Boards: `epipole board` draws them. Of a chessboard half of the corners must be seen, two at least in each of its\n\
+    outermost rows and columns; of a ChArUco board or an AprilGrid (of Kalibr, with borders of two bits) any part with\n\
+    six corners. ChArUco boards that OpenCV drew before 4.6 with an even number of rows are others. Ten to twenty\n\
     views do, turned by 30° to 45° about several axes, some of them at the edges of the picture. The right\n\
     photographs are of the same moments, in the same order. Photographs taken upright are of the same camera: sizes and\n\
     pixels are those of the sensor, before photographs are turned.\n\n\
@@ -46,15 +41,15 @@ pub(crate) struct Arguments {
     /// Photographs of the board, all of one size, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    /// The marks of the board.
-    #[arg(long, value_name = "COLUMNSxROWS", value_parser = marks)]
+    /// Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks.
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     board: (usize, usize),
-    /// Pattern of the board.
-    #[arg(long, value_enum, default_value = "chessboard")]
-    pattern: Printed,
-    /// The side of a square, or the distance of two rows of disks; the unit of all places.
+    /// The side of a square or tag, or the distance of two rows of disks; the unit of all places.
     #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = positive)]
     square_m: f64,
+    /// The side of a ChArUco board's markers [default: three quarters of a square].
+    #[arg(long, value_name = "M", value_parser = positive)]
+    marker_m: Option<f64>,
     /// Photographs by a second camera.
     #[arg(long, value_name = "IMAGES", num_args = 1..)]
     right: Vec<PathBuf>,
@@ -68,6 +63,8 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
+    pattern: PatternArguments,
+    #[command(flatten)]
     listing: ListingArguments,
     #[command(flatten)]
     reading: ReadArguments,
@@ -80,10 +77,9 @@ const LEAST_ERROR_PX: f64 = 0.2;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let (columns, rows) = arguments.board;
-    let pattern = match arguments.pattern {
-        Printed::Chessboard => Pattern::Chessboard,
-        Printed::Circles => Pattern::AsymmetricCircles,
-    };
+    let pattern = arguments
+        .pattern
+        .pattern(arguments.marker_m, arguments.square_m);
     let board = Board::new(pattern, columns, rows, arguments.square_m)
         .map_err(|error| Failure::usage(error.to_string()))?;
     let left_photos = arguments.listing.photos(&arguments.photos, context)?;
@@ -264,11 +260,4 @@ fn stereo(rig: &RigCalibration) -> Value {
         "baseline_m": rig.baseline_m,
         "pairs_rms_px": rig.pairs_rms_px,
     })
-}
-
-/// Reads "9x6".
-fn marks(text: &str) -> Result<(usize, usize), String> {
-    let sides = text.split_once(['x', 'X', '×']);
-    let parsed = sides.and_then(|(a, b)| Some((a.trim().parse().ok()?, b.trim().parse().ok()?)));
-    parsed.ok_or_else(|| format!("\"{text}\" is not like 9x6"))
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod basics;
+mod board;
 mod calibrate;
 mod camera_files;
 mod common;

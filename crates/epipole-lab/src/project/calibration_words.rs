@@ -216,7 +216,7 @@ impl Project {
         let options = self.document.settings.calibration;
         let pattern = match options.board.pattern {
             BoardPattern::Chessboard => "",
-            BoardPattern::Circles => " --pattern circles",
+            BoardPattern::Circles => " --pattern asymmetric-circles",
         };
         format!(
             "epipole calibrate boards/ --board {}x{}{pattern} --square-m {} --model {} -o camera.json",

@@ -37,7 +37,7 @@ pub(super) fn board(
     let problem = search.problem(&board);
     let other_grid = match search {
         BoardSearch::Partial { columns, rows, .. } => Some((columns as u32, rows as u32)),
-        BoardSearch::Found(_) | BoardSearch::Nothing => None,
+        BoardSearch::Found(_) | BoardSearch::Markers { .. } | BoardSearch::Nothing => None,
     };
     let marks = search.view().map_or_else(Vec::new, |view| view.pixels);
     let picture = reduce_rgb(whole, SHOWN_PIXELS);

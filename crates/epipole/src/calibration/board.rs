@@ -1,17 +1,61 @@
 //! Boards with marks at known places, and their images.
 
+use super::markers::MarkerDictionary;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
 /// Pattern of a board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Pattern {
     /// Black and white squares; the marks are the inner corners, where four squares meet.
     #[default]
     Chessboard,
+    /// Dark disks in rows and columns; the marks are their centers.
+    Circles,
     /// Dark disks, every second row shifted by half of the distance between neighbors; the marks
     /// are their centers.
     AsymmetricCircles,
+    /// A chessboard with markers in its white squares, numbered row by row; the marks are the inner
+    /// corners. The upper left square is black, as in OpenCV from 4.6 on (no `legacyPattern`).
+    Charuco {
+        /// The markers.
+        dictionary: MarkerDictionary,
+        /// Side of a marker as a share of a square's, below 1.
+        marker_share: f64,
+    },
+    /// AprilTags 36h11 with a border of two bits and black squares between their corners, as Kalibr
+    /// draws them; the marks are the corners of the tags. The first tag is the lower left one.
+    AprilGrid {
+        /// Distance between tags as a share of their side.
+        spacing: f64,
+    },
+}
+
+impl Pattern {
+    /// Whether its marks are numbered by markers, so that a part of a board is enough.
+    pub(super) fn has_markers(self) -> bool {
+        matches!(self, Self::Charuco { .. } | Self::AprilGrid { .. })
+    }
+
+    /// Columns and rows of marks.
+    ///
+    /// * `columns`, `rows`: as in [`Board::new`]
+    fn marks(self, columns: usize, rows: usize) -> (usize, usize) {
+        match self {
+            Self::Charuco { .. } => (columns.saturating_sub(1), rows.saturating_sub(1)),
+            Self::AprilGrid { .. } => (2 * columns, 2 * rows),
+            _ => (columns, rows),
+        }
+    }
+
+    /// Minimum number of columns and of rows.
+    fn fewest(self) -> (usize, usize) {
+        match self {
+            Self::AsymmetricCircles => (2, 3),
+            Self::AprilGrid { .. } => (1, 1),
+            _ => (3, 3),
+        }
+    }
 }
 
 /// A flat board with marks at known places.
@@ -26,38 +70,46 @@ pub struct Board {
 impl Board {
     /// A board.
     ///
-    /// * `columns`, `rows`: marks, so of a chessboard one less than squares; of a circle grid,
-    ///   disks in a row and rows
-    /// * `square_m`: the side of a square, or the distance of two rows of a circle grid, meters
+    /// * `columns`, `rows`: inner corners of a chessboard, one less than squares; squares of a
+    ///   ChArUco board; tags of an AprilGrid; disks in a row and rows of a circle grid
+    /// * `square_m`: the side of a square or of a tag, or the distance of two rows of a circle
+    ///   grid, meters
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than 3 × 3 marks or more than 1000 along a side, and for a
-    /// length that is not above 0; a circle grid needs 2 columns only.
+    /// [`Error::OutOfRange`] for less than 3 × 3 or more than 1000 along a side, for a length that
+    /// is not above 0, for more markers than the dictionary has, for a share of the markers that is
+    /// not between 0 and 1 and a spacing that is not above 0 and at most 1. A grid with shifted
+    /// disks needs 2 columns only, an AprilGrid one tag.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
-    /// use epipole::calibration::{Board, Pattern};
+    /// use epipole::calibration::{Board, MarkerDictionary, Pattern};
+    /// use nalgebra::Point2;
     /// let board = Board::new(Pattern::Chessboard, 9, 6, 0.025)?;
     /// assert_eq!(board.num_marks(), 54);
-    /// assert_eq!(board.mark(10), nalgebra::Point2::new(0.025, 0.025));
+    /// assert_eq!(board.mark(10), Point2::new(0.025, 0.025));
     /// // The disks of the second row stand between those of the first.
     /// let grid = Board::new(Pattern::AsymmetricCircles, 4, 11, 0.02)?;
-    /// assert_eq!(grid.mark(4), nalgebra::Point2::new(0.02, 0.02));
+    /// assert_eq!(grid.mark(4), Point2::new(0.02, 0.02));
+    /// // 7 × 5 squares have 6 × 4 inner corners and 17 markers.
+    /// let dictionary = MarkerDictionary::Aruco4x4_50;
+    /// let charuco = Board::new(Pattern::Charuco { dictionary, marker_share: 0.75 }, 7, 5, 0.03)?;
+    /// assert_eq!((charuco.columns(), charuco.rows()), (6, 4));
+    /// // Tags of 8 cm that are 2 cm apart: the third corner is that of the second tag.
+    /// let tags = Board::new(Pattern::AprilGrid { spacing: 0.25 }, 6, 6, 0.08)?;
+    /// assert_eq!((tags.num_marks(), tags.mark(2)), (144, Point2::new(0.1, 0.0)));
     /// # Ok(()) }
     /// ```
     pub fn new(pattern: Pattern, columns: usize, rows: usize, square_m: f64) -> Result<Self> {
-        let fewest_columns = match pattern {
-            Pattern::Chessboard => 3,
-            Pattern::AsymmetricCircles => 2,
-        };
+        let fewest = pattern.fewest();
         for (what, value, fewest) in [
-            ("the number of a board's columns", columns, fewest_columns),
-            ("the number of a board's rows", rows, 3),
+            ("the number of a board's columns", columns, fewest.0),
+            ("the number of a board's rows", rows, fewest.1),
         ] {
             if !(fewest..=1000).contains(&value) {
                 return Err(Error::OutOfRange {
                     what,
-                    requirement: "from 3 (a circle grid's columns from 2) to 1000",
+                    requirement: "from 3 (shifted circles: 2 columns, AprilGrid: 1) to 1000",
                     value: value as f64,
                 });
             }
@@ -69,6 +121,8 @@ impl Board {
                 value: square_m,
             });
         }
+        check_markers(pattern, columns, rows)?;
+        let (columns, rows) = pattern.marks(columns, rows);
         Ok(Self {
             pattern,
             columns,
@@ -92,7 +146,7 @@ impl Board {
         self.rows
     }
 
-    /// The side of a square, meters.
+    /// The side of a square or of a tag, or the distance of two rows of disks, meters.
     pub fn square_m(&self) -> f64 {
         self.square_m
     }
@@ -104,13 +158,61 @@ impl Board {
 
     /// The place of a mark on the board, meters. Marks are counted row by row.
     pub fn mark(&self, index: usize) -> Point2<f64> {
-        let (row, column) = (index / self.columns, index % self.columns);
-        let x = match self.pattern {
-            Pattern::Chessboard => column,
-            Pattern::AsymmetricCircles => 2 * column + row % 2,
-        };
-        Point2::new(x as f64, row as f64) * self.square_m
+        self.mark_in_squares(index) * self.square_m
     }
+
+    /// The place of a mark, in squares.
+    pub(super) fn mark_in_squares(&self, index: usize) -> Point2<f64> {
+        let (row, column) = (index / self.columns, index % self.columns);
+        match self.pattern {
+            Pattern::Chessboard | Pattern::Circles | Pattern::Charuco { .. } => {
+                Point2::new(column as f64, row as f64)
+            }
+            Pattern::AsymmetricCircles => Point2::new((2 * column + row % 2) as f64, row as f64),
+            Pattern::AprilGrid { spacing } => {
+                let along = |k: usize| (k / 2) as f64 * (1.0 + spacing) + (k % 2) as f64;
+                Point2::new(along(column), along(row))
+            }
+        }
+    }
+}
+
+/// Refuses patterns whose markers do not fit or are too many.
+fn check_markers(pattern: Pattern, columns: usize, rows: usize) -> Result<()> {
+    let (dictionary, num_markers) = match pattern {
+        Pattern::Charuco {
+            dictionary,
+            marker_share,
+        } => {
+            if !(marker_share > 0.0 && marker_share < 1.0) {
+                return Err(Error::OutOfRange {
+                    what: "the side of a board's markers as a share of its squares'",
+                    requirement: "between 0 and 1",
+                    value: marker_share,
+                });
+            }
+            (dictionary, columns * rows / 2)
+        }
+        Pattern::AprilGrid { spacing } => {
+            if !(spacing > 0.0 && spacing <= 1.0) {
+                return Err(Error::OutOfRange {
+                    what: "the distance between a board's tags as a share of their side",
+                    requirement: "greater than 0 and at most 1",
+                    value: spacing,
+                });
+            }
+            (MarkerDictionary::AprilTag36h11, columns * rows)
+        }
+        Pattern::Chessboard | Pattern::Circles | Pattern::AsymmetricCircles => return Ok(()),
+    };
+    if num_markers > dictionary.num_markers() {
+        return Err(Error::OutOfRange {
+            what: "the number of a board's markers",
+            requirement: "at most that of the dictionary",
+            value: num_markers as f64,
+        });
+    }
+    Ok(())
 }
 
 /// Marks of a board seen in one photograph.
@@ -202,5 +304,18 @@ mod tests {
             assert!(Board::new(Pattern::Chessboard, columns, rows, square_m).is_err());
         }
         assert!(Board::new(Pattern::AsymmetricCircles, 1, 6, 1.0).is_err());
+        let charuco = |marker_share: f64| Pattern::Charuco {
+            dictionary: MarkerDictionary::Aruco4x4_50,
+            marker_share,
+        };
+        assert!(Board::new(charuco(0.75), 10, 10, 1.0).is_ok());
+        // 60 markers.
+        assert!(Board::new(charuco(0.75), 12, 10, 1.0).is_err());
+        assert!(Board::new(charuco(1.0), 7, 5, 1.0).is_err());
+        assert!(Board::new(charuco(f64::NAN), 7, 5, 1.0).is_err());
+        for spacing in [0.0, -0.3, 1.1, f64::NAN] {
+            assert!(Board::new(Pattern::AprilGrid { spacing }, 6, 6, 1.0).is_err());
+        }
+        assert!(Board::new(Pattern::AprilGrid { spacing: 0.3 }, 25, 24, 1.0).is_err());
     }
 }

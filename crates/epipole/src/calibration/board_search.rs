@@ -22,6 +22,13 @@ pub enum BoardSearch {
         /// Number of marks seen.
         num_seen: usize,
     },
+    /// Markers, but too few of the board's marks, or not as they stand on the board.
+    Markers {
+        /// Number of markers that stand to each other as on the board.
+        num_of_board: usize,
+        /// Number of other markers of the dictionary.
+        num_others: usize,
+    },
     /// Nothing like it.
     Nothing,
 }
@@ -40,6 +47,14 @@ impl BoardSearch {
         let (columns, rows) = (board.columns(), board.rows());
         match self {
             Self::Found(_) => None,
+            Self::Nothing if board.pattern().has_markers() => Some(
+                "no marker was found: is the dictionary another, or the picture blurred? Each marker needs a white margin"
+                    .to_owned(),
+            ),
+            &Self::Markers {
+                num_of_board,
+                num_others,
+            } => Some(markers_problem(num_of_board, num_others)),
             Self::Nothing => Some(format!(
                 "no board of {columns} × {rows} marks was found: it must be whole in the picture, sharp, and with a \
                  margin around it"
@@ -102,6 +117,7 @@ impl BoardSearch {
         let num_seen = |search: &Self| match search {
             Self::Found(view) => usize::MAX - view.pixels.len() + view.num_seen(),
             Self::Partial { num_seen, .. } => *num_seen,
+            Self::Markers { num_of_board, .. } => *num_of_board,
             Self::Nothing => 0,
         };
         if num_seen(&other) > num_seen(&self) {
@@ -109,6 +125,20 @@ impl BoardSearch {
         } else {
             self
         }
+    }
+}
+
+fn markers_problem(num_of_board: usize, num_others: usize) -> String {
+    if num_others > num_of_board {
+        format!(
+            "{} markers were found, but only {num_of_board} of them stand as on this board: count its squares or tags once more, \
+             and compare its upper left square with one that `epipole board` draws",
+            num_of_board + num_others
+        )
+    } else {
+        format!(
+            "{num_of_board} of the board's markers were found, but too few of its corners: show more of it, larger or sharper"
+        )
     }
 }
 

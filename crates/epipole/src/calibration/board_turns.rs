@@ -29,11 +29,14 @@ impl BoardTurn {
 /// The turns of a board; the first one is none.
 ///
 /// Colors of squares are kept by half a turn if columns and rows of corners are both even or both
-/// odd, and by a quarter if they are equal and even.
+/// odd, and by a quarter if they are equal and even. Circles in rows and columns are kept by half a
+/// turn. Markers tell every turn.
 pub(super) fn board_turns(board: &Board) -> Vec<BoardTurn> {
     let (columns, rows) = (board.columns(), board.rows());
     let quarters: &[usize] = match board.pattern() {
-        Pattern::AsymmetricCircles => &[0],
+        Pattern::AsymmetricCircles | Pattern::Charuco { .. } | Pattern::AprilGrid { .. } => &[0],
+        Pattern::Circles if columns == rows => &[0, 1, 2, 3],
+        Pattern::Circles => &[0, 2],
         Pattern::Chessboard if columns % 2 != rows % 2 => &[0],
         Pattern::Chessboard if columns == rows && columns % 2 == 0 => &[0, 1, 2, 3],
         Pattern::Chessboard => &[0, 2],

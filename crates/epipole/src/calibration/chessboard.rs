@@ -345,7 +345,7 @@ fn turned((i, j): Cell, quarters: i32) -> Cell {
 }
 
 /// u + v of the first corner minus that of the last, pixels.
-fn slope(view: &BoardView) -> f64 {
+pub(super) fn slope(view: &BoardView) -> f64 {
     let mut seen = view.pixels.iter().flatten().map(|p| p.x + p.y);
     let first = seen.next().unwrap_or(0.0);
     first - seen.next_back().unwrap_or(first)

@@ -1,9 +1,10 @@
-//! The disks of an asymmetric grid.
+//! The disks of a circle grid.
 
 use super::blobs::{Blob, find_blobs};
 use super::board_search::BoardSearch;
+use super::chessboard::slope;
 use super::lattice::{Cell, Lattice};
-use super::{Board, BoardView};
+use super::{Board, BoardView, Pattern};
 use crate::Result;
 use crate::imaging::GrayImage32;
 use nalgebra::{Point2, Vector2};
@@ -16,7 +17,7 @@ const NEAR: f64 = 0.3;
 /// Disks next to each other have areas that differ by this factor at most.
 const AREAS: core::ops::Range<f64> = 0.4..2.5;
 
-/// Looks for an asymmetric circle grid in an image of this very size.
+/// Looks for a circle grid in an image of this very size.
 pub(super) fn find_circle_grid(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     let mut best = BoardSearch::Nothing;
     for bright in [false, true] {
@@ -28,7 +29,10 @@ pub(super) fn find_circle_grid(image: &GrayImage32, board: &Board) -> Result<Boa
             };
             let mut lattice = grow(seed, frame, &blobs, &mut taken);
             lattice.drop_strays();
-            let found = place_on_board(&lattice, board);
+            let found = match board.pattern() {
+                Pattern::Circles => place_in_rows(&lattice, board),
+                _ => place_shifted(&lattice, board),
+            };
             if matches!(found, BoardSearch::Found(_)) {
                 return Ok(found);
             }
@@ -103,8 +107,48 @@ fn grow(seed: usize, frame: [Vector2<f64>; 2], blobs: &[Blob], taken: &mut [bool
     Lattice { points }
 }
 
-/// The grid as the board's disks, or what is wrong with it.
-fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
+/// The grid as the board's disks in rows and columns, the first one in the upper left of the image;
+/// or what is wrong with it.
+fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
+    let (columns, rows) = (board.columns(), board.rows());
+    let Some((across, down)) = grid.extent().map(|extent| extent.size()) else {
+        return BoardSearch::Nothing;
+    };
+    let turned = (0..4).map(|quarters| match quarters {
+        0 => grid.clone(),
+        1 => grid.mapped(|(i, j)| (-j, i)),
+        2 => grid.mapped(|(i, j)| (-i, -j)),
+        _ => grid.mapped(|(i, j)| (j, -i)),
+    });
+    let views = turned.filter_map(|lattice| {
+        let extent = lattice.extent()?;
+        let first = extent.least;
+        let at = |mark: usize| {
+            let cell = (
+                first.0 + (mark % columns) as i32,
+                first.1 + (mark / columns) as i32,
+            );
+            lattice.points.get(&cell).copied()
+        };
+        let view = BoardView {
+            pixels: (0..board.num_marks()).map(at).collect(),
+        };
+        let is_most = view.num_seen() as f64 >= LEAST_SHARE * board.num_marks() as f64;
+        (extent.size() == (columns, rows) && is_most).then_some(view)
+    });
+    let upright = views.min_by(|a, b| slope(a).total_cmp(&slope(b)));
+    upright.map_or(
+        BoardSearch::Partial {
+            columns: across.max(down),
+            rows: across.min(down),
+            num_seen: grid.points.len(),
+        },
+        BoardSearch::Found,
+    )
+}
+
+/// The grid as the board's shifted disks, or what is wrong with it.
+fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
     let (columns, rows) = (board.columns(), board.rows());
     let mut partial = BoardSearch::Nothing;
     // Neighbors are diagonal: a step along the lattice is one along x and one along y.

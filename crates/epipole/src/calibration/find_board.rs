@@ -3,34 +3,26 @@
 use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
-use super::crossing::{edges_through, fit_crossing};
+use super::crossing::edges_through;
+use super::marker_board::find_marker_board;
+use super::refine_mark::{CLEAR_SQUARES, refine_mark};
 use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
 use crate::Result;
-use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::{Border, GrayImage32, pyramid_down};
 use nalgebra::Point2;
 
 /// Maximum length of the longer side of the image in which the search starts, pixels.
 const FIRST_SIDE: u32 = 1300;
-/// The window of the refinement by gradients, as a share of the distance to the nearest mark.
-const WINDOW: f64 = 0.3;
-const WINDOWS: (usize, usize) = (2, 15);
-/// Radius of the disk in which two edges are fitted, as a share of the spacing: it stays within the
-/// four squares.
-const DISK: f64 = 0.45;
-const DISKS_PX: (f64, f64) = (3.0, 15.0);
-/// The two refinements agree to this share of the distance to the nearest mark, or something else
-/// is in the disk.
-const AGREEMENT: f64 = 0.05;
-const LEAST_AGREEMENT_PX: f64 = 0.5;
-
 /// Finds a board's marks to a fraction of a pixel.
 ///
 /// A chessboard may be partly hidden: half of its corners must be visible, and at least two in each
 /// of its outermost rows and columns. The first corner has a dark square on its inner side, towards
 /// the other corners; if two do (both numbers of corners even, or both odd), the upper left one is
 /// first. The disks of a circle grid are darker than the board, or brighter.
+///
+/// Of a board with markers any part is enough that shows one marker and six marks in two rows and
+/// two columns: the markers tell which ones.
 ///
 /// * `image`: gray values in [0, 1]
 ///
@@ -62,6 +54,9 @@ const LEAST_AGREEMENT_PX: f64 = 0.5;
 #[doc(alias = "findCirclesGrid")]
 pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     check_range(image)?;
+    if board.pattern().has_markers() {
+        return find_marker_board(image, board);
+    }
     let mut levels = vec![image.clone()];
     while let Some(last) = levels.last()
         && last.width().max(last.height()) > FIRST_SIDE / 4
@@ -78,8 +73,10 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     let mut best = BoardSearch::Nothing;
     for level in order {
         let found = match board.pattern() {
-            Pattern::Chessboard => find_chessboard(&levels[level], board)?,
-            Pattern::AsymmetricCircles => find_circle_grid(&levels[level], board)?,
+            Pattern::Circles | Pattern::AsymmetricCircles => {
+                find_circle_grid(&levels[level], board)?
+            }
+            _ => find_chessboard(&levels[level], board)?,
         };
         if let BoardSearch::Found(coarse) = found {
             if best.outdoes(&coarse, board) {
@@ -90,7 +87,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
             let at_full_size = BoardView {
                 pixels: pixels.map(|p| p.map(|p| p * scale)).collect(),
             };
-            if board.pattern() == Pattern::AsymmetricCircles {
+            if board.pattern() != Pattern::Chessboard {
                 return Ok(BoardSearch::Found(at_full_size));
             }
             let refined = refined(image, &at_full_size, board.columns())?;
@@ -101,9 +98,7 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     Ok(best.unless_by_chance())
 }
 
-/// Corners to a fraction of a pixel, in a window that stays between the neighbors: by gradients,
-/// and from there by two edges fitted to the gray values. Those that do not stay where they are are
-/// left out.
+/// Corners to a fraction of a pixel. Those that do not stay where they are are left out.
 fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
@@ -112,22 +107,11 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
             continue;
         };
         let spacing = view.spacing(mark, columns).unwrap_or(10.0);
-        let half_window = ((WINDOW * spacing) as usize).clamp(WINDOWS.0, WINDOWS.1);
-        let options = RefineOptions {
-            half_window,
-            max_iterations: 60,
-            tolerance_px: 1e-4,
-        };
-        let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
-            .filter(|refined| (refined - pixel).norm() < 0.25 * spacing);
-        // A corner that the edges do not confirm may be the rim of a hand.
-        pixels.push(by_gradients.and_then(|start| {
-            let edges = edges_through(pixel, beside(view, mark, columns))?;
-            let radius_px = (DISK * spacing).clamp(DISKS_PX.0, DISKS_PX.1);
-            let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
-            fit_crossing(image, &start, edges, radius_px)
-                .filter(|place| (place - start).norm() <= agreement_px)
-        }));
+        let edges = edges_through(pixel, beside(view, mark, columns));
+        pixels.push(match edges {
+            Some(edges) => refine_mark(image, pixel, edges, spacing, &CLEAR_SQUARES)?,
+            None => None,
+        });
     }
     Ok(BoardView { pixels })
 }
@@ -323,6 +307,26 @@ mod tests {
         }
         println!("{num_found} of {}", 2 * num_poses);
         assert!(num_poses >= 3 && num_found == 2 * num_poses);
+    }
+
+    /// In rows and columns, the first disk in the upper left, whatever turns the board.
+    #[test]
+    fn circles_in_rows_are_found() {
+        let board = Board::new(Pattern::Circles, 7, 5, 0.03).unwrap();
+        let [camera, ..] = cameras();
+        for (seed, pose) in poses(&board, 4, 14.0, 6).iter().enumerate() {
+            let truth = true_view(&board, &camera, pose);
+            let image = photograph_of_board(&board, &camera, pose, 0.01, seed as u64);
+            let view = find_board(&image, &board).unwrap().view().unwrap();
+            assert_eq!(view.num_seen(), 35);
+            // The center of an ellipse is not the image of the disk's center.
+            let (largest, rms) = errors(&view, &truth);
+            assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
+        }
+        let wider = Board::new(Pattern::Circles, 8, 5, 0.03).unwrap();
+        let image = photograph_of_board(&board, &camera, &poses(&board, 1, 14.0, 6)[0], 0.0, 0);
+        let problem = find_board(&image, &wider).unwrap().problem(&wider).unwrap();
+        assert!(problem.contains("7 × 5"), "{problem}");
     }
 
     #[test]

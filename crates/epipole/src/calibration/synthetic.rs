@@ -1,9 +1,10 @@
 //! Photographs of boards, with exact truth.
 
+use super::Board;
 #[cfg(test)]
 use super::BoardView;
+use super::drawing::BoardDrawing;
 use super::footprint::Footprint;
-use super::{Board, Pattern};
 use crate::camera::{Camera, RigidTransform};
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
@@ -13,49 +14,54 @@ use nalgebra::{Point2, Point3, Vector2, Vector3};
 const BLACK: f64 = 0.12;
 const WHITE: f64 = 0.85;
 const TABLE: f64 = 0.45;
-/// Width of the white margin around the marks of a chessboard's corners or a grid's disks, squares.
+/// Width of the white margin around the outermost marks, squares.
 const MARGIN: f64 = 2.2;
-/// Radius of a disk, squares.
-const DISK: f64 = 0.45;
 
-/// The mean gray of a part of the board.
-///
-/// * `seen`: footprint of a pixel, in squares
-fn gray(board: &Board, seen: &Footprint) -> f64 {
-    let across = match board.pattern() {
-        Pattern::Chessboard => board.columns(),
-        Pattern::AsymmetricCircles => 2 * board.columns(),
-    } as f64;
-    let down = board.rows() as f64;
-    let whole = seen.area();
-    let [low, high] = seen.bounds();
-    let corner = Point2::new(across - 1.0 + MARGIN, down - 1.0 + MARGIN);
-    let is_aside = |i: usize| low[i] > corner[i] || high[i] < -MARGIN;
-    if !(whole > 0.0 && whole.is_finite()) || is_aside(0) || is_aside(1) {
-        return TABLE;
-    }
-    let sheet = seen.area_in_rectangle(Point2::new(-MARGIN, -MARGIN), corner);
-    // The first square ends at the first corner; the first disk is around it.
-    let (first, before, after) = match board.pattern() {
-        Pattern::Chessboard => (-1.0, 0.0, 1.0),
-        Pattern::AsymmetricCircles => (0.0, DISK, DISK),
-    };
-    let marks = |i: usize, num: f64| {
-        let begin = (low[i] - after).ceil().max(first);
-        let end = (high[i] + before).floor().min(num - 1.0);
-        begin as i64..=end as i64
-    };
-    let mut black = 0.0;
-    for j in marks(1, down) {
-        for i in marks(0, across).filter(|i| (i + j) % 2 == 0) {
-            let mark = Point2::new(i as f64, j as f64);
-            black += match board.pattern() {
-                Pattern::Chessboard => seen.area_in_rectangle(mark, mark + Vector2::new(1.0, 1.0)),
-                Pattern::AsymmetricCircles => seen.area_in_disk(mark, DISK),
-            };
+/// A board that is photographed.
+struct Sheet {
+    drawing: BoardDrawing,
+    /// Corner opposite to the one at (−[`MARGIN`], −[`MARGIN`]), squares.
+    corner: Point2<f64>,
+}
+
+impl Sheet {
+    fn new(board: &Board) -> Self {
+        let marks = (0..board.num_marks()).map(|mark| board.mark_in_squares(mark));
+        let last = marks.fold(Point2::origin(), |most: Point2<f64>, mark| most.sup(&mark));
+        Self {
+            drawing: board.drawing(),
+            corner: Point2::new(last.x + MARGIN, last.y + MARGIN),
         }
     }
-    TABLE + ((WHITE - TABLE) * sheet + (BLACK - WHITE) * black) / whole
+
+    /// The mean gray of a part of it.
+    ///
+    /// * `seen`: footprint of a pixel, in squares
+    fn gray(&self, seen: &Footprint) -> f64 {
+        let whole = seen.area();
+        let [low, high] = seen.bounds();
+        let is_aside = |i: usize| low[i] > self.corner[i] || high[i] < -MARGIN;
+        if !(whole > 0.0 && whole.is_finite()) || is_aside(0) || is_aside(1) {
+            return TABLE;
+        }
+        let sheet = seen.area_in_rectangle(Point2::new(-MARGIN, -MARGIN), self.corner);
+        let is_near =
+            |a: &Point2<f64>, b: &Point2<f64>| (0..2).all(|i| a[i] <= high[i] && b[i] >= low[i]);
+        let mut black = 0.0;
+        for [a, b] in &self.drawing.rectangles {
+            if is_near(a, b) {
+                black += seen.area_in_rectangle(*a, *b);
+            }
+        }
+        let radius = self.drawing.disk_radius;
+        let reach = Vector2::new(radius, radius);
+        for center in &self.drawing.disks {
+            if is_near(&(center - reach), &(center + reach)) {
+                black += seen.area_in_disk(*center, radius);
+            }
+        }
+        TABLE + ((WHITE - TABLE) * sheet + (BLACK - WHITE) * black) / whole
+    }
 }
 
 /// A photograph of a board on a gray table, each pixel the exact mean over the area that it sees.
@@ -93,6 +99,7 @@ pub fn photograph_of_board(
     seed: u64,
 ) -> GrayImage32 {
     let mut random = Random::new(seed);
+    let sheet = Sheet::new(board);
     let board_from_cam = cam_from_board.inverse();
     let origin = board_from_cam * Point3::origin();
     // The place of the board that an image point sees, in squares.
@@ -114,7 +121,7 @@ pub fn photograph_of_board(
         for u in 0..camera.width {
             let k = u as usize;
             let mean = match [above[k], above[k + 1], below[k + 1], below[k]] {
-                [Some(a), Some(b), Some(c), Some(d)] => gray(board, &Footprint::new([a, b, c, d])),
+                [Some(a), Some(b), Some(c), Some(d)] => sheet.gray(&Footprint::new([a, b, c, d])),
                 _ => TABLE,
             };
             let value = mean + noise * random.normal();
@@ -170,6 +177,7 @@ pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Ve
 
 #[cfg(test)]
 mod tests {
+    use super::super::Pattern;
     use super::*;
     use crate::camera::{Intrinsics, Lens, LensKind};
     use core::f64::consts::PI;

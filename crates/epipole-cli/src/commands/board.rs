@@ -1,0 +1,148 @@
+//! `epipole board`: a calibration board to print.
+
+mod page;
+mod paper;
+mod pdf;
+mod png;
+mod svg;
+
+use self::page::Page;
+use self::paper::{Paper, paper};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::files;
+use crate::matrices::positive;
+use crate::pattern::{PatternArguments, columns_and_rows};
+use crate::report::Report;
+use clap::Args;
+use epipole::calibration::{Board, Pattern};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Draw a calibration board to print, true to scale.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: epipole board --pattern charuco --size 7x5 --square-mm 30 --marker-mm 22 -o board.pdf\n\n\
+    Print at 100 %, without \"fit to page\": the ruler below the board must be 100 mm long. Glue the sheet to\n\
+    something flat. The caption names the options with which `epipole calibrate` reads the board.\n\n\
+    ChArUco boards are those of OpenCV from 4.6 on: the upper left square is black (no legacyPattern), and\n\
+    markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is the lower left one, and borders have\n\
+    two bits; --square-mm is the side of a tag.\n\n\
+    JSON: files, pattern, size (columns and rows), square_mm, paper_mm and board_mm (width and height of what is\n\
+    black), calibrate (options of `epipole calibrate` for this board)."
+)]
+pub(crate) struct Arguments {
+    /// Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks.
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
+    size: (usize, usize),
+    /// The side of a square or of a tag, or the distance of two rows of disks, millimeters.
+    #[arg(long, value_name = "S", default_value_t = 25.0, value_parser = positive)]
+    square_mm: f64,
+    /// The side of a ChArUco board's markers, millimeters [default: three quarters of a square].
+    #[arg(long, value_name = "M", value_parser = positive)]
+    marker_mm: Option<f64>,
+    /// a4, a3, letter, or WIDTHxHEIGHT in millimeters; named ones are turned as the board needs it.
+    #[arg(long, value_name = "PAPER", default_value = "a4", value_parser = paper)]
+    paper: Paper,
+    /// Pixels an inch, of a PNG.
+    #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = positive)]
+    dpi: f64,
+    /// A file that ends in .pdf, .svg or .png.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    pattern: PatternArguments,
+}
+
+pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure> {
+    let pattern = arguments
+        .pattern
+        .pattern(arguments.marker_mm, arguments.square_mm);
+    let (columns, rows) = arguments.size;
+    let board = Board::new(pattern, columns, rows, arguments.square_mm / 1000.0)
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let options = calibrate_options(arguments, pattern);
+    let caption = [
+        sizes(arguments, pattern),
+        format!("epipole calibrate PHOTOS {options}"),
+        "Print at 100 %, and measure the ruler.".to_owned(),
+    ];
+    let page = Page::new(&board, arguments.paper, &caption)?;
+    let extension = arguments.output.extension().and_then(|e| e.to_str());
+    let bytes = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("pdf") => pdf::pdf(&page),
+        Some("svg") => svg::svg(&page).into_bytes(),
+        Some("png") => png::png(&page, arguments.dpi)?,
+        _ => {
+            return Err(Failure::usage(format!(
+                "{} must end in .pdf, .svg or .png",
+                arguments.output.display()
+            )));
+        }
+    };
+    files::write(&arguments.output, &bytes)?;
+    let [width, height] = page.board_mm;
+    Ok(Report::default()
+        .field("files", [&arguments.output])
+        .field("pattern", arguments.pattern.name())
+        .field("size", json!([columns, rows]))
+        .field("square_mm", arguments.square_mm)
+        .field("paper_mm", page.paper_mm)
+        .field("board_mm", page.board_mm)
+        .field("calibrate", &options)
+        .row("board", format!("{width:.1} × {height:.1} mm"))
+        .row(
+            "paper",
+            format!("{} × {} mm", page.paper_mm[0], page.paper_mm[1]),
+        )
+        .row("calibrate with", options)
+        .row("written", arguments.output.display()))
+}
+
+/// Options of `epipole calibrate` that describe the board.
+fn calibrate_options(arguments: &Arguments, pattern: Pattern) -> String {
+    let (columns, rows) = arguments.size;
+    let meters = |mm: f64| format!("{:.6}", mm / 1000.0);
+    let trimmed = |mm: f64| meters(mm).trim_end_matches('0').to_owned();
+    let mut options = format!(
+        "--pattern {} --board {columns}x{rows} --square-m {}",
+        arguments.pattern.name(),
+        trimmed(arguments.square_mm)
+    );
+    match pattern {
+        Pattern::Charuco {
+            dictionary,
+            marker_share,
+        } => {
+            let marker = trimmed(marker_share * arguments.square_mm);
+            options += &format!(" --marker-m {marker} --dictionary {}", dictionary.name());
+        }
+        Pattern::AprilGrid { spacing } => options += &format!(" --tag-spacing {spacing}"),
+        Pattern::Chessboard | Pattern::Circles | Pattern::AsymmetricCircles => {}
+    }
+    options
+}
+
+/// Sizes of the board, for its caption.
+fn sizes(arguments: &Arguments, pattern: Pattern) -> String {
+    let ((columns, rows), side) = (arguments.size, arguments.square_mm);
+    match pattern {
+        Pattern::Chessboard => format!("{columns} x {rows} inner corners, squares of {side} mm"),
+        Pattern::Charuco {
+            dictionary,
+            marker_share,
+        } => format!(
+            "ChArUco, {columns} x {rows} squares of {side} mm, markers {} of {:.2} mm",
+            dictionary.name(),
+            marker_share * side
+        ),
+        Pattern::AprilGrid { spacing } => format!(
+            "AprilGrid, {columns} x {rows} tags 36h11 of {side} mm, {:.2} mm apart",
+            spacing * side
+        ),
+        Pattern::Circles => format!("{columns} x {rows} circles, {side} mm apart"),
+        Pattern::AsymmetricCircles => {
+            format!("{columns} x {rows} circles in shifted rows, {side} mm between rows")
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! A corner where four squares meet, to a fraction of a pixel.
+
+use super::crossing::fit_crossing;
+use crate::Result;
+use crate::feature::{RefineOptions, refine_corners};
+use crate::imaging::GrayImage32;
+use nalgebra::{Point2, Vector2};
+
+const WINDOWS: (usize, usize) = (2, 15);
+const DISKS_PX: (f64, f64) = (3.0, 15.0);
+/// The two refinements agree to this share of the distance to the nearest mark, or something else
+/// is in the disk.
+const AGREEMENT: f64 = 0.05;
+const LEAST_AGREEMENT_PX: f64 = 0.5;
+/// Distance to which an edge spreads, standard deviations of the blur.
+const SPREAD: f64 = 1.5;
+
+/// Parts of the image that a refinement uses, as shares of the distance to the nearest mark.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    /// Half the side of the window of the refinement by gradients.
+    window: f64,
+    /// Radius of the disk in which two edges are fitted.
+    disk: f64,
+    /// Maximum distance from the start.
+    stay: f64,
+    /// Distance to the nearest edge that is not one of the two.
+    clear: f64,
+}
+
+/// Nothing but four squares around each mark: the disk stays within them.
+pub(super) const CLEAR_SQUARES: Reach = Reach {
+    window: 0.3,
+    disk: 0.45,
+    stay: 0.25,
+    clear: f64::INFINITY,
+};
+
+impl Reach {
+    /// For marks that have nothing but their two edges within `clear`, a share of the distance to
+    /// the nearest mark.
+    pub(super) fn within(clear: f64) -> Self {
+        // A window is wider at its corners.
+        let disk = (0.9 * clear).min(CLEAR_SQUARES.disk);
+        Self {
+            window: (0.7 * disk).min(CLEAR_SQUARES.window),
+            disk,
+            stay: clear.min(CLEAR_SQUARES.stay),
+            clear,
+        }
+    }
+
+    /// Radius of the disk, pixels.
+    pub(super) fn disk_px(&self, spacing: f64) -> f64 {
+        (self.disk * spacing).clamp(DISKS_PX.0, DISKS_PX.1)
+    }
+}
+
+/// The corner near a pixel: by gradients, and from there by two edges fitted to the gray values.
+/// `None` if there is none, or something else is near.
+///
+/// * `edges`: roughly the directions of the two edges
+/// * `spacing`: distance to the nearest mark, pixels
+pub(super) fn refine_mark(
+    image: &GrayImage32,
+    pixel: &Point2<f64>,
+    edges: [Vector2<f64>; 2],
+    spacing: f64,
+    reach: &Reach,
+) -> Result<Option<Point2<f64>>> {
+    let options = RefineOptions {
+        half_window: ((reach.window * spacing) as usize).clamp(WINDOWS.0, WINDOWS.1),
+        max_iterations: 60,
+        tolerance_px: 1e-4,
+    };
+    let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
+        .filter(|refined| (refined - pixel).norm() < reach.stay * spacing);
+    // A corner that the edges do not confirm may be the rim of a hand.
+    Ok(by_gradients.and_then(|start| {
+        let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
+        let fit = |radius_px: f64| {
+            fit_crossing(image, &start, edges, radius_px)
+                .filter(|fitted| (fitted.place - start).norm() <= agreement_px)
+        };
+        let radius_px = reach.disk_px(spacing);
+        let fitted = fit(radius_px)?;
+        // Blur spreads what is beside the four squares into the disk.
+        let clear_px = (reach.clear * spacing - SPREAD * fitted.blur_px).max(DISKS_PX.0);
+        let smaller = (clear_px < radius_px).then(|| fit(clear_px)).flatten();
+        Some(smaller.unwrap_or(fitted).place)
+    }))
+}
