@@ -1,7 +1,7 @@
 //! Depth for other programs: a depth image for each pair, and all points as one cloud.
 
 use super::archive::Archive;
-use super::model::Order;
+use super::order::Order;
 use crate::tasks::{CameraFound, Dense};
 use epipole::stereo::{DisparityImage, PointCloud};
 use image::{DynamicImage, ImageFormat, RgbImage};

@@ -3,10 +3,12 @@
 mod archive;
 mod depth;
 mod model;
+mod order;
 mod summary;
 
 pub(crate) use archive::{open, save};
-pub(crate) use model::{Order, reconstruction};
+pub(crate) use model::reconstruction;
+pub(crate) use order::Order;
 
 use image::{DynamicImage, ImageFormat, RgbaImage};
 use std::io::Cursor;

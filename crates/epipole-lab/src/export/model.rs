@@ -1,32 +1,15 @@
 //! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
 
 use super::archive::Archive;
+use super::order::Order;
 use super::{depth, summary};
-use crate::tasks::{
-    Dense, ImagePoints, Packed, Photograph, Recipe, Reconstructed, Source, core_reconstruction,
-    sfm_images, to_image,
-};
+use crate::tasks::{Packed, Photograph, Source, core_reconstruction, sfm_images, to_image};
 use epipole::sfm::Reconstruction;
 use epipole_io::model::Model;
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat};
 use std::collections::BTreeSet;
 use std::io::Cursor;
-
-/// Contents of an export.
-pub(crate) struct Order<'a> {
-    pub(crate) images: &'a [ImagePoints],
-    pub(crate) photographs: &'a [Packed],
-    pub(crate) found: &'a Reconstructed,
-    pub(crate) component: usize,
-    pub(crate) meters_per_unit: Option<f64>,
-    pub(crate) focal_refined: bool,
-    pub(crate) left_out: &'a [(String, String)],
-    pub(crate) recipe: &'a Recipe,
-    /// Reads the pixels of a photograph that came without.
-    pub(crate) read: &'a dyn Fn(&Source) -> Result<Photograph, String>,
-    pub(crate) dense: &'a [(String, Dense)],
-}
 
 /// The zip file of a reconstruction.
 ///

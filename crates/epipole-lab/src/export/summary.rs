@@ -1,7 +1,7 @@
 //! A reconstruction in words and numbers: the command line's JSON, and the command that does the
 //! same.
 
-use super::model::Order;
+use super::order::Order;
 use epipole::camera::RigidTransform;
 use epipole::sfm::{Reconstruction, SfmImage};
 use serde_json::{Value, json};
