@@ -4,14 +4,20 @@
 //!   screen, no clock.
 //! * [`tasks`]: what takes long, from bytes to bytes, for a thread or for a worker of the browser.
 //! * `export`: zip files with COLMAP's text model, PLY and JSON, and projects that open again.
-//! * `panels`: what is seen, in egui.
+//! * `session`: running jobs, and the environment that they need.
+//! * `panels`: one per step, in egui.
+//! * `app`: the screen around the panels.
 //! * `web`, and `native` in the binary: the two places where it runs.
 
+#[cfg(feature = "panels")]
+pub mod app;
 #[cfg(feature = "files")]
 mod export;
 #[cfg(feature = "panels")]
-pub mod panels;
+mod panels;
 pub mod project;
+#[cfg(feature = "panels")]
+pub mod session;
 pub mod tasks;
 #[cfg(all(
     target_arch = "wasm32",

@@ -27,6 +27,13 @@ pub struct Given {
     pub focal_px: Option<f64>,
 }
 
+impl Given {
+    /// Whether it is of a sample.
+    pub fn is_rendered(&self) -> bool {
+        matches!(self.source, Source::Rendered(..))
+    }
+}
+
 /// When focal lengths are refined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RefineFocal {
@@ -172,6 +179,16 @@ impl Document {
     /// The photograph of a board of this number.
     pub fn board(&self, id: PhotoId) -> Option<&Given> {
         self.boards.iter().find(|photo| photo.id == id)
+    }
+
+    /// Whether all photographs are of a sample.
+    pub fn is_sample(&self) -> bool {
+        self.photos.iter().all(Given::is_rendered)
+    }
+
+    /// Whether all photographs of boards are of a sample.
+    pub fn has_sample_boards(&self) -> bool {
+        self.boards.iter().all(Given::is_rendered)
     }
 
     /// Both photographs of a pair.

@@ -9,6 +9,7 @@ mod calibration;
 mod calibration_words;
 mod document;
 mod event;
+mod explanation;
 mod fate;
 mod floor;
 mod keys;
@@ -32,6 +33,7 @@ pub use document::{
     RefineFocal, SQUARES_M, Settings,
 };
 pub use event::{Event, Step};
+pub use explanation::Explanation;
 pub use fate::Fate;
 pub use floor::Floor;
 pub use keys::Key;

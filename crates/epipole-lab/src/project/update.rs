@@ -179,7 +179,7 @@ impl Project {
     }
 
     /// Clears the undo history.
-    pub fn forget_past(&mut self) {
+    pub fn clear_history(&mut self) {
         self.past.clear();
         self.future.clear();
     }

@@ -2,7 +2,7 @@
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::Arrival;
+use epipole_lab::session::Arrival;
 
 #[test]
 fn a_video_gives_its_sharpest_frames() {
@@ -113,7 +113,7 @@ fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
         );
         assert_eq!(bench.state_mut().host().num_started, 0, "it waits");
         assert!(bench.get_all_by_label("Reconstructing.").next().is_some());
-        let arrival = Arrival::Solved(bytes.into());
+        let arrival = Arrival::Results(bytes.into());
         bench.state_mut().host().arrivals.push(arrival);
         rest(&mut bench);
         bench.get_by_label("9 of 9");

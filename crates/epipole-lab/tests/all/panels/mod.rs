@@ -8,8 +8,8 @@ mod menus;
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::Arrival;
 use epipole_lab::project::Step;
+use epipole_lab::session::Arrival;
 
 #[test]
 fn the_line_from_the_sample_to_a_file() {
@@ -213,7 +213,7 @@ fn a_link_opens_a_step_and_every_step_is_explained() {
         click(&mut bench, step.title());
         click(&mut bench, "What is this?");
         let explained = bench.state_mut().host().explained.pop();
-        assert_eq!(explained, Some(step.about()));
+        assert_eq!(explained, Some(step.explanation()));
     }
 }
 

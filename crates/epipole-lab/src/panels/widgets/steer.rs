@@ -5,7 +5,7 @@ use egui::{Key as KeyName, Response, Ui, Vec2};
 use epipole_canvas::cloud::Orbit;
 
 /// Rotates, pans and zooms. True while something moves.
-pub(super) fn steer(
+pub(crate) fn steer(
     orbit: &mut Orbit,
     ui: &Ui,
     response: &Response,
@@ -66,7 +66,7 @@ pub(super) fn steer(
 
 /// From the side of another view, or else from behind the cameras and a little aside; with all
 /// cameras in the image, and the points except for the outermost.
-pub(super) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
+pub(crate) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
     const ASIDE_RAD: f64 = 0.35;
     let cameras = || component.cameras.iter().flatten();
     let ahead = |camera: &CameraFound| {

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// Meaning of a point's color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Coloring {
+pub(crate) enum Coloring {
     /// The photographs.
     #[default]
     Photographs,
@@ -47,12 +47,12 @@ struct Drawn {
 }
 
 /// The view of a reconstruction, kept between frames.
-pub(super) struct CloudView {
-    pub(super) coloring: Coloring,
+pub(crate) struct CloudView {
+    pub(crate) coloring: Coloring,
     /// Whether frusta carry their photographs.
-    pub(super) photographs: bool,
+    pub(crate) photographs: bool,
     /// The point that was clicked.
-    pub(super) point: Option<usize>,
+    pub(crate) point: Option<usize>,
     made: Option<Made>,
     orbit: Option<Orbit>,
     scene: Scene,
@@ -108,7 +108,7 @@ fn size_of(num_points: usize) -> f64 {
 
 impl CloudView {
     /// Shows the part that is looked at. Returns the point that was clicked, if one was.
-    pub(super) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
+    pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
         let shown = project.component().or(project.growing());
         let (Some(component), Some(key)) = (shown, project.key_of_reconstruction()) else {
             return None;
@@ -166,7 +166,7 @@ impl CloudView {
     }
 
     /// Position of a point on the screen.
-    pub(super) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
+    pub(crate) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
         let (width, height) = self.frame.size();
         let place = self.scene.points.get(point)?.0;
         let ([u, v], _) = self.orbit?.project(place, (width, height))?;
@@ -175,7 +175,7 @@ impl CloudView {
     }
 
     /// Pixels of the last frame: width, and red, green, blue, opacity, row by row.
-    pub(super) fn pixels(&self) -> Option<(u32, Blob)> {
+    pub(crate) fn pixels(&self) -> Option<(u32, Blob)> {
         let (width, height) = self.frame.size();
         let rgba = self.frame.rgba();
         let is_drawn = self.drawn.is_some() && rgba.len() == 4 * width * height;
@@ -183,7 +183,7 @@ impl CloudView {
     }
 
     /// Looks at everything again.
-    pub(super) fn look_at_all(&mut self) {
+    pub(crate) fn look_at_all(&mut self) {
         self.made = None;
         self.orbit = None;
     }

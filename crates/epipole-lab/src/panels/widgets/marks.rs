@@ -6,7 +6,7 @@ use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
 /// The edges of a camera's view, so far out.
-pub(super) fn frustum(
+pub(crate) fn frustum(
     lines: &mut Vec<Line>,
     camera: &CameraFound,
     (width, height): (u32, u32),
@@ -34,7 +34,7 @@ pub(super) fn frustum(
 }
 
 /// The pixels of a photograph where its camera's frustum ends.
-pub(super) fn standing(
+pub(crate) fn standing(
     camera: &CameraFound,
     (width, height): (u32, u32),
     reach: f64,
@@ -57,7 +57,7 @@ fn plain(place: &nalgebra::Point3<f64>) -> [f32; 3] {
 }
 
 /// From a point to all cameras that see it.
-pub(super) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, color: [u8; 3]) {
+pub(crate) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, color: [u8; 3]) {
     let Some(point) = component.points.get(point) else {
         return;
     };
@@ -73,7 +73,7 @@ pub(super) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, c
 }
 
 /// Observations of a point: photograph, keypoint, and reprojection error in pixels.
-pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
+pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
     let (Some(component), photos) = (project.component(), project.taking_part()) else {
         return Vec::new();
     };
@@ -96,7 +96,7 @@ pub(super) fn sights(project: &Project, point: usize) -> Vec<(String, [f64; 2], 
 const MAX_DENSE: usize = 1_000_000;
 
 /// Adds the points of every pixel after those that photographs share.
-pub(super) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
+pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
     let pairs = project.dense_pairs();
     let all: f64 = (pairs.iter())
         .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)

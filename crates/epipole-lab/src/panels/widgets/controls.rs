@@ -1,58 +1,55 @@
-//! Helpers shared by the controls of all steps.
+//! Controls that several panels use.
 
-use super::app::Memory;
 use super::menu;
+use crate::panels::screen::Screen;
 use crate::project::{Event, Project, Settings, Step};
-use egui::{Slider, Ui};
+use egui::{Response, Slider, Ui};
 
-/// Interaction with a control.
+/// Change by a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Turned {
-    /// Nothing.
+pub(crate) enum Change {
+    /// Unchanged.
     No,
-    /// Held, and may still change: nothing is recomputed.
-    Held,
-    /// It has a new place.
+    /// Being dragged, so nothing is recomputed yet.
+    Dragged,
+    /// New value.
     Done,
 }
 
-impl From<bool> for Turned {
+impl From<bool> for Change {
     fn from(changed: bool) -> Self {
         if changed { Self::Done } else { Self::No }
     }
 }
 
-/// Shows controls and applies their changes.
-pub(super) fn edit(
-    project: &Project,
-    memory: &mut Memory,
-    events: &mut Vec<Event>,
-    turn: impl FnOnce(&mut Settings) -> Turned,
-) {
-    let now = || project.document().settings.clone();
-    let mut settings = memory.draft.take().unwrap_or_else(now);
-    match turn(&mut settings) {
-        Turned::No => {}
-        Turned::Held => memory.draft = Some(settings),
-        Turned::Done => events.push(Event::Set(settings)),
+/// Change by a field that is dragged or typed into.
+pub(crate) fn change_of(response: &Response) -> Change {
+    match response.dragged() {
+        true => Change::Dragged,
+        false => (response.drag_stopped() || response.changed()).into(),
+    }
+}
+
+/// Shows controls of settings and sends their changes.
+pub(crate) fn edit(screen: &mut Screen<'_>, show: impl FnOnce(&mut Settings) -> Change) {
+    let now = || screen.project.document().settings.clone();
+    let mut settings = screen.views.draft.take().unwrap_or_else(now);
+    match show(&mut settings) {
+        Change::No => {}
+        Change::Dragged => screen.views.draft = Some(settings),
+        Change::Done => screen.send(Event::Set(settings)),
     }
 }
 
 /// A slider with its name above it.
-pub(super) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Turned {
+pub(crate) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Change {
     let label = ui.label(name);
     let response = ui.add(slider).labelled_by(label.id);
-    if response.drag_stopped() {
-        return Turned::Done;
-    }
-    match response.dragged() {
-        true => Turned::Held,
-        false => response.changed().into(),
-    }
+    change_of(&response)
 }
 
 /// Draws a text in place of an image: in the middle, with a margin.
-pub(super) fn instead(ui: &mut Ui, words: &str) {
+pub(crate) fn instead(ui: &mut Ui, words: &str) {
     let whole = ui.available_rect_before_wrap();
     let width = (whole.width() - 32.0).clamp(1.0, 460.0);
     let font = egui::TextStyle::Body.resolve(ui.style());
@@ -70,7 +67,7 @@ pub(super) fn instead(ui: &mut Ui, words: &str) {
 }
 
 /// A line of a table: a name and a value.
-pub(super) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
+pub(crate) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
     ui.horizontal_wrapped(|ui| {
         ui.weak(format!("{name}:"));
         ui.label(value.into());
@@ -78,21 +75,21 @@ pub(super) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
 }
 
 /// A link to the chapter that explains the step; a window has no book beside it.
-pub(super) fn book(ui: &mut Ui, step: Step) {
+pub(crate) fn book(ui: &mut Ui, step: Step) {
     if cfg!(target_arch = "wasm32") {
-        let about = step.about();
+        let chapter = step.explanation();
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
             ui.weak("Chapter:");
-            let address = format!("../{}", about.page);
-            let link = egui::Hyperlink::from_label_and_url(about.title, address);
+            let address = format!("../{}", chapter.page);
+            let link = egui::Hyperlink::from_label_and_url(chapter.title, address);
             ui.add(link.open_in_new_tab(true));
         });
     }
 }
 
 /// Shows the photographs to choose from. Returns the one that was clicked.
-pub(super) fn choose(
+pub(crate) fn choose(
     project: &Project,
     ui: &mut Ui,
     name: &str,
@@ -126,14 +123,15 @@ pub(super) fn choose(
     chosen
 }
 
-/// The pair to choose. True if another one was.
-pub(super) fn choose_pair(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) -> bool {
+/// Shows both photographs of a pair to choose from. True if another pair was chosen.
+pub(crate) fn choose_pair(screen: &mut Screen<'_>, ui: &mut Ui) -> bool {
+    let project = screen.project;
     let (a, b) = project.view().pair;
     let first = choose(project, ui, "First", a, Some(b));
     let second = choose(project, ui, "Second", b, Some(a));
     let is_other = first.is_some() || second.is_some();
     if is_other {
-        events.push(Event::LookAtPair(first.unwrap_or(a), second.unwrap_or(b)));
+        screen.send(Event::LookAtPair(first.unwrap_or(a), second.unwrap_or(b)));
     }
     is_other
 }

@@ -16,11 +16,11 @@ struct Reading {
 
 /// Queue of videos; the first is being read.
 #[derive(Default)]
-pub(super) struct Videos(VecDeque<Reading>);
+pub(crate) struct Videos(VecDeque<Reading>);
 
 impl Videos {
     /// Adds a video, of which `num_parts` frames are wanted.
-    pub(super) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
+    pub(crate) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
         self.0.push_back(Reading {
             video,
             num_parts,
@@ -34,13 +34,13 @@ impl Videos {
     }
 
     /// The requested part of a video, if it is the one being read.
-    pub(super) fn part_of(&self, video: u32) -> Option<u32> {
+    pub(crate) fn part_of(&self, video: u32) -> Option<u32> {
         let first = self.0.front().filter(|reading| reading.video == video);
         first.map(|reading| reading.part)
     }
 
     /// Progress of the first video, in words.
-    pub(super) fn words(&self) -> Option<String> {
+    pub(crate) fn words(&self) -> Option<String> {
         let first = self.0.front()?;
         Some(format!(
             "Reading the video: part {} of {}",
@@ -51,7 +51,7 @@ impl Videos {
 
     /// Keeps the sharpest frame of the requested part, if it had any. Returns the frames of all
     /// parts after the last.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         video: u32,
         frames: Vec<(String, Blob)>,
@@ -73,7 +73,7 @@ impl Videos {
     }
 
     /// Drops a video, and starts the next.
-    pub(super) fn give_up(&mut self, video: u32, host: &mut impl Host) {
+    pub(crate) fn give_up(&mut self, video: u32, host: &mut impl Host) {
         let before = self.part_of(video);
         self.0.retain(|reading| reading.video != video);
         if before.is_some() {

@@ -1,29 +1,29 @@
 //! Interface to the environment of the Lab: a window or a page.
 
-use super::About;
+use crate::project::Explanation;
 use crate::tasks::{Blob, Branch};
 
 /// Identifier of a job.
-pub type WorkId = u64;
+pub type JobId = u64;
 
 /// Message from a worker.
 #[derive(Debug, Clone)]
 pub enum Report {
     /// Progress of a job, 0 to 1, and its current stage.
-    Progress(WorkId, f32, String),
+    Progress(JobId, f32, String),
     /// Intermediate result of a job.
-    SoFar(WorkId, Vec<u8>),
+    Partial(JobId, Vec<u8>),
     /// Result of a job, or its error message.
-    Done(WorkId, Result<Vec<u8>, String>),
+    Done(JobId, Result<Vec<u8>, String>),
     /// Failure of the worker itself, as opposed to an error of the job, with a message.
-    Broken(WorkId, String),
+    Broken(JobId, String),
 }
 
 impl Report {
     /// Number of bytes to decode.
     pub(super) fn num_bytes(&self) -> usize {
         match self {
-            Self::SoFar(_, bytes) | Self::Done(_, Ok(bytes)) => bytes.len(),
+            Self::Partial(_, bytes) | Self::Done(_, Ok(bytes)) => bytes.len(),
             Self::Progress(..) | Self::Done(_, Err(_)) | Self::Broken(..) => 0,
         }
     }
@@ -36,7 +36,7 @@ pub enum Arrival {
     Photographs(Vec<(String, Blob)>),
     /// A project.
     Project(Blob),
-    /// The parameters of an address: a step, a sample, knobs.
+    /// The parameters of an address: a step, a sample, settings.
     Link(Vec<(String, String)>),
     /// Video with this number, waiting for [`Host::ask_for_frames`].
     Video(u32),
@@ -46,44 +46,31 @@ pub enum Arrival {
     NoFrames(u32, String),
     /// Message without data, such as an error or progress.
     News(String),
-    /// State of the project kept in this environment.
-    Kept(Kept),
+    /// State of the project stored in this environment.
+    Stored(Stored),
     /// Precomputed results of the sample, as bytes of [`Computed`](crate::project::Computed); empty
     /// if they could not be loaded.
-    Solved(Blob),
+    Results(Blob),
 }
 
-/// State of the project that the reader chose to keep.
+/// State of the project stored in the environment.
 #[derive(Debug, Clone)]
-pub enum Kept {
-    /// The project kept by the last session, or requested by [`Host::ask_for_kept`].
+pub enum Stored {
+    /// The project stored by the last session, or requested by [`Host::ask_for_kept`].
     Project(Blob),
-    /// A kept project that is not open, with a message.
-    Aside(String),
+    /// A stored project that is not open, with a message.
+    Closed(String),
     /// The project given to [`Host::keep`] was written: number of bytes.
-    Done(usize),
+    Written(usize),
     /// The project given to [`Host::keep`] was not written.
-    Not {
+    Failed {
         /// Reason, as a message.
         why: String,
-        /// Whether the previously kept project still exists.
+        /// Whether the previously stored project still exists.
         is_there: bool,
     },
-    /// The reader has erased it elsewhere.
-    Forgotten,
-}
-
-/// Request of a panel to the environment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wish {
-    /// Give the reader a file with the calibrated camera.
-    SaveCamera,
-    /// Give the reader a zip file with the reconstruction.
-    Export,
-    /// Save an image of the current view of the point cloud.
-    SaveView,
-    /// Take photographs with the camera of the machine.
-    TakePhotographs,
+    /// The stored project was erased by another page.
+    Erased,
 }
 
 /// Environment of the Lab.
@@ -91,14 +78,14 @@ pub trait Host {
     /// Number of jobs that can run at once.
     fn capacity(&self) -> usize;
     /// Starts a job, which needs the code of one branch.
-    fn start(&mut self, work: WorkId, branch: Branch, request: Vec<u8>);
+    fn start(&mut self, job: JobId, branch: Branch, request: Vec<u8>);
     /// Cancels a job that is no longer needed. It may finish nevertheless.
-    fn cancel(&mut self, work: WorkId);
+    fn cancel(&mut self, job: JobId);
     /// Reports since the last call.
     fn reports(&mut self) -> Vec<Report>;
     /// Arrivals since the last call.
     fn arrivals(&mut self) -> Vec<Arrival>;
-    /// Whether [`Arrival::Solved`] will come: until then no result of the sample needs to be
+    /// Whether [`Arrival::Results`] will come: until then no result of the sample needs to be
     /// computed.
     fn brings_sample(&self) -> bool;
     /// Opens a dialog for photographs. False if there is none and files can only be dropped.
@@ -115,16 +102,16 @@ pub trait Host {
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
     /// Whether a project can be kept here without giving the reader a file.
     fn can_keep(&self) -> bool;
-    /// Keeps a project in place of the previous one. The outcome arrives as [`Arrival::Kept`].
+    /// Keeps a project in place of the previous one. The outcome arrives as [`Arrival::Stored`].
     fn keep(&mut self, project: Vec<u8>);
     /// Erases the kept project.
     fn forget(&mut self);
-    /// Requests the kept project, which arrives as [`Arrival::Kept`].
+    /// Requests the kept project, which arrives as [`Arrival::Stored`].
     fn ask_for_kept(&mut self);
     /// Announces a text to assistive technology.
     fn say(&mut self, words: &str);
     /// Shows the figure of the book that explains a step.
-    fn explain(&mut self, about: About);
+    fn explain(&mut self, explanation: Explanation);
     /// Whether a book with these figures is available.
     fn has_book(&self) -> bool;
     /// Sets the parameters of the address that restore the current view.

@@ -1,15 +1,16 @@
 //! The steps to choose from: below each other, or in one row that scrolls where there is no room.
 
+use crate::panels::Action;
 use crate::project::{Event, Project, Step};
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
 use egui::{Align, Layout, Response, ScrollArea, Ui};
 
 /// Below each other.
-pub(super) fn column(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
+pub(super) fn column(project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
     ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
         for step in Step::ALL {
-            button(project, ui, step, events);
+            button(project, ui, step, actions);
         }
     });
 }
@@ -22,7 +23,7 @@ pub(super) fn row(
     project: &Project,
     shown: &mut Option<Step>,
     ui: &mut Ui,
-    events: &mut Vec<Event>,
+    actions: &mut Vec<Action>,
 ) {
     let current = project.view().step;
     ScrollArea::horizontal()
@@ -31,7 +32,7 @@ pub(super) fn row(
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 for step in Step::ALL {
-                    let response = button(project, ui, step, events);
+                    let response = button(project, ui, step, actions);
                     let is_new = step == current && *shown != Some(step);
                     if is_new || response.gained_focus() {
                         let at_once = ScrollAnimation::none();
@@ -43,10 +44,10 @@ pub(super) fn row(
     *shown = Some(current);
 }
 
-fn button(project: &Project, ui: &mut Ui, step: Step, events: &mut Vec<Event>) -> Response {
+fn button(project: &Project, ui: &mut Ui, step: Step, actions: &mut Vec<Action>) -> Response {
     let response = ui.selectable_label(project.view().step == step, step.title());
     if response.clicked() {
-        events.push(Event::Show(step));
+        actions.push(Action::Send(Event::Show(step)));
     }
     response
 }

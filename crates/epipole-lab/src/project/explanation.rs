@@ -1,10 +1,10 @@
 //! Links from each step to the book: an explaining figure, and its chapter.
 
-use crate::project::Step;
+use super::event::Step;
 
 /// The figure that explains a step, and where the book has it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct About {
+pub struct Explanation {
     /// The figure's name.
     pub figure: &'static str,
     /// The chapter's page, from the folder of the book.
@@ -15,7 +15,7 @@ pub struct About {
 
 impl Step {
     /// The figure that explains the step.
-    pub fn about(self) -> About {
+    pub fn explanation(self) -> Explanation {
         let (figure, page, title) = match self {
             Self::Photographs => (
                 "same-picture",
@@ -43,7 +43,7 @@ impl Step {
             Self::Measure => ("scale-ambiguity", "triangulation.html", "Cash in"),
             Self::Export => ("two-view-sfm", "connections.html", "Where this leads"),
         };
-        About {
+        Explanation {
             figure,
             page,
             title,

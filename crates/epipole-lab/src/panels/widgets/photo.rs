@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 /// Textures of images.
 #[derive(Default)]
-pub(super) struct Pictures {
+pub(crate) struct Pictures {
     full: BTreeMap<Name, Strips>,
     small: BTreeMap<Name, TextureHandle>,
 }
@@ -25,7 +25,7 @@ const MAX_SMALL: usize = 200;
 
 impl Pictures {
     /// The photograph, as far as it is uploaded.
-    pub(super) fn full(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> Strips {
+    pub(crate) fn full(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> Strips {
         let size = [photograph.width as usize, photograph.height as usize];
         if !self.full.contains_key(&key) {
             if self.full.len() >= MAX_FULL {
@@ -47,7 +47,7 @@ impl Pictures {
     }
 
     /// The same, small.
-    pub(super) fn small(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> &TextureHandle {
+    pub(crate) fn small(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> &TextureHandle {
         if !self.small.contains_key(&key) && self.small.len() >= MAX_SMALL {
             self.small.clear();
         }
@@ -63,7 +63,7 @@ impl Pictures {
 
 /// Viewing state of a photograph.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Lens {
+pub(crate) struct Lens {
     zoom: f32,
     /// Point of the photograph in the middle of the view, as a share of its size.
     middle: Vec2,
@@ -82,8 +82,8 @@ impl Default for Lens {
 }
 
 /// A photograph on the screen.
-pub(super) struct Shown {
-    pub(super) response: Response,
+pub(crate) struct Shown {
+    pub(crate) response: Response,
     painter: Painter,
     /// Rectangle of the whole photograph on the screen.
     place: Rect,
@@ -94,7 +94,7 @@ pub(super) struct Shown {
 
 impl Shown {
     /// Position of a pixel on the screen.
-    pub(super) fn at(&self, u: f64, v: f64) -> Pos2 {
+    pub(crate) fn at(&self, u: f64, v: f64) -> Pos2 {
         let share = vec2(
             (u as f32 + 0.5) / self.size.x,
             (v as f32 + 0.5) / self.size.y,
@@ -103,7 +103,7 @@ impl Shown {
     }
 
     /// Which pixel was clicked, by a pointer or by a key.
-    pub(super) fn clicked(&self) -> Option<[f64; 2]> {
+    pub(crate) fn clicked(&self) -> Option<[f64; 2]> {
         if !self.response.clicked() {
             return None;
         }
@@ -121,12 +121,12 @@ impl Shown {
     }
 
     /// Screen points in a pixel.
-    pub(super) fn scale(&self) -> f32 {
+    pub(crate) fn scale(&self) -> f32 {
         self.place.width() / self.size.x
     }
 
     /// A circle with a casing, so that it is seen on anything.
-    pub(super) fn ring(&self, center: Pos2, radius: f32, color: Color32) {
+    pub(crate) fn ring(&self, center: Pos2, radius: f32, color: Color32) {
         self.painter.circle_stroke(
             center,
             radius,
@@ -137,7 +137,7 @@ impl Shown {
     }
 
     /// A line, likewise.
-    pub(super) fn line(&self, from: Pos2, to: Pos2, color: Color32) {
+    pub(crate) fn line(&self, from: Pos2, to: Pos2, color: Color32) {
         let casing = Stroke::new(3.5, Color32::from_black_alpha(120));
         self.painter.line_segment([from, to], casing);
         self.painter
@@ -145,18 +145,18 @@ impl Shown {
     }
 
     /// Many marks at once.
-    pub(super) fn add(&self, shapes: Vec<Shape>) {
+    pub(crate) fn add(&self, shapes: Vec<Shape>) {
         self.painter.extend(shapes);
     }
 
     /// Whether a place of the screen is within the rectangle.
-    pub(super) fn shows(&self, at: Pos2) -> bool {
+    pub(crate) fn shows(&self, at: Pos2) -> bool {
         self.response.rect.expand(20.0).contains(at)
     }
 }
 
 /// Shows a photograph in a rectangle, with an accessible name.
-pub(super) fn show(
+pub(crate) fn show(
     ui: &mut Ui,
     rect: Rect,
     picture: &Strips,

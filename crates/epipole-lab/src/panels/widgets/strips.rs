@@ -8,7 +8,7 @@ const MAX_PIXELS: usize = 500_000;
 
 /// An image, divided into horizontal strips.
 #[derive(Clone)]
-pub(super) struct Strips {
+pub(crate) struct Strips {
     width: usize,
     height: usize,
     /// Placeholder behind the strips that are not there yet.
@@ -21,7 +21,7 @@ impl Strips {
     /// An image without any strip.
     ///
     /// * `under`: its thumbnail, shown meanwhile
-    pub(super) fn new([width, height]: [usize; 2], under: Option<TextureHandle>) -> Self {
+    pub(crate) fn new([width, height]: [usize; 2], under: Option<TextureHandle>) -> Self {
         Self {
             width,
             height,
@@ -31,12 +31,12 @@ impl Strips {
     }
 
     /// Width and height, pixels.
-    pub(super) fn size(&self) -> Vec2 {
+    pub(crate) fn size(&self) -> Vec2 {
         Vec2::new(self.width as f32, self.height as f32)
     }
 
     /// Whether all strips are uploaded.
-    pub(super) fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.rows(self.textures.len()).is_empty()
     }
 
@@ -56,7 +56,7 @@ impl Strips {
     /// Uploads the next missing strip; the others follow in the next frames.
     ///
     /// * `image`: the pixels of these rows
-    pub(super) fn bring(
+    pub(crate) fn bring(
         &mut self,
         ui: &Ui,
         name: &str,
@@ -76,7 +76,7 @@ impl Strips {
     /// Paints the uploaded strips.
     ///
     /// * `place`: rectangle of the whole image
-    pub(super) fn paint(&self, painter: &Painter, place: Rect) {
+    pub(crate) fn paint(&self, painter: &Painter, place: Rect) {
         if let Some(under) = self.under.as_ref().filter(|_| !self.is_whole()) {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(under.id(), place, whole, Color32::WHITE);

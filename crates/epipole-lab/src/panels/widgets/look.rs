@@ -5,7 +5,7 @@ use epipole_canvas::theme::{Role, Theme};
 use std::sync::Arc;
 
 /// Sets font, sizes and colors, once.
-pub(super) fn set(context: &egui::Context) {
+pub(crate) fn set(context: &egui::Context) {
     let mut fonts = FontDefinitions::empty();
     let name = "Epipole Figure Sans".to_owned();
     let bytes: &'static [u8] = epipole_canvas::FONT;
@@ -81,7 +81,7 @@ fn is_high() -> egui::Id {
 }
 
 /// Puts a theme on, by its permanent name; one that is not known is that of the system.
-pub(super) fn wear(context: &egui::Context, name: &str) {
+pub(crate) fn set_theme(context: &egui::Context, name: &str) {
     let known = Theme::ALL.into_iter().find(|(_, other)| *other == name);
     let theme = known.map(|(theme, _)| theme);
     let is_dark = match theme {
@@ -99,7 +99,7 @@ pub(super) fn wear(context: &egui::Context, name: &str) {
 }
 
 /// The theme that is on.
-pub(super) fn theme(ui: &egui::Ui) -> Theme {
+pub(crate) fn theme(ui: &egui::Ui) -> Theme {
     let is_high = ui
         .ctx()
         .data(|data| data.get_temp(is_high()).unwrap_or(false));
@@ -111,12 +111,12 @@ pub(super) fn theme(ui: &egui::Ui) -> Theme {
 }
 
 /// The color of a role.
-pub(super) fn of(theme: Theme, role: Role) -> Color32 {
+pub(crate) fn of(theme: Theme, role: Role) -> Color32 {
     let [r, g, b] = theme.color(role);
     Color32::from_rgb(r, g, b)
 }
 
 /// The color of a role in the theme that is on.
-pub(super) fn color(ui: &egui::Ui, role: Role) -> Color32 {
+pub(crate) fn color(ui: &egui::Ui, role: Role) -> Color32 {
     of(theme(ui), role)
 }

@@ -1,7 +1,7 @@
 //! Controls and numbers of the step "Depth".
 
-use super::knobs::{self, Turned};
-use super::look;
+use super::widgets::controls::{self, Change};
+use super::widgets::look;
 use crate::project::{MAX_DISPARITY_PX, Project};
 use crate::tasks::Dense;
 use egui::{Color32, DragValue, Rect, Ui};
@@ -11,9 +11,9 @@ pub(super) fn disparities(
     ui: &mut Ui,
     range_px: &mut Option<[i32; 2]>,
     proposed: Option<[i32; 2]>,
-) -> Turned {
+) -> Change {
     let mut as_proposed = range_px.is_none();
-    let mut turned = Turned::No;
+    let mut change = Change::No;
     let label = match proposed {
         Some([low, high]) => format!("Range from the points: {low} to {high} px"),
         None => "Range from the points".to_owned(),
@@ -23,7 +23,7 @@ pub(super) fn disparities(
             true => None,
             false => Some(proposed.unwrap_or([0, 63])),
         };
-        turned = Turned::Done;
+        change = Change::Done;
     }
     if let Some(range) = range_px {
         for (end, name) in range
@@ -36,19 +36,11 @@ pub(super) fn disparities(
                     .range(0..=MAX_DISPARITY_PX)
                     .update_while_editing(false);
                 let response = ui.add(field).labelled_by(label.id);
-                turned = turned.max(
-                    match (
-                        response.dragged(),
-                        response.drag_stopped() || response.changed(),
-                    ) {
-                        (true, _) => Turned::Held,
-                        (false, done) => done.into(),
-                    },
-                );
+                change = change.max(controls::change_of(&response));
             });
         }
     }
-    turned
+    change
 }
 
 /// Draws the legend of the depth colors.
@@ -87,16 +79,16 @@ pub(super) fn pixel(project: &Project, probe: Option<[u32; 2]>, found: &Dense, u
         ui.weak("Click a pixel: its match must lie on the same line of the other photograph.");
         return;
     };
-    knobs::row(ui, "pixel", format!("({u}, {v})"));
+    controls::row(ui, "pixel", format!("({u}, {v})"));
     match (found.disparity(u, v), found.depth(u, v)) {
         (Some(disparity), Some(depth)) => {
-            knobs::row(ui, "disparity", format!("{disparity:.2} px"));
-            knobs::row(ui, "depth", length(project, depth));
+            controls::row(ui, "disparity", format!("{disparity:.2} px"));
+            controls::row(ui, "depth", length(project, depth));
             // σ_Z = Z² σ_d / (f B), for half a pixel.
             let step = depth * depth * 0.5 / (found.focal_px() * found.baseline);
-            knobs::row(ui, "error for half a pixel", length(project, step));
+            controls::row(ui, "error for half a pixel", length(project, step));
         }
-        (Some(disparity), None) => knobs::row(
+        (Some(disparity), None) => controls::row(
             ui,
             "disparity",
             format!("{disparity:.2} px: infinitely far"),
