@@ -1,15 +1,15 @@
 //! Handling of arrivals: photographs (of a board during that step), projects, videos, links.
 
 use super::App;
-use crate::project::{Computed, Event, Step};
-use crate::session::{Arrival, FileJob, Host, Stored};
-use crate::tasks::{Blob, Request};
+use crate::project::{Blob, Computed, Step};
+use crate::session::{Arrival, Event, FileJob, Host, Stored};
+use crate::tasks::{ChooseFrame, OpenProject};
 
 impl<H: Host> App<H> {
     pub(super) fn take(&mut self, arrival: Arrival) {
         match arrival {
             Arrival::Photographs(files) => self.add_photographs(files),
-            Arrival::Project(archive) => self.run(FileJob::Open, &Request::Open { archive }),
+            Arrival::Project(archive) => self.run(FileJob::Open, OpenProject { archive }),
             Arrival::Link(parameters) => {
                 let problems = self.project.open_link(&parameters);
                 if !problems.is_empty() {
@@ -22,8 +22,8 @@ impl<H: Host> App<H> {
             }
             Arrival::Frames(video, name, frames) => {
                 if let Some(part) = self.videos.part_of(video) {
-                    let request = Request::Frames { name, part, frames };
-                    self.run(FileJob::Frames(video), &request);
+                    let task = ChooseFrame { name, part, frames };
+                    self.run(FileJob::Frames(video), task);
                 }
             }
             Arrival::NoFrames(video, sentence) => {
@@ -33,7 +33,7 @@ impl<H: Host> App<H> {
             Arrival::Stored(stored) => self.take_stored(stored),
             Arrival::Results(bytes) => {
                 self.waits_for_sample = false;
-                self.project.bring(Computed::from_bytes(&bytes));
+                self.project.import(Computed::from_bytes(&bytes));
             }
             Arrival::News(sentence) => self.news = Some(sentence),
         }
@@ -61,7 +61,7 @@ impl<H: Host> App<H> {
         match stored {
             Stored::Project(archive) => {
                 self.storage.close();
-                self.run(FileJob::Restore, &Request::Open { archive });
+                self.run(FileJob::Restore, OpenProject { archive });
             }
             Stored::Closed(sentence) => {
                 self.storage.close();

@@ -4,9 +4,8 @@ use super::App;
 use super::arrivals::megabytes;
 use crate::panels::Action;
 use crate::panels::widgets::menu::{item, menu, toggle};
-use crate::project::{Event, Step};
-use crate::session::{FileJob, Host};
-use crate::tasks::Sample;
+use crate::project::{Sample, Step};
+use crate::session::{Event, FileJob, Host};
 use egui::{Button, Ui};
 
 impl<H: Host> App<H> {
@@ -36,7 +35,7 @@ impl<H: Host> App<H> {
                 }
                 if item(ui, "Save") {
                     let request = self.project.save_request();
-                    self.run(FileJob::SaveProject, &request);
+                    self.run(FileJob::SaveProject, request);
                 }
                 if item(ui, "Remove all photographs") {
                     send(Event::Clear);

@@ -1,60 +1,49 @@
 //! Results of file jobs: files to save, projects to open, frames of videos.
 
 use super::App;
-use crate::project::{Event, count};
-use crate::session::{FileJob, Host};
-use crate::tasks::{Answer, Blob};
+use crate::project::Blob;
+use crate::session::{Event, FileJob, Host, count};
+use crate::tasks::{ChooseFrame, Export, OpenProject, Opened, SaveProject, Task, WritePicture};
 
 impl<H: Host> App<H> {
     /// Handles the result of a file job.
     pub(super) fn finish(&mut self, job: FileJob, result: Result<Vec<u8>, String>) {
-        let answer = result.and_then(|bytes| Answer::from_bytes(&bytes));
-        match job {
-            FileJob::Frames(video) => self.take_frames(video, answer),
-            FileJob::Store => self.take_written(answer),
-            FileJob::Restore => self.restore(answer),
-            _ => {
-                self.storage.is_restored = false;
-                self.news = Some(self.take_file(job, answer));
-            }
-        }
+        let done = match job {
+            FileJob::SaveReconstruction => self.save::<Export>("reconstruction.zip", result),
+            FileJob::SaveProject => self.save::<SaveProject>("project.zip", result),
+            FileJob::SaveView => self.save::<WritePicture>("view.png", result),
+            FileJob::Open => read::<OpenProject>(result).map(|opened| {
+                self.open(opened);
+                "The project is open.".to_owned()
+            }),
+            FileJob::Frames(video) => return self.take_frames(video, read::<ChooseFrame>(result)),
+            FileJob::Store => return self.take_written(read::<SaveProject>(result)),
+            FileJob::Restore => return self.restore(read::<OpenProject>(result)),
+        };
+        self.storage.is_restored = false;
+        let (Ok(sentence) | Err(sentence)) = done;
+        self.news = Some(sentence);
     }
 
-    /// Saves or opens a file. Returns the message to show.
-    fn take_file(&mut self, job: FileJob, answer: Result<Answer, String>) -> String {
-        let mut save = |name: &str, bytes: Blob| {
-            let (Ok(sentence) | Err(sentence)) = self.host.save(name, bytes.to_vec());
-            sentence
-        };
-        match (job, answer) {
-            (_, Err(sentence)) => sentence,
-            (FileJob::SaveReconstruction, Ok(Answer::Archive(bytes))) => {
-                save("reconstruction.zip", bytes)
-            }
-            (FileJob::SaveProject, Ok(Answer::Archive(bytes))) => save("project.zip", bytes),
-            (FileJob::SaveView, Ok(Answer::Archive(bytes))) => save("view.png", bytes),
-            (
-                FileJob::Open,
-                Ok(Answer::Opened {
-                    project,
-                    files,
-                    computed,
-                }),
-            ) => {
-                let event = Event::OpenProject(Box::new(project), files);
-                self.project.update(event);
-                self.project.bring(computed);
-                "The project is open.".to_owned()
-            }
-            (_, Ok(_)) => "an unexpected answer arrived".to_owned(),
-        }
+    /// Saves the file that a task has written. Returns the message to show.
+    fn save<T: Task<Output = Blob>>(
+        &mut self,
+        name: &str,
+        result: Result<Vec<u8>, String>,
+    ) -> Result<String, String> {
+        self.host.save(name, read::<T>(result)?.to_vec())
+    }
+
+    fn open(&mut self, opened: Opened) {
+        let event = Event::OpenProject(Box::new(opened.project), opened.files);
+        self.project.update(event);
+        self.project.import(opened.computed);
     }
 
     /// Requests the next part of a video, or adds the frames of all parts.
-    fn take_frames(&mut self, video: u32, answer: Result<Answer, String>) {
-        let frames = match answer {
-            Ok(Answer::Frames(frames)) => frames,
-            Ok(_) => Vec::new(),
+    fn take_frames(&mut self, video: u32, frames: Result<Vec<(String, Blob)>, String>) {
+        let frames = match frames {
+            Ok(frames) => frames,
             Err(sentence) => {
                 self.videos.give_up(video, &mut self.host);
                 self.news = Some(sentence);
@@ -75,28 +64,21 @@ impl<H: Host> App<H> {
     }
 
     /// Hands the written project to the browser.
-    fn take_written(&mut self, answer: Result<Answer, String>) {
-        match answer {
+    fn take_written(&mut self, written: Result<Blob, String>) {
+        match written {
             // It may have been erased meanwhile.
             _ if !self.storage.is_open() => {}
-            Ok(Answer::Archive(bytes)) => self.host.keep(bytes.to_vec()),
-            Ok(_) => {}
+            Ok(bytes) => self.host.keep(bytes.to_vec()),
             Err(sentence) => self.not_stored(&sentence, false),
         }
     }
 
     /// Opens the stored project, at the current step.
-    fn restore(&mut self, answer: Result<Answer, String>) {
-        match answer {
-            Ok(Answer::Opened {
-                project,
-                files,
-                computed,
-            }) => {
+    fn restore(&mut self, opened: Result<Opened, String>) {
+        match opened {
+            Ok(opened) => {
                 let step = self.project.view().step;
-                let event = Event::OpenProject(Box::new(project), files);
-                self.project.update(event);
-                self.project.bring(computed);
+                self.open(opened);
                 self.project.update(Event::Show(step));
                 // The state before the restore was never visible.
                 self.project.clear_history();
@@ -106,7 +88,6 @@ impl<H: Host> App<H> {
                         .to_owned(),
                 );
             }
-            Ok(_) => {}
             Err(sentence) => {
                 self.news = Some(format!(
                     "The kept project does not open: {sentence}. It stays until you forget it in the Project menu."
@@ -114,4 +95,9 @@ impl<H: Host> App<H> {
             }
         }
     }
+}
+
+/// The output of a task.
+fn read<T: Task>(result: Result<Vec<u8>, String>) -> Result<T::Output, String> {
+    T::read(&result?)
 }

@@ -1,15 +1,15 @@
 //! The app: a bar, the steps, and the picture and controls of the current step.
 
+use crate::panels::{self, Action, Panel, Screen, Views};
+use crate::project::{Project, Sample, Step};
+use crate::session::{Arrival, Event, FileJob, Host, Jobs, Storage, Videos};
+use crate::tasks::{Request, WritePicture};
 mod arrivals;
 mod bar;
 mod files;
 mod steps;
 
 use crate::panels::widgets::{controls, look};
-use crate::panels::{self, Action, Panel, Screen, Views};
-use crate::project::{Event, Project, Step};
-use crate::session::{Arrival, FileJob, Host, Jobs, Storage, Videos};
-use crate::tasks::{Request, Sample};
 use egui::{CentralPanel, Panel as Area, ScrollArea, Ui};
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -244,12 +244,12 @@ impl<H: Host> App<H> {
             }
             Action::SaveReconstruction => {
                 if let Some(request) = self.project.export_request() {
-                    self.run(FileJob::SaveReconstruction, &request);
+                    self.run(FileJob::SaveReconstruction, request);
                 }
             }
             Action::SaveView => {
                 if let Some((width, rgba)) = self.views.cloud.pixels() {
-                    self.run(FileJob::SaveView, &Request::Picture { width, rgba });
+                    self.run(FileJob::SaveView, WritePicture { width, rgba });
                 }
             }
             Action::SaveCamera => {
@@ -263,11 +263,11 @@ impl<H: Host> App<H> {
     }
 
     /// Starts a file job, unless one of its kind is running.
-    fn run(&mut self, job: FileJob, request: &Request) {
+    fn run(&mut self, job: FileJob, task: impl Into<Request>) {
         if !self.jobs.runs(job) {
             self.news = None;
             self.storage.is_restored = false;
-            self.jobs.start_file(job, request, &mut self.host);
+            self.jobs.start_file(job, &task.into(), &mut self.host);
         }
     }
 
@@ -285,7 +285,7 @@ impl<H: Host> App<H> {
             Some(_) if self.jobs.runs(FileJob::Store) || self.jobs.runs(FileJob::Open) => {}
             Some(_) => {
                 self.storage.begin(key);
-                let request = self.project.keep_request();
+                let request = self.project.keep_request().into();
                 self.jobs
                     .start_file(FileJob::Store, &request, &mut self.host);
             }

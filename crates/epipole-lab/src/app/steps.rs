@@ -1,7 +1,8 @@
 //! The steps to choose from: below each other, or in one row that scrolls where there is no room.
 
 use crate::panels::Action;
-use crate::project::{Event, Project, Step};
+use crate::project::{Project, Step};
+use crate::session::Event;
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
 use egui::{Align, Layout, Response, ScrollArea, Ui};

@@ -8,7 +8,7 @@ use dialog::Wanted;
 use epipole_lab::app::{App, prepare};
 use epipole_lab::project::Explanation;
 use epipole_lab::session::{Arrival, Host, JobId, Report};
-use epipole_lab::tasks::{Branch, Told, compute};
+use epipole_lab::tasks::{Branch, Progress, compute};
 pub(crate) use memory::give_back;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -140,10 +140,10 @@ impl Host for Window {
         std::thread::spawn(move || {
             // The window may be gone by now.
             let tell = |report| drop(sender.send(report));
-            let mut progress = |told: Told<'_>| {
-                tell(match told {
-                    Told::Share(share, words) => Report::Progress(job, share, words.to_owned()),
-                    Told::SoFar(bytes) => Report::Partial(job, bytes),
+            let mut progress = |told: Progress<'_>| {
+                tell(match progress {
+                    Progress::Share(share, words) => Report::Progress(job, share, words.to_owned()),
+                    Progress::Partial(bytes) => Report::Partial(job, bytes),
                 });
                 context.request_repaint();
                 match stop.load(Ordering::Relaxed) {

@@ -5,8 +5,9 @@ use super::screen::{Panel, Screen};
 use super::widgets::controls::{self, Change};
 use super::widgets::strips::Strips;
 use super::widgets::{look, photo};
-use crate::project::{Event, Key, Step};
-use crate::tasks::{Dense, DepthMethod};
+use crate::project::{DepthMethod, Key, Step};
+use crate::session::Event;
+use crate::tasks::{Dense, DepthOf, Query};
 use egui::{Color32, ColorImage, Rect, Slider, Ui};
 use epipole_canvas::theme::{Role, Theme};
 use std::ops::Range;
@@ -63,8 +64,8 @@ impl Panel for Depth {
         let pair = document.pair(project.view().pair);
         let found = pair.and_then(|(first, second)| {
             Some((
-                project.depth_key(first, second)?,
-                project.depth(first, second)?,
+                DepthOf(first.id, second.id).key(project)?,
+                project.get(DepthOf(first.id, second.id))?,
             ))
         });
         let Some((key, found)) = found else {
@@ -124,7 +125,7 @@ impl Panel for Depth {
         controls::choose_pair(screen, ui);
         ui.label(project.describe());
         let pair = project.document().pair((a, b));
-        let found = pair.and_then(|(first, second)| project.depth(first, second));
+        let found = pair.and_then(|(first, second)| project.get(DepthOf(first.id, second.id)));
         if let Some(found) = found {
             let mut is_part = project.document().is_dense((a, b));
             if ui

@@ -3,8 +3,9 @@
 use super::screen::{Panel, Screen};
 use super::widgets::controls::{self, Change};
 use super::widgets::{look, photo};
-use crate::project::{Event, Step};
-use crate::tasks::{Feature, FeatureKind};
+use crate::project::{FeatureKind, Step};
+use crate::session::Event;
+use crate::tasks::{Feature, FeaturesOf};
 use egui::{Shape, Slider, Stroke, Ui};
 use epipole_canvas::theme::Role;
 
@@ -32,7 +33,7 @@ impl Panel for Features {
             .pictures
             .full(ui, project.key_of_photograph(given), pixels);
         let shown = photo::show(ui, rect, &full, &mut views.lenses[0], &given.name);
-        let Some(found) = project.features(given) else {
+        let Some(found) = project.get(FeaturesOf(given.id)) else {
             return;
         };
         if let Some([u, v]) = shown.clicked() {
@@ -68,7 +69,7 @@ impl Panel for Features {
             self.selected = None;
         }
         let given = project.document().photo(current);
-        let found = given.and_then(|given| project.features(given));
+        let found = given.and_then(|given| project.get(FeaturesOf(given.id)));
         if let Some(found) = found {
             let shown = match found.list.len() > MAX_DRAWN {
                 true => format!("{}; the {MAX_DRAWN} strongest are drawn", found.list.len()),

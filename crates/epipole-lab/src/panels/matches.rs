@@ -2,8 +2,9 @@
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look};
-use crate::project::{Event, Given, Step};
-use crate::tasks::Shows;
+use crate::project::{Given, Step};
+use crate::session::Event;
+use crate::tasks::{MatchesOf, Shows, TwoViewsOf};
 use egui::{Align2, Color32, FontId, Rect, ScrollArea, Sense, Slider, Ui, pos2, vec2};
 use epipole_canvas::theme::Role;
 
@@ -77,8 +78,8 @@ fn cell(screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, first: &Given, second:
         ui.scope_id().with((first.id, second.id)),
         Sense::click(),
     );
-    let pair = project.two_views(first, second);
-    let total = project.matches(first, second).map(|m| m.len());
+    let pair = project.get(TwoViewsOf(first.id, second.id));
+    let total = project.get(MatchesOf(first.id, second.id)).map(|m| m.len());
     let words = match (pair, total) {
         (Some(pair), Some(total)) => format!(
             "{} and {}: {} of {total} matches agree. {}",

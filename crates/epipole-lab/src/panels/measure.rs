@@ -2,7 +2,8 @@
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look};
-use crate::project::{Event, Measure, Step};
+use crate::project::{Measure, Step};
+use crate::session::Event;
 use egui::{DragValue, Stroke, Ui};
 use epipole_canvas::theme::Role;
 

@@ -2,7 +2,9 @@
 
 use super::screen::{Action, Panel, Screen};
 use super::widgets::{controls, look};
-use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, PhotoId, Step};
+use crate::project::{Given, MAX_FRAMES, Outcome, PhotoId, Step};
+use crate::session::Event;
+use crate::tasks::FocalOrigin;
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
@@ -49,12 +51,12 @@ impl Panel for Photographs {
         }
         let left_out = project.left_out();
         // The state of the selected photograph is already shown above.
-        let is_other = |(id, _): &&(PhotoId, Fate)| *id != project.view().photo;
+        let is_other = |(id, _): &&(PhotoId, Outcome)| *id != project.view().photo;
         if left_out.iter().any(|photo| is_other(&photo)) {
             ui.strong(format!("Left out: {}", left_out.len()));
             for (id, _) in left_out.iter().filter(is_other) {
                 if let Some(photo) = project.document().photo(*id) {
-                    let words = format!("{}: {}", photo.name, project.fate_words(photo));
+                    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
                     ui.colored_label(look::color(ui, Role::Outlier), words);
                 }
             }
@@ -78,12 +80,12 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
     let (whole, response) =
         ui.allocate_exact_size(vec2(width, 0.75 * width + NAME), Sense::click());
     let (rect, below) = whole.split_top_bottom_at_y(whole.bottom() - NAME);
-    let fate = project.fate(photo);
-    let words = format!("{}: {}", photo.name, project.fate_words(photo));
+    let outcome = project.outcome(photo);
+    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words));
     ui.painter()
         .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
-    let is_out = !matches!(fate, Fate::Registered(_) | Fate::Open);
+    let is_out = !matches!(outcome, Outcome::Registered(_) | Outcome::Pending);
     if let Some(pixels) = project.shown(photo) {
         let key = project.key_of_photograph(photo);
         let texture = screen.views.pictures.small(ui, key, pixels);
@@ -121,7 +123,7 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
 fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
     let project = screen.project;
     ui.strong(&photo.name);
-    ui.label(project.fate_words(photo));
+    ui.label(project.outcome_words(photo));
     if let (Some(pixels), Some(camera)) = (project.shown(photo), project.camera(photo)) {
         let (width, height) = pixels.full_size;
         let mut size = format!("{width} × {height}");

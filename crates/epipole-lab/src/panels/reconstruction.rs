@@ -4,7 +4,9 @@ use super::screen::{Panel, Screen};
 use super::widgets::cloud::{CloudView, Coloring};
 use super::widgets::controls::{self, Change};
 use super::widgets::{look, observations};
-use crate::project::{Event, Project, RefineFocal, Step};
+use crate::project::{Project, RefineFocal, Step};
+use crate::session::Event;
+use crate::tasks::ReconstructionOfAll;
 use egui::{Slider, Ui};
 use epipole_canvas::theme::Role;
 
@@ -23,7 +25,7 @@ impl Panel for Reconstruction {
         if project.component().is_some() {
             for (id, _) in &project.left_out() {
                 if let Some(photo) = project.document().photo(*id) {
-                    let words = format!("{}: {}", photo.name, project.fate_words(photo));
+                    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
                     ui.colored_label(look::color(ui, Role::Outlier), words);
                 }
             }
@@ -73,7 +75,7 @@ fn why_none(project: &Project) -> String {
     let mut words = project.describe();
     for (id, _) in project.left_out() {
         if let Some(photo) = project.document().photo(id) {
-            let told = format!("{}: {}", photo.name, project.fate_words(photo));
+            let told = format!("{}: {}", photo.name, project.outcome_words(photo));
             words = words.replace(&format!(" {told}"), &format!("\n{told}"));
         }
     }
@@ -106,7 +108,7 @@ fn view(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
 
 fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
     let project = screen.project;
-    let Some(found) = project.reconstruction() else {
+    let Some(found) = project.get(ReconstructionOfAll) else {
         // The view grows meanwhile, without a progress bar.
         if project.growing().is_some() {
             ui.label(project.describe());

@@ -2,7 +2,8 @@
 
 use super::widgets::cloud::CloudView;
 use super::widgets::photo::{Lens, Pictures};
-use crate::project::{Event, Project, Settings};
+use crate::project::{Project, Settings};
+use crate::session::Event;
 use egui::Ui;
 
 /// Request of a panel to the app.

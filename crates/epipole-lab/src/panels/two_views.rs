@@ -3,7 +3,7 @@
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look, photo};
 use crate::project::{Given, Step};
-use crate::tasks::ViewModel;
+use crate::tasks::{FeaturesOf, MatchesOf, TwoViewsOf, ViewModel};
 use egui::{Align, Layout, Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
@@ -42,8 +42,8 @@ impl Panel for TwoViews {
             .full(ui, project.key_of_photograph(second), two);
         let shown2 = photo::show(ui, right, &full, lens2, &second.name);
         let (Some(places), Some(pair)) = (
-            project.match_places(first, second),
-            project.two_views(first, second),
+            MatchesOf(first.id, second.id).places(project),
+            project.get(TwoViewsOf(first.id, second.id)),
         ) else {
             return;
         };
@@ -118,8 +118,8 @@ impl Panel for TwoViews {
         let document = project.document();
         if let (Some(first), Some(second)) = (document.photo(a), document.photo(b))
             && let (Some(pair), Some(matches)) = (
-                project.two_views(first, second),
-                project.matches(first, second),
+                project.get(TwoViewsOf(first.id, second.id)),
+                project.get(MatchesOf(first.id, second.id)),
             )
         {
             let (name, values) = match &pair.model {
@@ -232,7 +232,8 @@ fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&Given; 2], features: 
     let project = screen.project;
     ui.horizontal(|ui| {
         for (photo, index) in photos.into_iter().zip(features) {
-            let (Some(pixels), Some(found)) = (project.shown(photo), project.features(photo))
+            let (Some(pixels), Some(found)) =
+                (project.shown(photo), project.get(FeaturesOf(photo.id)))
             else {
                 continue;
             };

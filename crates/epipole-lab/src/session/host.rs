@@ -1,7 +1,7 @@
 //! Interface to the environment of the Lab: a window or a page.
 
-use crate::project::Explanation;
-use crate::tasks::{Blob, Branch};
+use crate::project::{Blob, Explanation};
+use crate::tasks::Branch;
 
 /// Identifier of a job.
 pub type JobId = u64;

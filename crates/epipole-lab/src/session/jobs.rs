@@ -1,7 +1,8 @@
 //! Running jobs: as many as the environment allows, and only those still needed.
 
 use super::host::{Host, JobId, Report};
-use crate::project::{About, Project, Task};
+use super::queue::Pending;
+use crate::project::Project;
 use crate::tasks::Request;
 use std::collections::VecDeque;
 
@@ -38,7 +39,7 @@ impl FileJob {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Subject {
     /// A result of the project.
-    Output(Task),
+    Output(Pending),
     File(FileJob),
 }
 
@@ -99,16 +100,16 @@ impl Jobs {
             }
             Report::Partial(id, bytes) => {
                 let job = self.running.iter().find(|job| job.id == id)?;
-                if let Subject::Output(task) = &job.subject {
-                    project.so_far(task.key, &bytes);
+                if let Subject::Output(pending) = &job.subject {
+                    project.so_far(pending, &bytes);
                 }
             }
             Report::Done(id, result) => match self.ended(id)? {
-                Subject::Output(task) => project.done(task.key, result),
+                Subject::Output(pending) => project.done(&pending, result),
                 Subject::File(job) => return Some((job, result)),
             },
             Report::Broken(id, sentence) => match self.ended(id)? {
-                Subject::Output(task) => project.broke_down(task.key, sentence),
+                Subject::Output(pending) => project.broke_down(&pending, sentence),
                 Subject::File(job) => return Some((job, Err(sentence))),
             },
         }
@@ -132,21 +133,21 @@ impl Jobs {
             return;
         }
         self.checked = Some(project.revision());
-        let wanted = match is_held {
+        let all = match is_held {
             true => Vec::new(),
-            false => project.wanted(),
+            false => project.pending(),
         };
         self.running.retain(|job| match &job.subject {
             Subject::File(_) => true,
-            Subject::Output(task) => {
-                let is_needed = wanted.iter().any(|other| other.key == task.key);
+            Subject::Output(pending) => {
+                let is_needed = all.iter().any(|other| other.key == pending.key);
                 if !is_needed {
                     host.cancel(job.id);
                 }
                 is_needed
             }
         });
-        for task in wanted {
+        for pending in all {
             if self.running.len() >= host.capacity() {
                 break;
             }
@@ -154,13 +155,12 @@ impl Jobs {
                 self.checked = None;
                 break;
             }
-            let is_of_task =
-                |job: &Job| matches!(&job.subject, Subject::Output(other) if other.key == task.key);
-            if self.running.iter().any(is_of_task) {
+            let is_same = |job: &Job| matches!(&job.subject, Subject::Output(other) if other.key == pending.key);
+            if self.running.iter().any(is_same) {
                 continue;
             }
-            if let Some(request) = project.request(&task) {
-                num_bytes += self.start(Subject::Output(task), &request, host);
+            if let Some(request) = pending.request(project) {
+                num_bytes += self.start(Subject::Output(pending), &request, host);
             }
         }
     }
@@ -220,7 +220,7 @@ impl Jobs {
             return Some((video?, 0.0));
         };
         let mut words = match &job.subject {
-            Subject::Output(task) => label(task.about, project),
+            Subject::Output(pending) => pending.query.label(project),
             Subject::File(FileJob::Frames(_)) if let Some(video) = video => video,
             Subject::File(job) => job.label().to_owned(),
         };
@@ -228,25 +228,5 @@ impl Jobs {
             words.push_str(&format!(": {}", job.stage));
         }
         Some((words, job.share))
-    }
-}
-
-fn label(about: About, project: &Project) -> String {
-    let document = project.document();
-    let name = |id| {
-        document
-            .photo(id)
-            .or(document.board(id))
-            .map_or("", |photo| &photo.name)
-    };
-    match about {
-        About::Photograph(id) => format!("Reading {}", name(id)),
-        About::Features(id) => format!("Finding features in {}", name(id)),
-        About::Matches(..) => "Matching pairs".to_owned(),
-        About::TwoViews(..) => "Verifying pairs".to_owned(),
-        About::Reconstruction => "Reconstructing".to_owned(),
-        About::Depth(..) => "Computing depth".to_owned(),
-        About::Board(id) => format!("Looking for the board in {}", name(id)),
-        About::Calibration => "Calibrating".to_owned(),
     }
 }

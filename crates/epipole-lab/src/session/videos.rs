@@ -2,7 +2,7 @@
 //! else.
 
 use super::host::Host;
-use crate::tasks::Blob;
+use crate::project::Blob;
 use std::collections::VecDeque;
 
 /// A video that is being read, or waits for it.

@@ -1,13 +1,15 @@
 //! The way between plain messages and the core.
 
+use super::camera_found::CameraFound;
 #[cfg(feature = "vision")]
-use super::Calibrated;
-use super::{BoardOptions, BoardPattern};
-use super::{CameraFound, ImagePoints, Photograph};
+use super::photograph::Calibrated;
+use super::photograph::Photograph;
+use super::reconstruction::ImagePoints;
 #[cfg(feature = "files")]
-use super::{Component, PointFound};
+use super::reconstruction::{Component, PointFound};
+use crate::project::{BoardOptions, BoardPattern};
 #[cfg(feature = "files")]
-use super::{LensCamera, LensModel};
+use crate::project::{LensCamera, LensModel};
 use epipole::calibration::{Board, Pattern};
 #[cfg(feature = "files")]
 use epipole::camera::{Camera, Lens, LensKind};
@@ -39,7 +41,7 @@ pub(super) fn unreadable(error: epipole::Error) -> String {
 }
 
 /// The pixels as an image.
-pub(crate) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
+pub(super) fn to_image(photograph: &Photograph) -> Result<RgbImage, String> {
     RgbImage::from_raw(
         photograph.width,
         photograph.height,
@@ -90,7 +92,7 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
 }
 
 /// The photographs as the core has them.
-pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
+pub(super) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
     let plain = |image: &ImagePoints| SfmImage {
         name: image.name.clone(),
         width: image.camera.width,
@@ -110,7 +112,7 @@ pub(crate) fn sfm_images(images: &[ImagePoints]) -> Vec<SfmImage> {
 ///
 /// # Errors
 /// A sentence, if its numbers are no camera's.
-pub(crate) fn core_camera(
+pub(super) fn core_camera(
     camera: &CameraFound,
     (width, height): (u32, u32),
     lens: Lens,
@@ -139,7 +141,7 @@ pub(crate) fn core_camera(
 ///
 /// # Errors
 /// As [`core_camera`].
-pub(crate) fn core_reconstruction(
+pub(super) fn core_reconstruction(
     component: &Component,
     images: &[ImagePoints],
 ) -> Result<Reconstruction, String> {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Blob;
+use crate::project::Blob;
 
 /// Width of a small photograph, pixels, or a little less.
 #[cfg(feature = "files")]

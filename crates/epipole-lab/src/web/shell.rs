@@ -1,8 +1,8 @@
 //! The page's side: functions of its script, and input that waits for the next frame.
 
-use crate::project::Explanation;
+use crate::project::{Blob, Explanation};
 use crate::session::{Arrival, Host, JobId, Report};
-use crate::tasks::{Blob, Branch};
+use crate::tasks::Branch;
 use std::cell::RefCell;
 use std::rc::Rc;
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -152,7 +152,7 @@ pub(crate) fn click(bench: &mut Bench<'_>, name: &str) {
 pub(crate) fn rest(bench: &mut Bench<'_>) {
     for _ in 0..200 {
         bench.step();
-        if !bench.state_mut().advance() && bench.state().project().wanted().is_empty() {
+        if !bench.state_mut().advance() && bench.state().project().pending().is_empty() {
             break;
         }
     }

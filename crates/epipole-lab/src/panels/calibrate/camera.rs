@@ -3,8 +3,9 @@
 use crate::panels::screen::{Action, Screen};
 use crate::panels::widgets::controls::{self, Change};
 use crate::panels::widgets::look;
-use crate::project::{BoardFate, Event, Given, MAX_MARKS, SQUARES_M, Step};
-use crate::tasks::{BoardPattern, Calibration, LensModel};
+use crate::project::{BoardPattern, Given, LensModel, MAX_MARKS, SQUARES_M, Step};
+use crate::session::{BoardOutcome, Event};
+use crate::tasks::{Calibration, CalibrationOfBoards};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
 use epipole_canvas::theme::Role;
 
@@ -33,7 +34,7 @@ pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut U
             screen.send(Event::UseCalibration(false));
         }
     }
-    match project.calibration() {
+    match project.get(CalibrationOfBoards) {
         Some(found) => camera(screen, found, all_marks, ui),
         None => drop(ui.label(project.calibrate_status())),
     }
@@ -189,8 +190,8 @@ fn one(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
     let project = screen.project;
     ui.strong(&given.name);
     let words = project.board_words(given);
-    match project.board_fate(given) {
-        BoardFate::Found(_) | BoardFate::Open => ui.label(words),
+    match project.board_outcome(given) {
+        BoardOutcome::Found(_) | BoardOutcome::Pending => ui.label(words),
         _ => ui.colored_label(look::color(ui, Role::Outlier), words),
     };
     ui.horizontal_wrapped(|ui| {

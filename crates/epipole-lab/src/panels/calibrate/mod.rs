@@ -1,11 +1,12 @@
 //! A camera from photographs of a board: where its marks are, and how sure the camera is.
 
+use crate::project::Given;
+use crate::session::{BoardOutcome, Event};
+use crate::tasks::{BoardFound, BoardOf};
 mod camera;
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look, photo};
-use crate::project::{BoardFate, Event, Given};
-use crate::tasks::BoardFound;
 use egui::{Rect, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
@@ -51,7 +52,7 @@ impl Panel for Calibrate {
 impl Calibrate {
     fn large(&mut self, screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, given: &Given) {
         let project = screen.project;
-        let Some(found) = project.board(given) else {
+        let Some(found) = project.get(BoardOf(given.id)) else {
             ui.painter()
                 .rect_filled(rect, 0.0, look::color(ui, Role::Surface));
             return;
@@ -67,7 +68,9 @@ impl Calibrate {
         if self.all_marks {
             let dot = look::of(Theme::Dark, Role::Inlier);
             let others = project.boards_taking_part();
-            let others = others.iter().filter_map(|other| project.board(other));
+            let others = others
+                .iter()
+                .filter_map(|other| project.get(BoardOf(other.id)));
             let same = others.filter(|other| other.picture.full_size == found.picture.full_size);
             let dots =
                 same.flat_map(|other| other.marks.iter().flatten().map(|mark| at(other, *mark)));
@@ -105,8 +108,8 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
             .widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words));
         let painter = ui.painter();
         painter.rect_filled(rect, 3.0, look::color(ui, Role::Surface));
-        let fate = project.board_fate(given);
-        if let Some(found) = project.board(given) {
+        let outcome = project.board_outcome(given);
+        if let Some(found) = project.get(BoardOf(given.id)) {
             let texture = (screen.views.pictures)
                 .small(ui, project.key_of_board(given), &found.picture)
                 .clone();
@@ -114,8 +117,8 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
             let fit = (rect.width() / size.x).min(rect.height() / size.y);
             let place = Rect::from_center_size(rect.center(), size * fit);
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            let tint = match fate {
-                BoardFate::Found(_) => egui::Color32::WHITE,
+            let tint = match outcome {
+                BoardOutcome::Found(_) => egui::Color32::WHITE,
                 _ => egui::Color32::from_gray(110),
             };
             ui.painter().image(texture.id(), place, whole, tint);
@@ -128,15 +131,15 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
         if response.clicked() {
             screen.send(Event::Look(given.id));
         }
-        let short = match fate {
-            BoardFate::Found(_) => match project.view_of(given) {
+        let short = match outcome {
+            BoardOutcome::Found(_) => match project.view_of(given) {
                 Some(rms_px) => format!("found, {rms_px:.2} px"),
                 None => "found".to_owned(),
             },
-            BoardFate::Open => "…".to_owned(),
-            BoardFate::Excluded => "left out".to_owned(),
-            BoardFate::OtherSize(..) => "another size".to_owned(),
-            BoardFate::NotFound(_) | BoardFate::Unreadable(_) => "not found".to_owned(),
+            BoardOutcome::Pending => "…".to_owned(),
+            BoardOutcome::Excluded => "left out".to_owned(),
+            BoardOutcome::OtherSize(..) => "another size".to_owned(),
+            BoardOutcome::NotFound(_) | BoardOutcome::Unreadable(_) => "not found".to_owned(),
         };
         ui.add(egui::Label::new(egui::RichText::new(short).small()).truncate());
     });

@@ -3,8 +3,9 @@
 use super::look;
 use super::marks::{add_dense, frustum, rays, standing};
 use super::steer::{frame, steer};
-use crate::project::{Floor, Key, Project};
-use crate::tasks::{Blob, Component};
+use crate::project::{Blob, Key, Project};
+use crate::session::Floor;
+use crate::tasks::{Component, Query, ReconstructionOfAll};
 use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
 use epipole_canvas::theme::{Role, Theme};
@@ -110,7 +111,7 @@ impl CloudView {
     /// Shows the part that is looked at. Returns the point that was clicked, if one was.
     pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
         let shown = project.component().or(project.growing());
-        let (Some(component), Some(key)) = (shown, project.key_of_reconstruction()) else {
+        let (Some(component), Some(key)) = (shown, ReconstructionOfAll.key(project)) else {
             return None;
         };
         self.make(project, component, key, look::theme(ui));

@@ -2,7 +2,8 @@
 
 use super::menu;
 use crate::panels::screen::Screen;
-use crate::project::{Event, Project, Settings, Step};
+use crate::project::{Project, Settings, Step};
+use crate::session::Event;
 use egui::{Response, Slider, Ui};
 
 /// Change by a control.

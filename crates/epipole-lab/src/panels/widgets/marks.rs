@@ -1,7 +1,7 @@
 //! Marks besides the points: cameras, the rays of one point, and its observations.
 
 use crate::project::Project;
-use crate::tasks::{CameraFound, Component, Thumbnail};
+use crate::tasks::{CameraFound, Component, FeaturesOf, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64
     };
     let sight = |&(image, keypoint): &(u32, u32)| {
         let photo = photos.get(image as usize)?;
-        let features = project.features(photo)?;
+        let features = project.get(FeaturesOf(photo.id))?;
         let seen = features.list.get(keypoint as usize)?;
         let camera = component.cameras.get(image as usize)?.as_ref()?;
         let [u, v] = camera.project(point.position, &component.lens)?;

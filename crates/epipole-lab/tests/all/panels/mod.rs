@@ -34,13 +34,13 @@ fn the_line_from_the_sample_to_a_file() {
     click(&mut bench, "SIFT");
     for _ in 0..200 {
         bench.step();
-        if bench.state().project().wanted().is_empty() {
+        if bench.state().project().pending().is_empty() {
             break;
         }
     }
     click(&mut bench, "Undo");
     assert!(
-        bench.state().project().wanted().is_empty(),
+        bench.state().project().pending().is_empty(),
         "undo is instant"
     );
 
@@ -86,7 +86,7 @@ fn a_board_gives_a_camera_and_its_file() {
     click(&mut bench, "fisheye");
     rest(&mut bench);
     let lens = |bench: &Bench<'_>| bench.state().project().document().settings.calibration.lens;
-    assert_eq!(lens(&bench), epipole_lab::tasks::LensModel::Fisheye);
+    assert_eq!(lens(&bench), epipole_lab::project::LensModel::Fisheye);
     click(&mut bench, "Undo");
     bench.get_by_label_contains("board-3.png: 54 marks").click();
     bench.run_steps(3);

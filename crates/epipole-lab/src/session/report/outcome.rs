@@ -1,0 +1,203 @@
+//! Outcome for each photograph, with advice.
+
+use crate::project::{Given, Outcome, PhotoId, Project};
+use crate::tasks::{
+    Component, FeaturesOf, FocalOrigin, MatchesOf, PhotographOf, ReconstructionOfAll, Shows,
+    TwoViewsOf,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Fewer features than this are few.
+const FEW_FEATURES: usize = 60;
+
+impl Project {
+    /// Outcome for a photograph.
+    pub fn outcome(&self, photo: &Given) -> Outcome {
+        let mut kept = self.outcomes.borrow_mut();
+        if kept.0 != self.revision {
+            *kept = (self.revision, BTreeMap::new());
+        }
+        let outcome = kept.1.entry(photo.id);
+        outcome.or_insert_with(|| self.find_outcome(photo)).clone()
+    }
+
+    fn find_outcome(&self, photo: &Given) -> Outcome {
+        if photo.excluded {
+            return Outcome::Excluded;
+        }
+        if let Some(twin) = self.document.twin(photo) {
+            return Outcome::Duplicate(twin.name.clone());
+        }
+        let failure = self.failure(PhotographOf(photo.id));
+        if let Some(why) = failure.or_else(|| self.failure(FeaturesOf(photo.id))) {
+            return Outcome::Unreadable(why.to_owned());
+        }
+        let all = self.taking_part();
+        if all.len() < 2 {
+            return match self.get(PhotographOf(photo.id)) {
+                Some(_) => Outcome::Alone,
+                None => Outcome::Pending,
+            };
+        }
+        if let Some(why) = self.failure(ReconstructionOfAll) {
+            return Outcome::Failed(why.to_owned());
+        }
+        let (Some(found), Some(place)) = (self.get(ReconstructionOfAll), self.place(photo.id))
+        else {
+            return Outcome::Pending;
+        };
+        let looked_at = found.components.get(self.view.component);
+        if let Some(component) = looked_at
+            && component.cameras.get(place).is_some_and(Option::is_some)
+        {
+            let sees = |track: &[(u32, u32)]| track.iter().any(|(of, _)| *of as usize == place);
+            let points = component.points.iter();
+            return Outcome::Registered(points.filter(|point| sees(&point.track)).count());
+        }
+        let has = |c: &Component| c.cameras.get(place).is_some_and(Option::is_some);
+        if let Some(part) = found.components.iter().position(has) {
+            return Outcome::OtherPart(part);
+        }
+        self.why_left_out(photo, looked_at, &all)
+    }
+
+    fn why_left_out(
+        &self,
+        photo: &Given,
+        component: Option<&Component>,
+        all: &[&Given],
+    ) -> Outcome {
+        let num_features = self.get(FeaturesOf(photo.id)).map_or(0, |f| f.list.len());
+        if num_features < FEW_FEATURES {
+            return Outcome::FewFeatures(num_features);
+        }
+        let enough = self.document.settings.sfm.min_num_inliers;
+        let (mut most, mut moves) = (0, 0);
+        let mut turns = 0;
+        // Focal factors of the pairs with pure rotation: a small rotation fits with any factor.
+        let mut factors = Vec::new();
+        // Keypoints that agree with a point which other photographs gave.
+        let mut seen = BTreeSet::new();
+        for other in all.iter().filter(|other| other.id != photo.id) {
+            let is_first = self.place(photo.id) < self.place(other.id);
+            let (first, second) = if is_first {
+                (photo, *other)
+            } else {
+                (*other, photo)
+            };
+            let (Some(pair), Some(matches)) = (
+                self.get(TwoViewsOf(first.id, second.id)),
+                self.get(MatchesOf(first.id, second.id)),
+            ) else {
+                return Outcome::Pending;
+            };
+            most = most.max(pair.num_inliers);
+            if pair.num_inliers < enough {
+                continue;
+            }
+            match pair.shows {
+                Shows::Turn => {
+                    turns += 1;
+                    factors.extend(pair.focal_factor);
+                }
+                Shows::Depth | Shows::Plane => moves += 1,
+                Shows::Nothing => {}
+            }
+            let Some(there) = component.zip(self.place(other.id)) else {
+                continue;
+            };
+            let points = points_seen(there.0, there.1);
+            let inliers = matches
+                .iter()
+                .zip(&pair.inliers)
+                .filter(|(_, inlier)| **inlier);
+            for (m, _) in inliers {
+                let (own, of_other) = if is_first {
+                    (m.first, m.second)
+                } else {
+                    (m.second, m.first)
+                };
+                if points.contains(&of_other) {
+                    seen.insert(own);
+                }
+            }
+        }
+        match (turns, moves) {
+            (0, 0) => Outcome::OverlapsNone(most as usize),
+            (_, 0) => {
+                let focal_px = |factor| self.focal_px(photo, factor).round() as u32;
+                Outcome::OnlyTurned(median(factors).map(focal_px))
+            }
+            _ if seen.len() < enough as usize => Outcome::SeesFew(seen.len()),
+            _ => Outcome::NoPlace(seen.len()),
+        }
+    }
+
+    /// Outcome for a photograph in words, with advice.
+    pub fn outcome_words(&self, photo: &Given) -> String {
+        let enough = self.document.settings.sfm.min_num_inliers;
+        let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
+        match self.outcome(photo) {
+            Outcome::Pending => "being processed".to_owned(),
+            Outcome::Registered(points) => format!("has a camera, sees {points} points"),
+            Outcome::Excluded => "left out by you".to_owned(),
+            Outcome::Duplicate(name) => {
+                format!("the same file as {name}. The same photograph twice shows no depth: take another, a step to the side")
+            }
+            Outcome::Unreadable(why) => format!("cannot be read: {why}"),
+            Outcome::Alone => {
+                "alone. One photograph gives directions, not distances: add another, taken a step to the side".to_owned()
+            }
+            Outcome::FewFeatures(count) => format!(
+                "only {count} features, which is too few: take it sharper, find more texture, or lower the contrast threshold"
+            ),
+            Outcome::OverlapsNone(most) => format!(
+                "overlaps no other photograph: at best {most} matches agree, and {enough} are needed. \
+                 Take one in between"
+            ),
+            Outcome::OnlyTurned(focal_px) => format!(
+                "the camera only turned between this one and the others{}, and turning shows no depth. Take a step to the \
+                 side between photographs",
+                focal_px.map_or(String::new(), |focal_px| format!(
+                    " if its focal length is near {focal_px} px"
+                ))
+            ),
+            Outcome::SeesFew(count) => format!(
+                "sees {count} of the {enough} points it needs. Take one between it and its neighbor"
+            ),
+            Outcome::NoPlace(count) if guessed => format!(
+                "sees {count} points, but they do not agree on where it was taken. Its focal length is only a guess: type the right one"
+            ),
+            Outcome::NoPlace(count) => {
+                format!("sees {count} points, but they do not agree on where it was taken. Something may have moved")
+            }
+            Outcome::OtherPart(part) => format!(
+                "belongs to part {}, which nothing joins to the part shown. Take one that shows both",
+                part + 1
+            ),
+            Outcome::Failed(why) => format!("nothing could be reconstructed: {why}"),
+        }
+    }
+
+    /// The photographs outside the current component, with their outcomes.
+    pub fn left_out(&self) -> Vec<(PhotoId, Outcome)> {
+        let photos = self.document.photos.iter();
+        photos
+            .map(|photo| (photo.id, self.outcome(photo)))
+            .filter(|(_, outcome)| !matches!(outcome, Outcome::Registered(_) | Outcome::Pending))
+            .collect()
+    }
+}
+
+/// The one in the middle.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// The keypoints of an image that show a point.
+fn points_seen(component: &Component, image: usize) -> BTreeSet<u32> {
+    let tracks = component.points.iter().flat_map(|point| &point.track);
+    let own = tracks.filter(|(of, _)| *of as usize == image);
+    own.map(|(_, keypoint)| *keypoint).collect()
+}
