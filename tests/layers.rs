@@ -346,7 +346,10 @@ fn modules_of_the_lab_run_one_way() {
     };
     for (module, named) in &imports {
         let later = named.iter().find(|other| rank(other) > rank(module));
-        assert!(later.is_none() || rank(module).is_none(), "{module:?} names {later:?}");
+        assert!(
+            later.is_none() || rank(module).is_none(),
+            "{module:?} names {later:?}"
+        );
     }
     let is_there = |module: &&str| imports.contains_key(&vec![(*module).to_owned()]);
     assert!(MODULES_OF_LAB.iter().all(is_there));

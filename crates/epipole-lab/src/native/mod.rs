@@ -4,7 +4,7 @@
 mod dialog;
 mod memory;
 
-use dialog::Wanted;
+use dialog::FileKind;
 use epipole_lab::app::{App, prepare};
 use epipole_lab::project::Explanation;
 use epipole_lab::session::{Arrival, Host, JobId, Report};
@@ -79,8 +79,8 @@ struct Window {
     canceled: HashMap<JobId, Arc<AtomicBool>>,
     arrivals: Vec<Arrival>,
     /// Channel for the results of dialogs.
-    bring: Sender<Vec<Arrival>>,
-    brought: Receiver<Vec<Arrival>>,
+    chosen_sender: Sender<Vec<Arrival>>,
+    chosen: Receiver<Vec<Arrival>>,
     /// Whether a dialog is open: one is enough.
     asks: Arc<AtomicBool>,
 }
@@ -88,31 +88,31 @@ struct Window {
 impl Window {
     fn new(context: egui::Context, arrivals: Vec<Arrival>) -> Self {
         let (sender, receiver) = channel();
-        let (bring, brought) = channel();
+        let (chosen_sender, chosen) = channel();
         Self {
             context,
             sender,
             receiver,
             canceled: HashMap::new(),
             arrivals,
-            bring,
-            brought,
+            chosen_sender,
+            chosen,
             asks: Arc::default(),
         }
     }
 
     /// Opens a dialog without blocking.
-    fn ask(&self, wanted: Wanted) {
+    fn ask(&self, kind: FileKind) {
         if self.asks.swap(true, Ordering::Relaxed) {
             return;
         }
-        let (asks, bring, context) = (
+        let (asks, chosen, context) = (
             Arc::clone(&self.asks),
-            self.bring.clone(),
+            self.chosen_sender.clone(),
             self.context.clone(),
         );
         std::thread::spawn(move || {
-            let arrivals = match dialog::ask(wanted) {
+            let arrivals = match dialog::ask(kind) {
                 Some(paths) => read(&paths),
                 None => {
                     let sentence = "There is no file dialog here: drop files onto this window, or name them when you start the Lab.";
@@ -121,7 +121,7 @@ impl Window {
             };
             asks.store(false, Ordering::Relaxed);
             // The window may be gone by now.
-            drop(bring.send(arrivals));
+            drop(chosen.send(arrivals));
             context.request_repaint();
         });
     }
@@ -140,7 +140,7 @@ impl Host for Window {
         std::thread::spawn(move || {
             // The window may be gone by now.
             let tell = |report| drop(sender.send(report));
-            let mut progress = |told: Progress<'_>| {
+            let mut monitor = |progress: Progress<'_>| {
                 tell(match progress {
                     Progress::Share(share, words) => Report::Progress(job, share, words.to_owned()),
                     Progress::Partial(bytes) => Report::Partial(job, bytes),
@@ -152,7 +152,7 @@ impl Host for Window {
                 }
             };
             // No shared state can be left inconsistent: a request goes in, an answer comes out.
-            let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut progress)));
+            let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut monitor)));
             tell(match computed {
                 Ok(result) => Report::Done(job, result),
                 Err(_) => Report::Broken(job, MISTAKE.to_owned()),
@@ -178,7 +178,7 @@ impl Host for Window {
     }
 
     fn arrivals(&mut self) -> Vec<Arrival> {
-        self.arrivals.extend(self.brought.try_iter().flatten());
+        self.arrivals.extend(self.chosen.try_iter().flatten());
         std::mem::take(&mut self.arrivals)
     }
 
@@ -187,12 +187,12 @@ impl Host for Window {
     }
 
     fn ask_for_photographs(&mut self) -> bool {
-        self.ask(Wanted::Photographs);
+        self.ask(FileKind::Photographs);
         true
     }
 
     fn ask_for_project(&mut self) -> bool {
-        self.ask(Wanted::Project);
+        self.ask(FileKind::Project);
         true
     }
 

@@ -174,7 +174,7 @@ impl Panel for Depth {
     }
 }
 
-/// Rows of a rectified photograph, which stands change: the black beyond its edges is left out.
+/// Rows of a rectified photograph, which is rotated: the black beyond its edges is left out.
 fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
     let size = [width, rows.len()];
     let mut image = ColorImage::from_rgb(size, &rgb[3 * width * rows.start..3 * width * rows.end]);
@@ -227,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_beyond_the_edges_of_a_change_photograph_is_left_out() {
+    fn what_is_beyond_the_edges_of_a_turned_photograph_is_left_out() {
         let gray = |level: u8| [level; 3];
         let rows = [[0, 7, 0, 7, 0], [0, 0, 0, 0, 0]].concat();
         let rgb: Vec<u8> = rows.into_iter().flat_map(gray).collect();

@@ -75,8 +75,8 @@ fn why_none(project: &Project) -> String {
     let mut words = project.describe();
     for (id, _) in project.left_out() {
         if let Some(photo) = project.document().photo(id) {
-            let told = format!("{}: {}", photo.name, project.outcome_words(photo));
-            words = words.replace(&format!(" {told}"), &format!("\n{told}"));
+            let line = format!("{}: {}", photo.name, project.outcome_words(photo));
+            words = words.replace(&format!(" {line}"), &format!("\n{line}"));
         }
     }
     words

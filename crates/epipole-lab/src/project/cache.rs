@@ -1,4 +1,4 @@
-//! Outputs of tasks, kept under a hash of their inputs, so that undo is instant.
+//! Outputs of tasks, cached under a hash of their inputs, so that undo is instant.
 
 use super::key::Key;
 use std::any::Any;

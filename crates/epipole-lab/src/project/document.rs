@@ -66,7 +66,7 @@ pub struct Measure {
 pub struct Document {
     /// The photographs, in order.
     pub photos: Vec<Given>,
-    /// All knobs.
+    /// Settings of all steps.
     pub settings: Settings,
     /// Measurements.
     pub measures: Vec<Measure>,

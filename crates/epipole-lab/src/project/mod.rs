@@ -1,4 +1,4 @@
-//! The open project as data: photographs, settings, view, and the outputs of tasks. No screen and no
+//! The open project as data: photographs, settings, view, and the outputs of tasks. No screen, no
 //! clock.
 
 mod board_options;

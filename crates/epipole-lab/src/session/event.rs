@@ -46,7 +46,7 @@ pub enum Event {
     Dense(PhotoId, PhotoId, bool),
     /// Took back the last change.
     Undo,
-    /// Brought it back.
+    /// Restored it.
     Redo,
     /// Looks at a step.
     Show(Step),

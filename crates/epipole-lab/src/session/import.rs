@@ -1,5 +1,5 @@
-//! Outputs in files: of a project, or of the sample. Each is taken when it is needed, and only if it
-//! is valid, as files are untrusted.
+//! Outputs in files of projects and of the sample. Files are untrusted: each output is taken when
+//! it is needed, and only if it is valid.
 
 use crate::project::{COMPUTED_BY, Computed, Key, Project};
 use crate::tasks::Destination;

@@ -1,4 +1,4 @@
-//! A step, a sample and settings as the parameters of an address, `step=matches&ratio=0.8`: both ways.
+//! Step, sample and settings as parameters of an address, `step=matches&ratio=0.8`: both ways.
 
 use super::event::Event;
 use crate::project::{
@@ -163,8 +163,8 @@ fn put<T: std::str::FromStr + PartialEq + Copy>(place: &mut T, written: &str) ->
 }
 
 impl Project {
-    /// Opens what an address asks for: `step`, `sample`, and any parameter. What is known is shown; of
-    /// what is not, a sentence each comes back.
+    /// Opens the step, the sample and the settings of an address. Returns a sentence for each
+    /// parameter that is not known or has no such value.
     pub fn open_link(&mut self, parameters: &[(String, String)]) -> Vec<String> {
         let mut problems = Vec::new();
         let mut settings = self.document.settings.clone();

@@ -1,7 +1,7 @@
 //! Which photographs have their pixels in memory: all of them may exceed the memory of a page. The
 //! others keep a thumbnail, and are read again from their files for display or computation.
 
-use crate::project::{Blob, Given, Key, PhotoId, Project};
+use crate::project::{Given, Key, PhotoId, Project};
 use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query};
 
 /// Maximum size of the pixels in memory, bytes, except for visible photographs.
@@ -100,7 +100,7 @@ impl Project {
         self.rereading = reading;
         for key in dropped {
             self.cache.shrink(key, |found: &mut Photograph| {
-                std::mem::replace(&mut found.rgb, Blob::default()).len()
+                std::mem::take(&mut found.rgb).len()
             });
         }
     }
@@ -153,7 +153,7 @@ mod tests {
         project
     }
 
-    /// Does the first task that is wanted, if it is to read a photograph or to find features.
+    /// Finishes the first pending task, if it reads a photograph or finds features.
     fn do_first(project: &mut Project) -> Option<Pending> {
         let pending = project.pending().into_iter().next()?;
         let output = match pending.query {

@@ -82,8 +82,8 @@ impl Project {
         self.document.photos.iter().chain(&self.document.boards)
     }
 
-    /// The task that writes a zip file, from which [`Event::OpenProject`](super::Event::OpenProject)
-    /// restores the project and [`Project::import`] its results.
+    /// The task that writes a zip file. [`Event::OpenProject`](super::Event::OpenProject) restores
+    /// the project from it, and [`Project::import`] its results.
     pub fn save_request(&self) -> SaveProject {
         self.save_request_with(self.computed())
     }

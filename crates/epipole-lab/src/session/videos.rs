@@ -1,5 +1,4 @@
-//! Videos, one after the other, part by part: of each part the sharpest frame is kept, and nothing
-//! else.
+//! Videos, one after the other, part by part: only the sharpest frame of each part is used.
 
 use super::host::Host;
 use crate::project::Blob;
@@ -19,7 +18,7 @@ struct Reading {
 pub(crate) struct Videos(VecDeque<Reading>);
 
 impl Videos {
-    /// Adds a video, of which `num_parts` frames are wanted.
+    /// Adds a video, of which `num_parts` frames are used.
     pub(crate) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
         self.0.push_back(Reading {
             video,

@@ -16,6 +16,35 @@ pub struct CameraFound {
 }
 
 impl CameraFound {
+    /// The camera as the core has it, the same to the last bit.
+    ///
+    /// * `width`, `height`: size of its image, pixels
+    ///
+    /// # Errors
+    /// A message for invalid numbers.
+    #[cfg(any(feature = "vision", feature = "files"))]
+    pub(super) fn posed(
+        &self,
+        (width, height): (u32, u32),
+        lens: Lens,
+    ) -> Result<epipole::camera::PosedCamera, String> {
+        use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
+        let [fu, fv, cu, cv] = self.intrinsics;
+        let [i, j, k, w] = self.rotation;
+        Ok(PosedCamera {
+            camera: Camera {
+                width,
+                height,
+                intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())?,
+                lens,
+            },
+            cam_from_world: RigidTransform::from_parts(
+                self.translation.into(),
+                UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
+            ),
+        })
+    }
+
     /// Position of the camera in the world.
     pub fn center(&self) -> Point3<f64> {
         let (rotation, origin) = self.transform(&Point3::origin());

@@ -1,7 +1,7 @@
 //! Code that finds the depth of a pair: rectified, matched along the rows.
 
 use super::camera_found::CameraFound;
-use super::convert::{core_camera, sentence, to_image};
+use super::convert::sentence;
 use super::dense::Dense;
 use super::depth::FindDepth;
 use super::depth_size::{common_size, reduced_factor, span};
@@ -18,15 +18,15 @@ use image::{GrayImage, RgbImage};
 use nalgebra::{Point3, UnitQuaternion};
 
 impl Run for FindDepth {
-    /// Rectifies and matches. Photographs of two sizes are brought to one first, in which a pixel
-    /// of either spans as large an angle.
+    /// Rectifies and matches. Photographs of two sizes are resized to one in which a pixel of
+    /// either spans as large an angle.
     fn run(self, monitor: Monitor<'_>) -> Result<Dense, String> {
         let options = &self.options;
         report(monitor, 0.02, "rectifying")?;
         let sizes = (self.photographs.each_ref()).map(|photo| [photo.width, photo.height]);
         let camera = |n: usize| {
             let [width, height] = sizes[n];
-            core_camera(&self.cameras[n], (width, height), Lens::NONE)
+            self.cameras[n].posed((width, height), Lens::NONE)
         };
         let cameras = [camera(0)?, camera(1)?];
         let size = common_size(
@@ -63,7 +63,7 @@ impl Run for FindDepth {
         };
         report(monitor, 0.06, "warping the photographs")?;
         let image =
-            |index: usize| Ok::<_, String>(resized(to_image(&self.photographs[index])?, small));
+            |index: usize| Ok::<_, String>(resized(self.photographs[index].to_image()?, small));
         let (first, second) = (image(order[0])?, image(order[1])?);
         let redrawn = RectifiedPair::new(&rig, [&first, &second]).map_err(sentence)?;
         let mut disparity = redrawn

@@ -163,12 +163,12 @@ impl Project {
 impl Run for FindFeatures {
     /// Finds features just as `epipole sfm` does.
     fn run(self, monitor: Monitor<'_>) -> Result<Features, String> {
-        use super::convert::{sentence, to_image};
+        use super::convert::sentence;
         use crate::project::FeatureKind;
         use epipole::feature::{self, Descriptors};
         use epipole::sfm::{Photo, PhotoOptions, photo_features};
         let photo = Photo {
-            image: to_image(&self.photograph)?,
+            image: self.photograph.to_image()?,
             ..Photo::default()
         };
         let mut how = PhotoOptions::default();

@@ -1,6 +1,6 @@
 //! The list of all tasks: what crosses to a worker, and what the project asks for.
 
-use super::task::{Destination, Monitor, Query, Task};
+use super::task::{Destination, Query, Task};
 use super::{
     BoardOf, Calibrate, CalibrationOfBoards, ChooseFrame, DepthOf, Export, FeaturesOf, FindBoard,
     FindDepth, FindFeatures, MatchFeatures, MatchesOf, OpenProject, PhotographOf, ReadPhotograph,
@@ -61,7 +61,7 @@ macro_rules! tasks {
         /// # Errors
         /// A message for people; also if the code of the task is in the other module of the Lab.
         #[cfg(any(feature = "vision", feature = "files"))]
-        pub fn compute(request: &[u8], monitor: Monitor<'_>) -> Result<Vec<u8>, String> {
+        pub fn compute(request: &[u8], monitor: super::Monitor<'_>) -> Result<Vec<u8>, String> {
             use super::task::Run;
             match Request::from_bytes(request)? {
                 $(#[cfg(feature = $feature)]

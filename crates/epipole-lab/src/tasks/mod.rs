@@ -52,6 +52,7 @@ pub use picture::WritePicture;
 pub use project_file::{OpenProject, Opened, Packed, SaveProject};
 pub use reconstruction::{
     Component, ImagePoints, PairOf, PointFound, Reconstruct, Reconstructed, ReconstructionOfAll,
+    UnregisteredReason,
 };
 pub use task::{Destination, Monitor, Output, Progress, Query, Task};
 pub use thumbnail::Thumbnail;

@@ -1,9 +1,9 @@
 //! Photographs: decoded or rendered, upright, without the distortion of a lens that is known,
 //! reduced.
 
-#[cfg(feature = "files")]
 use super::are_finite;
 use super::task::{Destination, Query, Task};
+#[cfg(feature = "files")]
 use super::task::{Monitor, Run, report};
 use super::thumbnail::Thumbnail;
 use crate::project::{Blob, Given, Key, LensCamera, PhotoId, Project, Source, Step};
@@ -64,6 +64,16 @@ impl Photograph {
                 .is_none_or(|k| are_finite(&k) && k[0] > 0.0 && k[1] > 0.0)
     }
 
+    /// Its pixels as an image.
+    ///
+    /// # Errors
+    /// A message, if they do not fit its size.
+    #[cfg(any(feature = "vision", feature = "files"))]
+    pub(super) fn to_image(&self) -> Result<image::RgbImage, String> {
+        image::RgbImage::from_raw(self.width, self.height, self.rgb.0.to_vec())
+            .ok_or_else(|| "the photograph did not arrive whole".to_owned())
+    }
+
     /// Size of its pixels in bytes, whether loaded or not.
     pub fn num_bytes(&self) -> usize {
         3 * self.width as usize * self.height as usize
@@ -90,6 +100,16 @@ impl Calibrated {
             height,
             k: [focal_px, focal_px, middle(width), middle(height)],
         }
+    }
+
+    /// Intrinsics.
+    ///
+    /// # Errors
+    /// A message for invalid numbers.
+    #[cfg(feature = "vision")]
+    pub(super) fn intrinsics(&self) -> Result<epipole::camera::Intrinsics, String> {
+        let [fu, fv, cu, cv] = self.k;
+        epipole::camera::Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())
     }
 
     /// The focal length of a camera that is [centered](Self::centered).
@@ -273,8 +293,27 @@ impl Run for ReadPhotograph {
         report(monitor, 0.0, "")?;
         match &self.source {
             Source::File(bytes) => file(bytes, self.max_pixels, self.camera.as_ref(), monitor),
-            Source::Rendered(sample, index) => super::rendered::render(*sample, *index),
+            Source::Rendered(sample, index) => {
+                let (image, focal_px) = super::rendered::render(*sample, *index)?;
+                Ok(rendered(image, focal_px))
+            }
         }
+    }
+}
+
+#[cfg(feature = "files")]
+fn rendered(image: image::RgbImage, focal_px: Option<f64>) -> Photograph {
+    let (width, height) = image.dimensions();
+    Photograph {
+        width,
+        height,
+        small: Thumbnail::new((width, height), &image),
+        rgb: image.into_raw().into(),
+        focal_px,
+        k: None,
+        full_size: (width, height),
+        sensor_size: (width, height),
+        as_given: true,
     }
 }
 

@@ -44,6 +44,23 @@ impl Component {
     }
 }
 
+/// Reason why a photograph is in no component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum UnregisteredReason {
+    /// Too few features; their number.
+    FewFeatures(u32),
+    /// No other photograph shares enough matches that agree on one motion of the camera.
+    NoOverlap,
+    /// Taken from nearly the same place as those that match it.
+    NoBaseline,
+    /// None of the pairs with it could start a reconstruction.
+    NoStart,
+    /// Too few visible points; their number.
+    FewPoints(u32),
+    /// Number of visible points, which do not agree on a pose.
+    NoPose(u32),
+}
+
 /// The reconstruction from all photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reconstructed {
@@ -53,6 +70,8 @@ pub struct Reconstructed {
     pub costs: Vec<f64>,
     /// Mean length of all reprojection errors of each component, pixels.
     pub mean_error_px: Vec<f64>,
+    /// For each image why it is in no component; `None` for those that are in one.
+    pub reasons: Vec<Option<UnregisteredReason>>,
 }
 
 /// A photograph reduced to its keypoints.
@@ -77,6 +96,21 @@ pub struct PairOf {
     pub second: u32,
     /// Indices of keypoints, first photograph first.
     pub matches: Vec<(u32, u32)>,
+}
+
+#[cfg(any(feature = "vision", feature = "files"))]
+impl ImagePoints {
+    /// The photograph as the core has it.
+    pub(super) fn sfm_image(&self) -> epipole::sfm::SfmImage {
+        epipole::sfm::SfmImage {
+            name: self.name.clone(),
+            width: self.camera.width,
+            height: self.camera.height,
+            keypoints: self.points.iter().map(|p| (*p).into()).collect(),
+            colors: self.colors.clone(),
+            ..epipole::sfm::SfmImage::default()
+        }
+    }
 }
 
 /// Finds cameras and points.
@@ -200,6 +234,7 @@ impl Reconstructed {
         };
         self.components.iter().all(is_component)
             && self.mean_error_px.len() == self.components.len()
+            && self.reasons.len() == counts.len()
             && are_finite(&self.mean_error_px)
             && are_finite(&self.costs)
     }
@@ -256,10 +291,12 @@ impl Project {
 impl Run for Reconstruct {
     /// Reconstructs just as `epipole sfm` does, with an intermediate output after each photograph.
     fn run(self, monitor: Monitor<'_>) -> Result<Reconstructed, String> {
-        use super::convert::{intrinsics, sentence, sfm_images};
+        use super::convert::sentence;
         use epipole::camera::Camera;
         use epipole::progress::Status;
-        use epipole::sfm::{IncrementalReconstruction, PairMatches, SfmInput, SfmStep};
+        use epipole::sfm::{
+            IncrementalReconstruction, PairMatches, SfmInput, SfmStep, why_unregistered,
+        };
         let Self {
             images,
             pairs,
@@ -271,11 +308,11 @@ impl Run for Reconstruct {
             matches: pair.matches.clone(),
         };
         let input = SfmInput {
-            images: sfm_images(&images),
+            images: images.iter().map(ImagePoints::sfm_image).collect(),
             cameras: (images.iter())
                 .map(|image| {
                     let Calibrated { width, height, .. } = image.camera;
-                    Ok(Camera::pinhole(intrinsics(&image.camera)?, width, height))
+                    Ok(Camera::pinhole(image.camera.intrinsics()?, width, height))
                 })
                 .collect::<Result<_, String>>()?,
             pairs: pairs.iter().map(plain).collect(),
@@ -314,7 +351,7 @@ impl Run for Reconstruct {
             let partial = Reconstructed {
                 mean_error_px: vec![so_far.mean_reprojection_px(&input.images)],
                 components: vec![component(&so_far)],
-                costs: Vec::new(),
+                ..Reconstructed::default()
             };
             if monitor(Progress::Share(share, &words)).is_break()
                 || monitor(Progress::Partial(Self::write(&partial))).is_break()
@@ -323,6 +360,13 @@ impl Run for Reconstruct {
             }
         }
         let found = run.finish();
+        let mut watch =
+            |_: Status| monitor(Progress::Share(share, "finding the reasons of the rest"));
+        let why = why_unregistered(&input, &how, &found, &mut watch).map_err(sentence)?;
+        let mut reasons = vec![None; images.len()];
+        for (image, why) in found.unregistered.iter().zip(&why) {
+            reasons[*image] = Some(reason(why));
+        }
         let mean_error_px = (found.components.iter())
             .map(|component| component.mean_reprojection_px(&input.images))
             .collect();
@@ -330,7 +374,24 @@ impl Run for Reconstruct {
             components: found.components.iter().map(component).collect(),
             costs: found.steps.iter().filter_map(SfmStep::cost).collect(),
             mean_error_px,
+            reasons,
         })
+    }
+}
+
+#[cfg(feature = "vision")]
+fn reason(why: &epipole::sfm::WhyUnregistered) -> UnregisteredReason {
+    use epipole::sfm::WhyUnregistered as Why;
+    match *why {
+        Why::FewFeatures { num_keypoints, .. } => {
+            UnregisteredReason::FewFeatures(num_keypoints as u32)
+        }
+        Why::FewMatches { .. } | Why::NoMotion => UnregisteredReason::NoOverlap,
+        Why::NoBaseline => UnregisteredReason::NoBaseline,
+        Why::FewPoints { visible, .. } => UnregisteredReason::FewPoints(visible as u32),
+        Why::NoPose { visible } => UnregisteredReason::NoPose(visible as u32),
+        // Nothing ends a task early but cancellation, so `NotTried` does not occur.
+        _ => UnregisteredReason::NoStart,
     }
 }
 

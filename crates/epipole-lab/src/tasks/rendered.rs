@@ -1,8 +1,6 @@
 //! Rendered photographs of the samples.
 
 use super::board_sample;
-use super::photograph::Photograph;
-use super::thumbnail::Thumbnail;
 use crate::project::Sample;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use epipole::math::random::Random;
@@ -14,11 +12,11 @@ use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3
 /// Width and height of a rendered photograph, pixels.
 const RENDERED: (u32, u32) = (480, 360);
 
-/// A photograph of a sample.
+/// A photograph of a sample, and its focal length in pixels, if it tells one.
 ///
 /// # Errors
 /// A sentence, if there is none of this number.
-pub(super) fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
+pub(super) fn render(sample: Sample, index: u8) -> Result<(RgbImage, Option<f64>), String> {
     if index >= sample.len() {
         return Err("the sample has no such photograph".to_owned());
     }
@@ -26,7 +24,7 @@ pub(super) fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
     if sample == Sample::Board {
         let image = board_sample::photograph(index).map_err(sentence)?;
         let image = image.ok_or("the sample has no such photograph")?;
-        return Ok(rendered(image, None));
+        return Ok((image, None));
     }
     let camera = match sample {
         Sample::Turned => turned(index),
@@ -45,7 +43,7 @@ pub(super) fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
         Sample::Mixed if index >= 3 => hung(&carpet(), index - 3).map_err(sentence)?,
         _ => photographed(&camera, sample, index)?,
     };
-    Ok(rendered(image, Some(focal_px)))
+    Ok((image, Some(focal_px)))
 }
 
 /// Renders the still life as seen by a camera.
@@ -56,21 +54,6 @@ fn photographed(camera: &PosedCamera, sample: Sample, index: u8) -> Result<RgbIm
     };
     let picture = Scene::still_life().render(camera, width, height, Sampling::Full);
     Ok(picture.map_err(|error| error.to_string())?.image)
-}
-
-fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
-    let (width, height) = image.dimensions();
-    Photograph {
-        width,
-        height,
-        small: Thumbnail::new((width, height), &image),
-        rgb: image.into_raw().into(),
-        focal_px,
-        k: None,
-        full_size: (width, height),
-        sensor_size: (width, height),
-        as_given: true,
-    }
 }
 
 /// Nine places on an arc around the still life, every other one a little higher.

@@ -1,4 +1,4 @@
-//! What a task is, and how the project asks for its output.
+//! Tasks, and the queries of the project that they answer.
 
 use crate::project::{Key, Project, to_bytes};
 use serde::Serialize;
@@ -64,7 +64,7 @@ pub(super) trait Run: Task {
     fn run(self, monitor: Monitor<'_>) -> Result<Self::Output, String>;
 }
 
-/// Where outputs are written to.
+/// Kind of file that outputs are written to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
     /// The file of a project.
@@ -77,7 +77,7 @@ pub enum Destination {
 /// Output of the task of a query.
 pub type Output<Q> = <<Q as Query>::Task as Task>::Output;
 
-/// A question about the project whose answer is the output of a task, kept in the cache.
+/// A question about the project, answered by the output of a task in the cache.
 pub trait Query: Copy + 'static {
     /// Task that answers it.
     type Task: Task;

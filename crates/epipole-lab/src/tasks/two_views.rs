@@ -158,7 +158,7 @@ impl Run for VerifyPair {
     /// ambiguous matches first. Matches that do not allow any estimate also give an answer:
     /// [`Shows::Nothing`].
     fn run(self, monitor: Monitor<'_>) -> Result<TwoViews, String> {
-        use super::convert::{intrinsics, sentence};
+        use super::convert::sentence;
         use epipole::camera::Camera;
         use epipole::progress::Status;
         use epipole::robust::RansacOptions;
@@ -181,7 +181,7 @@ impl Run for VerifyPair {
         let ordered = || order.iter().map(|&n| places[n]);
         let first: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[0], p[1])).collect();
         let second: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[2], p[3])).collect();
-        let [k1, k2] = [intrinsics(&cameras[0])?, intrinsics(&cameras[1])?];
+        let [k1, k2] = [cameras[0].intrinsics()?, cameras[1].intrinsics()?];
         let how = TwoViewOptions::default().with_ransac(
             RansacOptions::default()
                 .with_max_error_px(options.max_error_px)

@@ -473,13 +473,13 @@ fn every_piece_of_it_can_be_stopped() {
     let mut project = calibrated();
     let id = project.document().boards[0].id;
     project.update(Event::Exclude(id, true));
-    let solve = project.pending()[0].clone();
+    let solve = project.pending()[0];
     let solve = solve.request(&project).unwrap().to_bytes();
     project.update(Event::Exclude(id, false));
     let mut settings = project.document().settings.clone();
     settings.calibration.board.rows = 7;
     project.update(Event::Set(settings));
-    let search = project.pending()[0].clone();
+    let search = project.pending()[0];
     let search = search.request(&project).unwrap().to_bytes();
     for request in [solve, search] {
         let mut calls = 0;

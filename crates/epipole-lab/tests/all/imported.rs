@@ -7,8 +7,8 @@ use crate::common::{finish, reopened, solved};
 use epipole_lab::project::{Blob, COMPUTED_BY, Computed, Project, Sample, Step};
 use epipole_lab::session::{Event, Pending};
 use epipole_lab::tasks::{
-    AnyQuery, Destination, FeaturesOf, MatchesOf, Output, PhotographOf, Query, ReconstructionOfAll,
-    Request, Task, TwoViewsOf,
+    AnyQuery, FeaturesOf, MatchesOf, Output, PhotographOf, Query, ReconstructionOfAll, Request,
+    Task, TwoViewsOf,
 };
 
 fn table() -> Project {
@@ -147,91 +147,80 @@ fn what_something_else_has_computed_is_left() {
     assert_eq!(open(Computed::from_bytes(b"no results")), [false]);
 }
 
-/// Key of an output, and its bytes with changes after which it does not fit.
-fn spoiled<Q: Query>(
-    query: Q,
-    project: &Project,
-    changes: &[fn(&mut Output<Q>)],
-) -> (u64, Vec<Blob>) {
-    let output = || Q::stored(project.get(query).unwrap(), Destination::Sample).unwrap();
+/// Imports an output with each of the changes, after which it does not fit, and cut.
+fn refuses<Q: Query>(query: Q, done: &Project, changes: &[fn(&mut Output<Q>)]) {
+    let computed = done.light_computed();
+    let key = query.key(done).unwrap();
+    let is_it = |(of, _): &(u64, Blob)| *of == key.0;
+    let index = computed.results.iter().position(is_it).unwrap();
+    let whole = computed.results[index].1.clone();
     let spoil = |change: &fn(&mut Output<Q>)| {
-        let mut output = output();
+        let mut output = Q::Task::read(&whole).unwrap();
         change(&mut output);
         Q::Task::write(&output).into()
     };
-    let mut all: Vec<Blob> = changes.iter().map(spoil).collect();
-    let whole = Q::Task::write(&output());
-    all.extend([whole[..whole.len() / 2].to_vec().into(), Blob::default()]);
-    (query.key(project).unwrap().0, all)
+    let cut = whole[..whole.len() / 2].to_vec().into();
+    for bytes in changes.iter().map(spoil).chain([cut, Blob::default()]) {
+        let mut computed = computed.clone();
+        computed.results[index].1 = bytes;
+        let mut project = table();
+        project.import(computed);
+        assert!(project.get(query).is_none());
+    }
 }
 
 #[test]
 fn results_that_do_not_fit_are_computed_once_more() {
     let done = solved(Sample::Table);
-    let computed = done.light_computed();
     let [a, b] = [0, 1].map(|n| done.document().photos[n].id);
-    let kinds = [
-        spoiled(
-            PhotographOf(a),
-            &done,
-            &[
-                |found| found.width += 1,
-                |found| {
-                    found.focal_px = Some(f64::NAN);
-                },
-            ],
-        ),
-        spoiled(
-            FeaturesOf(a),
-            &done,
-            &[
-                |found| {
-                    found.described.dimension = 128;
-                    found.described.values = vec![0; 77].into();
-                },
-                |found| found.list[0].u = f64::INFINITY,
-            ],
-        ),
-        spoiled(
-            MatchesOf(a, b),
-            &done,
-            &[|found| found[0].second = 1_000_000],
-        ),
-        spoiled(
-            TwoViewsOf(a, b),
-            &done,
-            &[
-                |found| found.inliers.truncate(5),
-                |found| {
-                    found.num_inliers += 1;
-                },
-            ],
-        ),
-        spoiled(
-            ReconstructionOfAll,
-            &done,
-            &[
-                |found| found.components[0].points[0].track.push((77, 0)),
-                |found| found.components[0].cameras.truncate(5),
-                |found| found.components[0].points[0].position[1] = f64::NAN,
-                |found| found.mean_error_px.clear(),
-            ],
-        ),
-    ];
-    for (key, others) in kinds {
-        let is_it = |(of, _): &(u64, Blob)| *of == key;
-        let index = computed.results.iter().position(is_it).unwrap();
-        for bytes in others {
-            let mut computed = computed.clone();
-            computed.results[index].1 = bytes;
-            let mut project = table();
-            project.import(computed);
-            let pending = project.pending();
-            assert!(pending.iter().any(|pending| pending.key.0 == key));
-        }
-    }
+    refuses(
+        PhotographOf(a),
+        &done,
+        &[
+            |found| found.width += 1,
+            |found| {
+                found.focal_px = Some(f64::NAN);
+            },
+        ],
+    );
+    refuses(
+        FeaturesOf(a),
+        &done,
+        &[
+            |found| {
+                found.described.dimension = 128;
+                found.described.values = vec![0; 77].into();
+            },
+            |found| found.list[0].u = f64::INFINITY,
+        ],
+    );
+    refuses(
+        MatchesOf(a, b),
+        &done,
+        &[|found| found[0].second = 1_000_000],
+    );
+    refuses(
+        TwoViewsOf(a, b),
+        &done,
+        &[
+            |found| found.inliers.truncate(5),
+            |found| {
+                found.num_inliers += 1;
+            },
+        ],
+    );
+    refuses(
+        ReconstructionOfAll,
+        &done,
+        &[
+            |found| found.components[0].points[0].track.push((77, 0)),
+            |found| found.components[0].cameras.truncate(5),
+            |found| found.components[0].points[0].position[1] = f64::NAN,
+            |found| found.mean_error_px.clear(),
+        ],
+    );
     // The result is the same with any loaded results.
-    let mut computed = computed;
+    let mut computed = done.light_computed();
     for (n, (_, bytes)) in computed.results.iter_mut().enumerate() {
         if n % 3 == 0 {
             *bytes = bytes[..bytes.len() * 2 / 3].to_vec().into();

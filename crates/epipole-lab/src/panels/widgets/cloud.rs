@@ -47,7 +47,7 @@ struct Drawn {
     coarse: bool,
 }
 
-/// The view of a reconstruction, kept between frames.
+/// View state of a reconstruction.
 pub(crate) struct CloudView {
     pub(crate) coloring: Coloring,
     /// Whether frusta carry their photographs.

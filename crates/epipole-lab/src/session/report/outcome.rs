@@ -2,22 +2,19 @@
 
 use crate::project::{Given, Outcome, PhotoId, Project};
 use crate::tasks::{
-    Component, FeaturesOf, FocalOrigin, MatchesOf, PhotographOf, ReconstructionOfAll, Shows,
-    TwoViewsOf,
+    Component, FeaturesOf, FocalOrigin, PhotographOf, ReconstructionOfAll, Shows, TwoViewsOf,
+    UnregisteredReason,
 };
-use std::collections::{BTreeMap, BTreeSet};
-
-/// Fewer features than this are few.
-const FEW_FEATURES: usize = 60;
+use std::collections::BTreeMap;
 
 impl Project {
     /// Outcome for a photograph.
     pub fn outcome(&self, photo: &Given) -> Outcome {
-        let mut kept = self.outcomes.borrow_mut();
-        if kept.0 != self.revision {
-            *kept = (self.revision, BTreeMap::new());
+        let mut cached = self.outcomes.borrow_mut();
+        if cached.0 != self.revision {
+            *cached = (self.revision, BTreeMap::new());
         }
-        let outcome = kept.1.entry(photo.id);
+        let outcome = cached.1.entry(photo.id);
         outcome.or_insert_with(|| self.find_outcome(photo)).clone()
     }
 
@@ -58,44 +55,31 @@ impl Project {
         if let Some(part) = found.components.iter().position(has) {
             return Outcome::OtherPart(part);
         }
-        self.why_left_out(photo, looked_at, &all)
+        match found.reasons.get(place).copied().flatten() {
+            Some(reason) => self.unregistered(photo, reason, &all),
+            None => Outcome::Pending,
+        }
     }
 
-    fn why_left_out(
-        &self,
-        photo: &Given,
-        component: Option<&Component>,
-        all: &[&Given],
-    ) -> Outcome {
-        let num_features = self.get(FeaturesOf(photo.id)).map_or(0, |f| f.list.len());
-        if num_features < FEW_FEATURES {
-            return Outcome::FewFeatures(num_features);
+    /// Outcome for a photograph without a camera. Its pairs tell whether the camera only turned,
+    /// perhaps with another focal length than the given one, which the reconstruction has used.
+    fn unregistered(&self, photo: &Given, reason: UnregisteredReason, all: &[&Given]) -> Outcome {
+        if let UnregisteredReason::FewFeatures(count) = reason {
+            return Outcome::FewFeatures(count as usize);
         }
         let enough = self.document.settings.sfm.min_num_inliers;
-        let (mut most, mut moves) = (0, 0);
-        let mut turns = 0;
+        let (mut most, mut turns, mut moves) = (0, 0, 0);
         // Focal factors of the pairs with pure rotation: a small rotation fits with any factor.
         let mut factors = Vec::new();
-        // Keypoints that agree with a point which other photographs gave.
-        let mut seen = BTreeSet::new();
-        for other in all.iter().filter(|other| other.id != photo.id) {
-            let is_first = self.place(photo.id) < self.place(other.id);
-            let (first, second) = if is_first {
-                (photo, *other)
-            } else {
-                (*other, photo)
-            };
-            let (Some(pair), Some(matches)) = (
-                self.get(TwoViewsOf(first.id, second.id)),
-                self.get(MatchesOf(first.id, second.id)),
-            ) else {
+        let others = all.iter().filter(|other| other.id != photo.id);
+        let pairs = others.filter_map(|other| self.document.pair((photo.id, other.id)));
+        for (first, second) in pairs {
+            let Some(pair) = self.get(TwoViewsOf(first.id, second.id)) else {
                 return Outcome::Pending;
             };
             most = most.max(pair.num_inliers);
-            if pair.num_inliers < enough {
-                continue;
-            }
             match pair.shows {
+                _ if pair.num_inliers < enough => {}
                 Shows::Turn => {
                     turns += 1;
                     factors.extend(pair.focal_factor);
@@ -103,33 +87,17 @@ impl Project {
                 Shows::Depth | Shows::Plane => moves += 1,
                 Shows::Nothing => {}
             }
-            let Some(there) = component.zip(self.place(other.id)) else {
-                continue;
-            };
-            let points = points_seen(there.0, there.1);
-            let inliers = matches
-                .iter()
-                .zip(&pair.inliers)
-                .filter(|(_, inlier)| **inlier);
-            for (m, _) in inliers {
-                let (own, of_other) = if is_first {
-                    (m.first, m.second)
-                } else {
-                    (m.second, m.first)
-                };
-                if points.contains(&of_other) {
-                    seen.insert(own);
-                }
-            }
         }
-        match (turns, moves) {
-            (0, 0) => Outcome::OverlapsNone(most as usize),
-            (_, 0) => {
+        match reason {
+            _ if turns > 0 && moves == 0 => {
                 let focal_px = |factor| self.focal_px(photo, factor).round() as u32;
                 Outcome::OnlyTurned(median(factors).map(focal_px))
             }
-            _ if seen.len() < enough as usize => Outcome::SeesFew(seen.len()),
-            _ => Outcome::NoPlace(seen.len()),
+            _ if turns + moves == 0 => Outcome::OverlapsNone(most as usize),
+            UnregisteredReason::NoBaseline => Outcome::OnlyTurned(None),
+            UnregisteredReason::FewPoints(count) => Outcome::SeesFew(count as usize),
+            UnregisteredReason::NoPose(count) => Outcome::NoPlace(count as usize),
+            _ => Outcome::SeesFew(0),
         }
     }
 
@@ -193,11 +161,4 @@ impl Project {
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
-}
-
-/// The keypoints of an image that show a point.
-fn points_seen(component: &Component, image: usize) -> BTreeSet<u32> {
-    let tracks = component.points.iter().flat_map(|point| &point.track);
-    let own = tracks.filter(|(of, _)| *of as usize == image);
-    own.map(|(_, keypoint)| *keypoint).collect()
 }

@@ -4,14 +4,16 @@ use super::contents::Export;
 use super::{depth, summary};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
-use crate::tasks::convert::{core_reconstruction, sfm_images, to_image};
+use crate::tasks::camera_found::CameraFound;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
 use crate::tasks::project_file::Packed;
+use crate::tasks::reconstruction::{Component, ImagePoints, PointFound};
 use crate::tasks::task::{Monitor, Run};
-use epipole::sfm::Reconstruction;
+use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
 use epipole_io::model::Model;
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat};
+use nalgebra::Point3;
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
@@ -32,7 +34,11 @@ impl Run for Export {
             .ok_or("there is no reconstruction to export")?;
         check_indices(export)?;
         let mut archive = Archive::new();
-        let mut images = sfm_images(&export.images);
+        let mut images = export
+            .images
+            .iter()
+            .map(ImagePoints::sfm_image)
+            .collect::<Vec<_>>();
         let mut written = BTreeSet::new();
         for (photograph, image) in export.photographs.iter().zip(&mut images) {
             let (name, bytes) = picture(photograph, &mut read)?;
@@ -61,6 +67,41 @@ impl Run for Export {
         archive.add("README.txt", summary::readme(export).as_bytes())?;
         Ok(archive.finish()?.into())
     }
+}
+
+/// A component as the core has it.
+///
+/// * `images`: those that it was made of
+///
+/// # Errors
+/// A message for invalid numbers.
+fn core_reconstruction(
+    component: &Component,
+    images: &[ImagePoints],
+) -> Result<Reconstruction, String> {
+    let camera = |(camera, image): (&Option<CameraFound>, &ImagePoints)| {
+        let size = (image.camera.width, image.camera.height);
+        // One lens took them all.
+        let camera = (camera.as_ref()).map(|camera| camera.posed(size, component.lens));
+        camera.transpose()
+    };
+    let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
+    let point = |point: &PointFound| ScenePoint {
+        position: Point3::from(point.position),
+        color: point.color,
+        track: point.track.iter().map(element).collect(),
+        error_px: point.error_px,
+    };
+    Ok(Reconstruction {
+        cameras: component
+            .cameras
+            .iter()
+            .zip(images)
+            .map(camera)
+            .collect::<Result<_, _>>()?,
+        points: component.points.iter().map(point).collect(),
+        is_placed: false,
+    })
 }
 
 /// Invalid indices in tracks are a bug of the caller.
@@ -123,14 +164,14 @@ fn renamed(name: &str, extension: &str) -> String {
 fn jpeg(photograph: &Photograph) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, 95)
-        .encode_image(&to_image(photograph)?)
+        .encode_image(&photograph.to_image()?)
         .map_err(|error| error.to_string())?;
     Ok(bytes)
 }
 
 fn png(photograph: &Photograph) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
-    DynamicImage::from(to_image(photograph)?)
+    DynamicImage::from(photograph.to_image()?)
         .write_to(&mut bytes, ImageFormat::Png)
         .map_err(|error| error.to_string())?;
     Ok(bytes.into_inner())
