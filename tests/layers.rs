@@ -316,7 +316,7 @@ fn only_views_draw_and_nothing_knows_the_time() {
 fn the_modules_of_the_lab_keep_apart() {
     let source = root().join("crates/epipole-lab/src");
     let rules: &[(&str, &[&str])] = &[
-        ("egui", &["panels", "native", "web"]),
+        ("egui", &["panels", "app", "native", "web"]),
         ("eframe", &["native", "web", "main.rs"]),
         ("wasm_bindgen", &["web"]),
         ("Instant", &[]),
@@ -336,6 +336,28 @@ fn the_modules_of_the_lab_keep_apart() {
             );
         }
     }
+}
+
+/// Modules of the Lab: each may use those before it.
+const MODULES_OF_LAB: &[&str] = &["project", "tasks", "session", "panels", "app", "web"];
+
+#[test]
+fn modules_of_the_lab_run_one_way() {
+    let files = Files::of_crate("epipole-lab");
+    let imports = files.imports();
+    let rank = |module: &Module| {
+        let first = module.first()?;
+        MODULES_OF_LAB.iter().position(|other| other == first)
+    };
+    for (module, named) in &imports {
+        let later = named.iter().find(|other| rank(other) > rank(module));
+        assert!(
+            later.is_none() || rank(module).is_none(),
+            "{module:?} names {later:?}"
+        );
+    }
+    let is_there = |module: &&str| imports.contains_key(&vec![(*module).to_owned()]);
+    assert!(MODULES_OF_LAB.iter().all(is_there));
 }
 
 /// Stages of the book's builder: each may use those before it. `site.rs` and `serve.rs`, which run

@@ -1,13 +1,18 @@
 //! Names what results are computed with: a hash of the sources of the core, of the scenes, of the
-//! tasks, and of all versions. Results that were computed with something else are not taken for
-//! those of this Lab.
+//! project and its tasks, and of all versions. Results that were computed with something else are
+//! not taken for those of this Lab.
 
 use std::path::{Path, PathBuf};
 
 fn main() {
     let lab = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let mut files = Vec::new();
-    for folder in ["../epipole/src", "../epipole-scenes/src", "src/tasks"] {
+    for folder in [
+        "../epipole/src",
+        "../epipole-scenes/src",
+        "src/project",
+        "src/tasks",
+    ] {
         println!("cargo:rerun-if-changed={folder}");
         collect(&lab.join(folder), folder, &mut files);
     }

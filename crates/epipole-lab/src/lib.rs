@@ -1,17 +1,35 @@
 //! The Lab: from one's own photographs to a measured reconstruction, in the browser or in a window.
 //!
-//! * [`project`]: the state as plain data. Events go in; what is to be computed comes out. No
-//!   screen, no clock.
-//! * [`tasks`]: what takes long, from bytes to bytes, for a thread or for a worker of the browser.
-//! * `export`: zip files with COLMAP's text model, PLY and JSON, and projects that open again.
-//! * `panels`: what is seen, in egui.
-//! * `web`, and `native` in the binary: the two places where it runs.
+//! Each module uses only those before it:
+//!
+//! ```text
+//! project    →    tasks          →    session         →    panels        →    app
+//! Project:        Task: input,        update(Event)        Panel: a file      bar, steps,
+//! document,       output, code        pending()            per step with      arrivals, files
+//! view, cache     Query: key,         done(output)         its view state
+//!                 inputs              Jobs, Host                              native, web
+//! ```
+//!
+//! 1. A [`Project`](project::Project) holds the document, the view, and the outputs of tasks.
+//!    Panels draw from it and return actions; only [`update`](project::Project::update) changes
+//!    the document.
+//! 2. A [`Query`](tasks::Query), such as `FeaturesOf(photo)`, names an output. Its key is a hash
+//!    of everything that the output depends on, so nothing is invalidated: after a change there
+//!    is another key, after undo the former one. `project.get(query)` reads the cache.
+//! 3. [`pending`](project::Project::pending) lists the queries without an output whose inputs
+//!    are there. Jobs send the [`Task`](tasks::Task) of each as bytes to a thread or a worker,
+//!    which runs it by `compute`; [`done`](project::Project::done) puts the output into the
+//!    cache, and so on.
+//!
+//! A new computation is a file in `tasks/` and a line in `tasks/list.rs`; a new panel is a file in
+//! `panels/`, a line in `panels/mod.rs`, and a variant of [`Step`](project::Step).
 
-#[cfg(feature = "files")]
-mod export;
 #[cfg(feature = "panels")]
-pub mod panels;
+pub mod app;
+#[cfg(feature = "panels")]
+mod panels;
 pub mod project;
+pub mod session;
 pub mod tasks;
 #[cfg(all(
     target_arch = "wasm32",

@@ -9,12 +9,14 @@ mod common;
 #[rustfmt::skip]
 mod program;
 
-use common::{answer, finish, jpeg, solved};
+use common::{finish, jpeg, output, solved};
 use epipole::camera::{PosedCamera, look_at};
-use epipole_lab::project::{Event, Fate, Project, RefineFocal, Saved, SavedPhoto, VERSION};
-use epipole_lab::tasks::{
-    Answer, Blob, FeatureKind, FeatureOptions, LensCamera, LensModel, Request, Sample, Shows,
+use epipole_lab::project::{
+    Blob, FeatureKind, FeatureOptions, LensCamera, LensModel, Outcome, Project, RefineFocal,
+    Sample, Saved, SavedPhoto, VERSION,
 };
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{MatchesOf, Shows, TwoViewsOf};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -57,17 +59,13 @@ fn programs() -> PathBuf {
 
 /// Unpacks what the Lab exports, as a reader would.
 fn unpacked(project: &Project, folder: &Path) {
-    let mut request = project.export_request().unwrap();
-    let Ok(Answer::Archive(bytes)) = answer(&request) else {
-        panic!("the export is no archive");
-    };
+    let mut export = project.export_request().unwrap();
+    let bytes = output(export.clone()).unwrap();
     // Pixels that were let go of are read once more, and are the same.
-    if let Request::Export { photographs, .. } = &mut request {
-        for photograph in photographs {
-            photograph.used.as_mut().unwrap().rgb = Blob::default();
-        }
+    for photograph in &mut export.photographs {
+        photograph.used.as_mut().unwrap().rgb = Blob::default();
     }
-    assert_eq!(answer(&request), Ok(Answer::Archive(bytes.clone())));
+    assert_eq!(output(export), Ok(bytes.clone()));
     let mut archive = zip::ZipArchive::new(Cursor::new(&bytes[..])).unwrap();
     archive.extract(folder).unwrap();
 }
@@ -235,9 +233,9 @@ fn of_files() -> (Project, Vec<(String, Blob)>) {
 fn files_that_are_reduced_and_freed_of_their_lens() {
     let (project, files) = of_files();
     for photo in &project.document().photos {
-        let words = project.fate_words(photo);
+        let words = project.outcome_words(photo);
         assert!(
-            matches!(project.fate(photo), Fate::Registered(_)),
+            matches!(project.outcome(photo), Outcome::Registered(_)),
             "{}: {words}",
             photo.name
         );
@@ -305,7 +303,7 @@ fn a_pair_is_what_the_command_line_says_of_it() {
         .output()
         .unwrap();
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let pair = project.two_views(first, second).unwrap();
+    let pair = project.get(TwoViewsOf(first.id, second.id)).unwrap();
     assert_eq!(pair.shows, Shows::Depth);
     assert_eq!(printed["configuration"], "general");
     assert_eq!(printed["num_inliers"], pair.num_inliers);
@@ -318,7 +316,7 @@ fn a_pair_is_what_the_command_line_says_of_it() {
         .collect();
     assert_eq!(model, e);
     // Match for match, whatever their order.
-    let places = project.match_places(first, second).unwrap();
+    let places = MatchesOf(first.id, second.id).places(&project).unwrap();
     let mut ours: Vec<String> = (places.iter().zip(&pair.inliers))
         .map(|([u1, v1, u2, v2], is)| format!("{u1} {v1} {u2} {v2} {}", u8::from(*is)))
         .collect();

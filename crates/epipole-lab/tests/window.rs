@@ -9,7 +9,7 @@ mod common;
 
 use common::desk::{Bench, Desk, click, open_with, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::Arrival;
+use epipole_lab::session::Arrival;
 use image::RgbImage;
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};

@@ -6,14 +6,14 @@ use std::process::{Command, Stdio};
 
 /// Kind of file dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum FileKind {
     /// Any number of photographs.
     Photographs,
     /// One project.
     Project,
 }
 
-impl Wanted {
+impl FileKind {
     fn title(self) -> &'static str {
         match self {
             Self::Photographs => "Add photographs",
@@ -90,8 +90,8 @@ impl Wanted {
 }
 
 /// Opens the dialog and waits for the choice: empty if canceled, `None` without a dialog program.
-pub(super) fn ask(wanted: Wanted) -> Option<Vec<PathBuf>> {
-    for (program, arguments) in wanted.programs() {
+pub(super) fn ask(kind: FileKind) -> Option<Vec<PathBuf>> {
+    for (program, arguments) in kind.programs() {
         let asked = Command::new(program)
             .args(arguments)
             .stdin(Stdio::null())

@@ -4,9 +4,11 @@
 mod dialog;
 mod memory;
 
-use dialog::Wanted;
-use epipole_lab::panels::{About, App, Arrival, Host, Report, WorkId, prepare};
-use epipole_lab::tasks::{Branch, Told, compute};
+use dialog::FileKind;
+use epipole_lab::app::{App, prepare};
+use epipole_lab::project::Explanation;
+use epipole_lab::session::{Arrival, Host, JobId, Report};
+use epipole_lab::tasks::{Branch, Progress, compute};
 pub(crate) use memory::give_back;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -74,11 +76,11 @@ struct Window {
     context: egui::Context,
     sender: Sender<Report>,
     receiver: Receiver<Report>,
-    canceled: HashMap<WorkId, Arc<AtomicBool>>,
+    canceled: HashMap<JobId, Arc<AtomicBool>>,
     arrivals: Vec<Arrival>,
     /// Channel for the results of dialogs.
-    bring: Sender<Vec<Arrival>>,
-    brought: Receiver<Vec<Arrival>>,
+    chosen_sender: Sender<Vec<Arrival>>,
+    chosen: Receiver<Vec<Arrival>>,
     /// Whether a dialog is open: one is enough.
     asks: Arc<AtomicBool>,
 }
@@ -86,31 +88,31 @@ struct Window {
 impl Window {
     fn new(context: egui::Context, arrivals: Vec<Arrival>) -> Self {
         let (sender, receiver) = channel();
-        let (bring, brought) = channel();
+        let (chosen_sender, chosen) = channel();
         Self {
             context,
             sender,
             receiver,
             canceled: HashMap::new(),
             arrivals,
-            bring,
-            brought,
+            chosen_sender,
+            chosen,
             asks: Arc::default(),
         }
     }
 
     /// Opens a dialog without blocking.
-    fn ask(&self, wanted: Wanted) {
+    fn ask(&self, kind: FileKind) {
         if self.asks.swap(true, Ordering::Relaxed) {
             return;
         }
-        let (asks, bring, context) = (
+        let (asks, chosen, context) = (
             Arc::clone(&self.asks),
-            self.bring.clone(),
+            self.chosen_sender.clone(),
             self.context.clone(),
         );
         std::thread::spawn(move || {
-            let arrivals = match dialog::ask(wanted) {
+            let arrivals = match dialog::ask(kind) {
                 Some(paths) => read(&paths),
                 None => {
                     let sentence = "There is no file dialog here: drop files onto this window, or name them when you start the Lab.";
@@ -119,7 +121,7 @@ impl Window {
             };
             asks.store(false, Ordering::Relaxed);
             // The window may be gone by now.
-            drop(bring.send(arrivals));
+            drop(chosen.send(arrivals));
             context.request_repaint();
         });
     }
@@ -131,17 +133,17 @@ impl Host for Window {
         *COUNT.get_or_init(|| std::thread::available_parallelism().map_or(2, usize::from))
     }
 
-    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+    fn start(&mut self, job: JobId, _branch: Branch, request: Vec<u8>) {
         let stop = Arc::new(AtomicBool::new(false));
-        self.canceled.insert(work, Arc::clone(&stop));
+        self.canceled.insert(job, Arc::clone(&stop));
         let (sender, context) = (self.sender.clone(), self.context.clone());
         std::thread::spawn(move || {
             // The window may be gone by now.
             let tell = |report| drop(sender.send(report));
-            let mut progress = |told: Told<'_>| {
-                tell(match told {
-                    Told::Share(share, words) => Report::Progress(work, share, words.to_owned()),
-                    Told::SoFar(bytes) => Report::SoFar(work, bytes),
+            let mut monitor = |progress: Progress<'_>| {
+                tell(match progress {
+                    Progress::Share(share, words) => Report::Progress(job, share, words.to_owned()),
+                    Progress::Partial(bytes) => Report::Partial(job, bytes),
                 });
                 context.request_repaint();
                 match stop.load(Ordering::Relaxed) {
@@ -150,17 +152,17 @@ impl Host for Window {
                 }
             };
             // No shared state can be left inconsistent: a request goes in, an answer comes out.
-            let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut progress)));
+            let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut monitor)));
             tell(match computed {
-                Ok(result) => Report::Done(work, result),
-                Err(_) => Report::Broken(work, MISTAKE.to_owned()),
+                Ok(result) => Report::Done(job, result),
+                Err(_) => Report::Broken(job, MISTAKE.to_owned()),
             });
             context.request_repaint();
         });
     }
 
-    fn cancel(&mut self, work: WorkId) {
-        if let Some(stop) = self.canceled.remove(&work) {
+    fn cancel(&mut self, job: JobId) {
+        if let Some(stop) = self.canceled.remove(&job) {
             stop.store(true, Ordering::Relaxed);
         }
     }
@@ -168,15 +170,15 @@ impl Host for Window {
     fn reports(&mut self) -> Vec<Report> {
         let reports: Vec<Report> = self.receiver.try_iter().collect();
         for report in &reports {
-            if let Report::Done(work, _) | Report::Broken(work, _) = report {
-                self.canceled.remove(work);
+            if let Report::Done(job, _) | Report::Broken(job, _) = report {
+                self.canceled.remove(job);
             }
         }
         reports
     }
 
     fn arrivals(&mut self) -> Vec<Arrival> {
-        self.arrivals.extend(self.brought.try_iter().flatten());
+        self.arrivals.extend(self.chosen.try_iter().flatten());
         std::mem::take(&mut self.arrivals)
     }
 
@@ -185,12 +187,12 @@ impl Host for Window {
     }
 
     fn ask_for_photographs(&mut self) -> bool {
-        self.ask(Wanted::Photographs);
+        self.ask(FileKind::Photographs);
         true
     }
 
     fn ask_for_project(&mut self) -> bool {
-        self.ask(Wanted::Project);
+        self.ask(FileKind::Project);
         true
     }
 
@@ -231,7 +233,7 @@ impl Host for Window {
 
     fn ask_for_kept(&mut self) {}
 
-    fn explain(&mut self, _about: About) {}
+    fn explain(&mut self, _explanation: Explanation) {}
 
     fn has_book(&self) -> bool {
         false
@@ -254,7 +256,7 @@ impl eframe::App for Frames {
             .map(|file| file.path().to_path_buf())
             .collect();
         self.0.host().arrivals.extend(read(&paths));
-        self.0.go_on();
+        self.0.advance();
         self.0.ui(ui);
     }
 }

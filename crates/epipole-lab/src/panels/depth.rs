@@ -1,19 +1,20 @@
 //! One pair, rectified: rows under a ruler, and the depth of every pixel.
 
-use super::app::Memory;
-use super::depth_words::{disparities, legend, pixel};
-use super::knobs::{self, Turned};
-use super::strips::Strips;
-use super::{look, photo};
-use crate::project::{Event, Key, Project, Step};
-use crate::tasks::{Dense, DepthMethod};
+use super::depth_controls::{disparities, legend, pixel};
+use super::screen::{Panel, Screen};
+use super::widgets::controls::{self, Change};
+use super::widgets::strips::Strips;
+use super::widgets::{look, photo};
+use crate::project::{DepthMethod, Key, Step};
+use crate::session::Event;
+use crate::tasks::{Dense, DepthOf, Query};
 use egui::{Color32, ColorImage, Rect, Slider, Ui};
 use epipole_canvas::theme::{Role, Theme};
 use std::ops::Range;
 
-/// The pictures of a pair, kept between frames.
+/// Panel of the step "Depth".
 #[derive(Default)]
-pub(super) struct DepthView {
+pub(super) struct Depth {
     lens: photo::Lens,
     /// The row of the ruler; the column, where matches share one.
     row: u32,
@@ -24,7 +25,7 @@ pub(super) struct DepthView {
     range: Option<[f64; 2]>,
 }
 
-impl DepthView {
+impl Depth {
     fn make(&mut self, ui: &Ui, key: Key, pair: &Dense) {
         let theme = look::theme(ui);
         let size = [pair.width as usize, pair.height as usize];
@@ -56,7 +57,124 @@ impl DepthView {
     }
 }
 
-/// Rows of a rectified photograph, which stands turned: the black beyond its edges is left out.
+impl Panel for Depth {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        let document = project.document();
+        let pair = document.pair(project.view().pair);
+        let found = pair.and_then(|(first, second)| {
+            Some((
+                DepthOf(first.id, second.id).key(project)?,
+                project.get(DepthOf(first.id, second.id))?,
+            ))
+        });
+        let Some((key, found)) = found else {
+            return controls::instead(ui, &project.describe());
+        };
+        self.make(ui, key, found);
+        let [first, second, depth] = rooms(ui.available_rect_before_wrap());
+        let names = match found.is_swapped {
+            false => pair,
+            true => pair.map(|(first, second)| (second, first)),
+        };
+        let names = names.map_or(["", ""], |(first, second)| {
+            [first.name.as_str(), second.name.as_str()]
+        });
+        let labels = [
+            format!("{}, rectified", names[0]),
+            format!("{}, rectified", names[1]),
+            "depth of every pixel".to_owned(),
+        ];
+        let mut shown = Vec::new();
+        for ((rect, picture), label) in [first, second, depth]
+            .into_iter()
+            .zip(&self.pictures)
+            .zip(&labels)
+        {
+            shown.push(photo::show(ui, rect, picture, &mut self.lens, label));
+        }
+        for (index, shown) in shown.iter().enumerate() {
+            if let Some([u, v]) = shown.clicked() {
+                let pixel = [(u + 0.5).max(0.0) as u32, (v + 0.5).max(0.0) as u32];
+                self.row = pixel[usize::from(!found.is_vertical)];
+                self.probe = (index != 1).then_some(pixel);
+            }
+        }
+        let grip = look::of(Theme::Dark, Role::Grip);
+        let row = f64::from(self.row);
+        let (right, bottom) = (f64::from(found.width) - 0.5, f64::from(found.height) - 0.5);
+        for shown in &shown {
+            match found.is_vertical {
+                true => shown.line(shown.at(row, -0.5), shown.at(row, bottom), grip),
+                false => shown.line(shown.at(-0.5, row), shown.at(right, row), grip),
+            }
+        }
+        if let Some([u, v]) = self.probe {
+            for index in [0, 2] {
+                shown[index].ring(shown[index].at(f64::from(u), f64::from(v)), 6.0, grip);
+            }
+            if let Some([u, v]) = found.matched(u, v) {
+                shown[1].ring(shown[1].at(u, v), 6.0, grip);
+            }
+        }
+    }
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        let (a, b) = project.view().pair;
+        controls::choose_pair(screen, ui);
+        ui.label(project.describe());
+        let pair = project.document().pair((a, b));
+        let found = pair.and_then(|(first, second)| project.get(DepthOf(first.id, second.id)));
+        if let Some(found) = found {
+            let mut is_part = project.document().is_dense((a, b));
+            if ui
+                .checkbox(&mut is_part, "Add to cloud and export")
+                .changed()
+            {
+                screen.send(Event::Dense(a, b, is_part));
+            }
+            legend(project, self.range, ui);
+            let most = if found.is_vertical {
+                found.width
+            } else {
+                found.height
+            }
+            .max(1)
+                - 1;
+            let name = if found.is_vertical {
+                "Ruler column"
+            } else {
+                "Ruler row"
+            };
+            controls::slider(ui, name, Slider::new(&mut self.row, 0..=most));
+            pixel(project, self.probe, found, ui);
+        }
+        ui.separator();
+        let proposed = found.and_then(|found| found.proposed_px);
+        controls::edit(screen, |settings| {
+            let options = &mut settings.depth;
+            let mut change = Change::No;
+            ui.horizontal_wrapped(|ui| {
+                for (method, name) in [
+                    (DepthMethod::SemiGlobal, "semi-global"),
+                    (DepthMethod::Block, "block matching"),
+                ] {
+                    change = change.max(
+                        ui.radio_value(&mut options.method, method, name)
+                            .changed()
+                            .into(),
+                    );
+                }
+            });
+            change = change.max(ui.checkbox(&mut options.fill, "Fill gaps").changed().into());
+            change.max(disparities(ui, &mut options.range_px, proposed))
+        });
+        controls::book(ui, Step::Depth);
+    }
+}
+
+/// Rows of a rectified photograph, which is rotated: the black beyond its edges is left out.
 fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
     let size = [width, rows.len()];
     let mut image = ColorImage::from_rgb(size, &rgb[3 * width * rows.start..3 * width * rows.end]);
@@ -95,68 +213,6 @@ fn nearness(depth: f64, [near, far]: [f64; 2]) -> f64 {
     }
 }
 
-/// Both rectified photographs with the ruler, and the depth.
-pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
-    let document = project.document();
-    let pair = document.pair(project.view().pair);
-    let found = pair.and_then(|(first, second)| {
-        Some((
-            project.depth_key(first, second)?,
-            project.depth(first, second)?,
-        ))
-    });
-    let Some((key, found)) = found else {
-        return knobs::instead(ui, &project.describe());
-    };
-    let view = &mut memory.depth;
-    view.make(ui, key, found);
-    let [first, second, depth] = rooms(ui.available_rect_before_wrap());
-    let names = match found.is_swapped {
-        false => pair,
-        true => pair.map(|(first, second)| (second, first)),
-    };
-    let names = names.map_or(["", ""], |(first, second)| {
-        [first.name.as_str(), second.name.as_str()]
-    });
-    let labels = [
-        format!("{}, rectified", names[0]),
-        format!("{}, rectified", names[1]),
-        "depth of every pixel".to_owned(),
-    ];
-    let mut shown = Vec::new();
-    for ((rect, picture), label) in [first, second, depth]
-        .into_iter()
-        .zip(&view.pictures)
-        .zip(&labels)
-    {
-        shown.push(photo::show(ui, rect, picture, &mut view.lens, label));
-    }
-    for (index, shown) in shown.iter().enumerate() {
-        if let Some([u, v]) = shown.clicked() {
-            let pixel = [(u + 0.5).max(0.0) as u32, (v + 0.5).max(0.0) as u32];
-            view.row = pixel[usize::from(!found.is_vertical)];
-            view.probe = (index != 1).then_some(pixel);
-        }
-    }
-    let grip = look::of(Theme::Dark, Role::Grip);
-    let row = f64::from(view.row);
-    let (right, bottom) = (f64::from(found.width) - 0.5, f64::from(found.height) - 0.5);
-    for shown in &shown {
-        match found.is_vertical {
-            true => shown.line(shown.at(row, -0.5), shown.at(row, bottom), grip),
-            false => shown.line(shown.at(-0.5, row), shown.at(right, row), grip),
-        }
-    }
-    if let Some([u, v]) = view.probe {
-        for index in [0, 2] {
-            shown[index].ring(shown[index].at(f64::from(u), f64::from(v)), 6.0, grip);
-        }
-        if let Some([u, v]) = found.matched(u, v) {
-            shown[1].ring(shown[1].at(u, v), 6.0, grip);
-        }
-    }
-}
-
 /// Rooms of the two photographs, beside each other so that rows agree, and of the depth below them;
 /// all below each other where there is no room.
 fn rooms(whole: Rect) -> [Rect; 3] {
@@ -164,60 +220,6 @@ fn rooms(whole: Rect) -> [Rect; 3] {
     let (above, below) = whole.split_top_bottom_at_fraction(0.45);
     let (first, second) = above.split_left_right_at_fraction(0.5);
     [first, second, below].map(|rect| rect.shrink(gap))
-}
-
-/// Which pair, how it is matched, and what a pixel says.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    let (a, b) = project.view().pair;
-    knobs::choose_pair(project, ui, events);
-    ui.label(project.describe());
-    let pair = project.document().pair((a, b));
-    let found = pair.and_then(|(first, second)| project.depth(first, second));
-    if let Some(found) = found {
-        let mut is_part = project.document().is_dense((a, b));
-        if ui
-            .checkbox(&mut is_part, "Add to cloud and export")
-            .changed()
-        {
-            events.push(Event::Dense(a, b, is_part));
-        }
-        legend(project, memory.depth.range, ui);
-        let most = if found.is_vertical {
-            found.width
-        } else {
-            found.height
-        }
-        .max(1)
-            - 1;
-        let name = if found.is_vertical {
-            "Ruler column"
-        } else {
-            "Ruler row"
-        };
-        knobs::slider(ui, name, Slider::new(&mut memory.depth.row, 0..=most));
-        pixel(project, memory.depth.probe, found, ui);
-    }
-    ui.separator();
-    let proposed = found.and_then(|found| found.proposed_px);
-    knobs::edit(project, memory, events, |settings| {
-        let options = &mut settings.depth;
-        let mut turned = Turned::No;
-        ui.horizontal_wrapped(|ui| {
-            for (method, name) in [
-                (DepthMethod::SemiGlobal, "semi-global"),
-                (DepthMethod::Block, "block matching"),
-            ] {
-                turned = turned.max(
-                    ui.radio_value(&mut options.method, method, name)
-                        .changed()
-                        .into(),
-                );
-            }
-        });
-        turned = turned.max(ui.checkbox(&mut options.fill, "Fill gaps").changed().into());
-        turned.max(disparities(ui, &mut options.range_px, proposed))
-    });
-    knobs::book(ui, Step::Depth);
 }
 
 #[cfg(test)]

@@ -1,71 +1,85 @@
 //! All pairs: photographs × photographs, with matches and inliers.
 
-use super::app::Memory;
-use super::knobs;
-use super::look;
-use crate::project::{Event, Given, Project, Step};
-use crate::tasks::Shows;
+use super::screen::{Panel, Screen};
+use super::widgets::{controls, look};
+use crate::project::{Given, Step};
+use crate::session::Event;
+use crate::tasks::{MatchesOf, Shows, TwoViewsOf};
 use egui::{Align2, Color32, FontId, Rect, ScrollArea, Sense, Slider, Ui, pos2, vec2};
 use epipole_canvas::theme::Role;
 
-/// The table of pairs.
-pub(super) fn picture(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
-    let photos = project.taking_part();
-    if photos.len() < 2 {
-        return knobs::instead(ui, &project.describe());
-    }
-    let room = ui.available_size() - vec2(130.0, 40.0);
-    let side = (room.min_elem() / photos.len() as f32).clamp(34.0, 76.0);
-    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        let size = vec2(130.0, 34.0) + side * vec2(photos.len() as f32, photos.len() as f32);
-        let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
-        let corner = whole.min + vec2(122.0, 30.0);
-        let ink = look::color(ui, Role::Ink);
-        for (n, photo) in photos.iter().enumerate() {
-            let at = pos2(corner.x - 6.0, corner.y + (n as f32 + 0.5) * side);
-            let name = format!("{}   {}", shortened(&photo.name, 12), n + 1);
-            ui.painter().text(
-                at,
-                Align2::RIGHT_CENTER,
-                name,
-                FontId::proportional(13.0),
-                ink,
-            );
-            let at = pos2(corner.x + (n as f32 + 0.5) * side, corner.y - 6.0);
-            let number = (n + 1).to_string();
-            ui.painter().text(
-                at,
-                Align2::CENTER_BOTTOM,
-                number,
-                FontId::proportional(13.0),
-                ink,
-            );
+/// Panel of the step "Matches": the table of pairs.
+pub(super) struct Matches;
+
+impl Panel for Matches {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        let photos = project.taking_part();
+        if photos.len() < 2 {
+            return controls::instead(ui, &project.describe());
         }
-        for (row, first) in photos.iter().enumerate() {
-            for (column, second) in photos.iter().enumerate().skip(row + 1) {
-                let min = corner + side * vec2(column as f32, row as f32);
-                let rect = Rect::from_min_size(min, vec2(side - 2.0, side - 2.0));
-                cell(project, ui, rect, first, second, events);
+        let room = ui.available_size() - vec2(130.0, 40.0);
+        let side = (room.min_elem() / photos.len() as f32).clamp(34.0, 76.0);
+        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            let size = vec2(130.0, 34.0) + side * vec2(photos.len() as f32, photos.len() as f32);
+            let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+            let corner = whole.min + vec2(122.0, 30.0);
+            let ink = look::color(ui, Role::Ink);
+            for (n, photo) in photos.iter().enumerate() {
+                let at = pos2(corner.x - 6.0, corner.y + (n as f32 + 0.5) * side);
+                let name = format!("{}   {}", shortened(&photo.name, 12), n + 1);
+                ui.painter().text(
+                    at,
+                    Align2::RIGHT_CENTER,
+                    name,
+                    FontId::proportional(13.0),
+                    ink,
+                );
+                let at = pos2(corner.x + (n as f32 + 0.5) * side, corner.y - 6.0);
+                let number = (n + 1).to_string();
+                ui.painter().text(
+                    at,
+                    Align2::CENTER_BOTTOM,
+                    number,
+                    FontId::proportional(13.0),
+                    ink,
+                );
             }
-        }
-    });
+            for (row, first) in photos.iter().enumerate() {
+                for (column, second) in photos.iter().enumerate().skip(row + 1) {
+                    let min = corner + side * vec2(column as f32, row as f32);
+                    let rect = Rect::from_min_size(min, vec2(side - 2.0, side - 2.0));
+                    cell(screen, ui, rect, first, second);
+                }
+            }
+        });
+    }
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        ui.label(project.describe());
+        ui.weak(
+        "Each number counts the matches that agree on one camera motion. Click a pair to open it.",
+    );
+        controls::edit(screen, |settings| {
+            let ratio = Slider::new(&mut settings.matching.ratio, 0.3..=1.0);
+            let change = controls::slider(ui, "Ratio test threshold", ratio);
+            let mutual = ui.checkbox(&mut settings.matching.mutual, "Mutual nearest only");
+            change.max(mutual.changed().into())
+        });
+        controls::book(ui, Step::Matches);
+    }
 }
 
-fn cell(
-    project: &Project,
-    ui: &mut Ui,
-    rect: Rect,
-    first: &Given,
-    second: &Given,
-    events: &mut Vec<Event>,
-) {
+fn cell(screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, first: &Given, second: &Given) {
+    let project = screen.project;
     let response = ui.interact(
         rect,
         ui.scope_id().with((first.id, second.id)),
         Sense::click(),
     );
-    let pair = project.two_views(first, second);
-    let total = project.matches(first, second).map(|m| m.len());
+    let pair = project.get(TwoViewsOf(first.id, second.id));
+    let total = project.get(MatchesOf(first.id, second.id)).map(|m| m.len());
     let words = match (pair, total) {
         (Some(pair), Some(total)) => format!(
             "{} and {}: {} of {total} matches agree. {}",
@@ -127,8 +141,8 @@ fn cell(
             .rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside);
     }
     if response.clicked() {
-        events.push(Event::LookAtPair(first.id, second.id));
-        events.push(Event::Show(Step::TwoViews));
+        screen.send(Event::LookAtPair(first.id, second.id));
+        screen.send(Event::Show(Step::TwoViews));
     }
     response.on_hover_text(words);
 }
@@ -145,19 +159,4 @@ fn shortened(name: &str, most: usize) -> String {
         ),
         false => name.to_owned(),
     }
-}
-
-/// Draws the matching controls.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    ui.label(project.describe());
-    ui.weak(
-        "Each number counts the matches that agree on one camera motion. Click a pair to open it.",
-    );
-    knobs::edit(project, memory, events, |settings| {
-        let ratio = Slider::new(&mut settings.matching.ratio, 0.3..=1.0);
-        let turned = knobs::slider(ui, "Ratio test threshold", ratio);
-        let mutual = ui.checkbox(&mut settings.matching.mutual, "Mutual nearest only");
-        turned.max(mutual.changed().into())
-    });
-    knobs::book(ui, Step::Matches);
 }

@@ -1,177 +1,184 @@
 //! Two points and their length set the scale; other lengths follow.
 
-use super::app::Memory;
-use super::knobs;
-use super::look;
-use crate::project::{Event, Measure, Project, Step};
+use super::screen::{Panel, Screen};
+use super::widgets::{controls, look};
+use crate::project::{Measure, Step};
+use crate::session::Event;
 use egui::{DragValue, Stroke, Ui};
 use epipole_canvas::theme::Role;
 
-/// The space, with what was measured.
-pub(super) fn picture(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    events: &mut Vec<Event>,
-) {
-    if project.component().is_none() {
-        return knobs::instead(ui, &project.describe());
-    }
-    let rect = ui.available_rect_before_wrap();
-    let clicked = memory.cloud.show(project, ui, rect);
-    if let (Some(point), Some(corners)) = (clicked, &mut memory.corners) {
-        if !corners.contains(&point) {
-            corners.push(point);
-        }
-        let anchors: Vec<_> = corners
-            .iter()
-            .filter_map(|c| project.anchor_of(*c))
-            .collect();
-        if let Ok(anchors) = anchors.try_into() {
-            events.push(Event::Floor(Some(anchors)));
-            memory.corners = None;
-        }
-    } else if let Some(point) = clicked {
-        match memory.first_end.take() {
-            Some(first) if first != point => {
-                if let (Some(a), Some(b)) = (project.anchor_of(first), project.anchor_of(point)) {
-                    events.push(Event::Measure(Measure {
-                        ends: [a, b],
-                        length_m: None,
-                    }));
-                }
-            }
-            Some(_) => {}
-            None => memory.first_end = Some(point),
-        }
-    }
-    let painter = ui.painter_at(rect);
-    let color = look::color(ui, Role::Grip);
-    let ink = look::color(ui, Role::Ink);
-    let font = egui::FontId::proportional(14.0);
-    for (index, measure) in project.document().measures.iter().enumerate() {
-        let ends = measure.ends.map(|end| {
-            let point = project.anchored(&end)?;
-            memory.cloud.place_of(point, rect)
-        });
-        let [Some(from), Some(to)] = ends else {
-            continue;
-        };
-        painter.line_segment([from, to], Stroke::new(2.0, color));
-        for end in [from, to] {
-            painter.circle_stroke(end, 5.0, Stroke::new(2.0, color));
-        }
-        let words = format!("{}: {}", index + 1, project.length_words(index));
-        let text = painter.layout_no_wrap(words, font.clone(), ink);
-        let at = from.lerp(to, 0.5) + egui::vec2(8.0, -20.0);
-        let behind = egui::Rect::from_min_size(at, text.size()).expand(3.0);
-        painter.rect_filled(behind, 3.0, look::color(ui, Role::Background));
-        painter.galley(at, text, ink);
-    }
-    let floor = project.document().floor.iter().flatten();
-    let floor = floor.filter_map(|end| project.anchored(end));
-    let corners = memory.corners.iter().flatten().copied().chain(floor);
-    for place in corners.filter_map(|point| memory.cloud.place_of(point, rect)) {
-        // A square: color is not the only sign.
-        let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
-        painter.rect_stroke(
-            square,
-            0.0,
-            Stroke::new(2.0, color),
-            egui::StrokeKind::Middle,
-        );
-    }
-    if let Some(place) = memory
-        .first_end
-        .and_then(|point| memory.cloud.place_of(point, rect))
-    {
-        painter.circle_stroke(place, 7.0, Stroke::new(2.5, color));
-    }
+/// Panel of the step "Measure".
+#[derive(Default)]
+pub(super) struct Measuring {
+    /// First end of a length whose second end is to be clicked.
+    first_end: Option<usize>,
+    /// Points of the floor, while fewer than three are clicked.
+    corners: Option<Vec<usize>>,
 }
 
-/// The lengths.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    if project.component().is_none() {
-        // The words in place of the picture say so.
-        return knobs::book(ui, Step::Measure);
-    }
-    if let Some(corners) = &memory.corners {
-        ui.label(format!(
-            "Click three points of the floor: {} of 3.",
-            corners.len()
-        ));
-        if ui.button("Cancel").clicked() {
-            memory.corners = None;
+impl Panel for Measuring {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        if project.component().is_none() {
+            return controls::instead(ui, &project.describe());
         }
-        return;
-    }
-    ui.label(
-        match (project.document().measures.is_empty(), memory.first_end) {
-            (_, Some(_)) => "One end is chosen. Click the other.",
-            (true, None) => {
-                "Click two points whose distance you know and type it: it sets the scale."
+        let rect = ui.available_rect_before_wrap();
+        let clicked = screen.views.cloud.show(project, ui, rect);
+        if let (Some(point), Some(corners)) = (clicked, &mut self.corners) {
+            if !corners.contains(&point) {
+                corners.push(point);
             }
-            (false, None) => "Click two points to measure another length.",
-        },
-    );
-    if memory.first_end.is_some() && ui.button("Choose another start").clicked() {
-        memory.first_end = None;
-    }
-    let sets_scale = project.scale().map(|scale| scale.measure);
-    for (index, measure) in project.document().measures.iter().enumerate() {
-        ui.separator();
-        ui.strong(format!("{}: {}", index + 1, project.length_words(index)));
-        ui.horizontal_wrapped(|ui| {
-            let label = ui.label("known length, m");
-            let mut meters = measure.length_m.unwrap_or(0.0);
-            let field = DragValue::new(&mut meters)
-                .range(0.0..=1e6)
-                .speed(0.01)
-                .max_decimals(4);
-            let response = ui
-                .add(field.update_while_editing(false))
-                .labelled_by(label.id);
-            if (response.changed() && !response.dragged()) || response.drag_stopped() {
-                let known = (meters > 0.0).then_some(meters);
-                events.push(Event::Length(index, known));
+            let anchors: Vec<_> = corners
+                .iter()
+                .filter_map(|c| project.anchor_of(*c))
+                .collect();
+            if let Ok(anchors) = anchors.try_into() {
+                screen.send(Event::Floor(Some(anchors)));
+                self.corners = None;
             }
-            if ui.button("Remove").clicked() {
-                events.push(Event::Forget(index));
+        } else if let Some(point) = clicked {
+            match self.first_end.take() {
+                Some(first) if first != point => {
+                    if let (Some(a), Some(b)) = (project.anchor_of(first), project.anchor_of(point))
+                    {
+                        screen.send(Event::Measure(Measure {
+                            ends: [a, b],
+                            length_m: None,
+                        }));
+                    }
+                }
+                Some(_) => {}
+                None => self.first_end = Some(point),
             }
-        });
-        if sets_scale == Some(index) {
-            ui.weak("sets the scale");
-        } else if let (Some(known), Some(found)) =
-            (measure.length_m, project.length_in_meters(index))
+        }
+        let painter = ui.painter_at(rect);
+        let color = look::color(ui, Role::Grip);
+        let ink = look::color(ui, Role::Ink);
+        let font = egui::FontId::proportional(14.0);
+        for (index, measure) in project.document().measures.iter().enumerate() {
+            let ends = measure.ends.map(|end| {
+                let point = project.anchored(&end)?;
+                screen.views.cloud.place_of(point, rect)
+            });
+            let [Some(from), Some(to)] = ends else {
+                continue;
+            };
+            painter.line_segment([from, to], Stroke::new(2.0, color));
+            for end in [from, to] {
+                painter.circle_stroke(end, 5.0, Stroke::new(2.0, color));
+            }
+            let words = format!("{}: {}", index + 1, project.length_words(index));
+            let text = painter.layout_no_wrap(words, font.clone(), ink);
+            let at = from.lerp(to, 0.5) + egui::vec2(8.0, -20.0);
+            let behind = egui::Rect::from_min_size(at, text.size()).expand(3.0);
+            painter.rect_filled(behind, 3.0, look::color(ui, Role::Background));
+            painter.galley(at, text, ink);
+        }
+        let floor = project.document().floor.iter().flatten();
+        let floor = floor.filter_map(|end| project.anchored(end));
+        let corners = self.corners.iter().flatten().copied().chain(floor);
+        for place in corners.filter_map(|point| screen.views.cloud.place_of(point, rect)) {
+            // A square: color is not the only sign.
+            let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
+            painter.rect_stroke(
+                square,
+                0.0,
+                Stroke::new(2.0, color),
+                egui::StrokeKind::Middle,
+            );
+        }
+        if let Some(place) = self
+            .first_end
+            .and_then(|point| screen.views.cloud.place_of(point, rect))
         {
-            let off = 100.0 * (found.value / known - 1.0);
-            ui.weak(format!("{off:+.2} % from what you typed"));
+            painter.circle_stroke(place, 7.0, Stroke::new(2.5, color));
         }
     }
-    ui.separator();
-    match project.document().floor {
-        None => {
-            if ui.button("Set the floor").clicked() {
-                memory.corners = Some(Vec::new());
-                memory.first_end = None;
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        if project.component().is_none() {
+            // The words in place of the picture say so.
+            return controls::book(ui, Step::Measure);
+        }
+        if let Some(corners) = &self.corners {
+            ui.label(format!(
+                "Click three points of the floor: {} of 3.",
+                corners.len()
+            ));
+            if ui.button("Cancel").clicked() {
+                self.corners = None;
+            }
+            return;
+        }
+        ui.label(
+            match (project.document().measures.is_empty(), self.first_end) {
+                (_, Some(_)) => "One end is chosen. Click the other.",
+                (true, None) => {
+                    "Click two points whose distance you know and type it: it sets the scale."
+                }
+                (false, None) => "Click two points to measure another length.",
+            },
+        );
+        if self.first_end.is_some() && ui.button("Choose another start").clicked() {
+            self.first_end = None;
+        }
+        let sets_scale = project.scale().map(|scale| scale.measure);
+        for (index, measure) in project.document().measures.iter().enumerate() {
+            ui.separator();
+            ui.strong(format!("{}: {}", index + 1, project.length_words(index)));
+            ui.horizontal_wrapped(|ui| {
+                let label = ui.label("known length, m");
+                let mut meters = measure.length_m.unwrap_or(0.0);
+                let field = DragValue::new(&mut meters)
+                    .range(0.0..=1e6)
+                    .speed(0.01)
+                    .max_decimals(4);
+                let response = ui
+                    .add(field.update_while_editing(false))
+                    .labelled_by(label.id);
+                if (response.changed() && !response.dragged()) || response.drag_stopped() {
+                    let known = (meters > 0.0).then_some(meters);
+                    screen.send(Event::Length(index, known));
+                }
+                if ui.button("Remove").clicked() {
+                    screen.send(Event::Forget(index));
+                }
+            });
+            if sets_scale == Some(index) {
+                ui.weak("sets the scale");
+            } else if let (Some(known), Some(found)) =
+                (measure.length_m, project.length_in_meters(index))
+            {
+                let off = 100.0 * (found.value / known - 1.0);
+                ui.weak(format!("{off:+.2} % from what you typed"));
             }
         }
-        Some(_) => {
-            ui.label(project.floor_words().trim());
-            if ui.button("Remove the floor").clicked() {
-                events.push(Event::Floor(None));
+        ui.separator();
+        match project.document().floor {
+            None => {
+                if ui.button("Set the floor").clicked() {
+                    self.corners = Some(Vec::new());
+                    self.first_end = None;
+                }
+            }
+            Some(_) => {
+                ui.label(project.floor_words().trim());
+                if ui.button("Remove the floor").clicked() {
+                    screen.send(Event::Floor(None));
+                }
             }
         }
-    }
-    if let Some(point) = memory.cloud.point {
-        let height = project.height_words(point);
-        if !height.is_empty() {
-            ui.label(format!("The point you clicked: {height}"));
+        if let Some(point) = screen.views.cloud.point {
+            let height = project.height_words(point);
+            if !height.is_empty() {
+                ui.label(format!("The point you clicked: {height}"));
+            }
         }
+        ui.add_space(6.0);
+        ui.weak(
+            "± is one standard deviation from the keypoints alone; the cameras are taken as exact.",
+        );
+        controls::book(ui, Step::Measure);
     }
-    ui.add_space(6.0);
-    ui.weak(
-        "± is one standard deviation from the keypoints alone; the cameras are taken as exact.",
-    );
-    knobs::book(ui, Step::Measure);
 }

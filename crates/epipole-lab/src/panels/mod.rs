@@ -1,34 +1,36 @@
-//! The user interface, in egui. A panel reads the project and sends it events; it computes only
-//! layout.
+//! Panels: one per step, in egui. A panel reads the project and sends actions to the app.
 
-mod about;
-mod app;
-mod bar;
 mod calibrate;
-mod cloud;
 mod depth;
-mod depth_words;
+mod depth_controls;
 mod export;
 mod features;
-mod host;
-mod intake;
-mod keeping;
-mod knobs;
-mod look;
-mod marks;
 mod matches;
 mod measure;
-mod menu;
-mod photo;
 mod photographs;
 mod reconstruction;
-mod steer;
-mod steps;
-mod strips;
+mod screen;
 mod two_views;
-mod videos;
-mod work;
+pub(crate) mod widgets;
 
-pub use about::About;
-pub use app::{App, prepare, wear};
-pub use host::{Arrival, Host, Kept, Report, WorkId};
+pub(crate) use screen::{Action, Panel, Screen, Views};
+
+use crate::project::Step;
+
+/// All panels, each with its step and in its initial state.
+pub(crate) fn all() -> [(Step, Box<dyn Panel>); 9] {
+    [
+        (Step::Photographs, Box::new(photographs::Photographs)),
+        (Step::Calibrate, Box::new(calibrate::Calibrate::default())),
+        (Step::Features, Box::new(features::Features::default())),
+        (Step::Matches, Box::new(matches::Matches)),
+        (Step::TwoViews, Box::new(two_views::TwoViews::default())),
+        (
+            Step::Reconstruction,
+            Box::new(reconstruction::Reconstruction),
+        ),
+        (Step::Depth, Box::new(depth::Depth::default())),
+        (Step::Measure, Box::new(measure::Measuring::default())),
+        (Step::Export, Box::new(export::Export)),
+    ]
+}

@@ -1,10 +1,10 @@
 //! The photographs: their data, their outcomes, and the choice of those that take part.
 
-use super::app::Memory;
-use super::host::Wish;
-use super::knobs;
-use super::look;
-use crate::project::{Event, Fate, FocalOrigin, Given, MAX_FRAMES, PhotoId, Project, Step};
+use super::screen::{Action, Panel, Screen};
+use super::widgets::{controls, look};
+use crate::project::{Given, MAX_FRAMES, Outcome, PhotoId, Step};
+use crate::session::Event;
+use crate::tasks::FocalOrigin;
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
@@ -14,49 +14,81 @@ const SMALLEST: f32 = 96.0;
 /// Height of its name, points.
 const NAME: f32 = 24.0;
 
-/// All photographs, small.
-pub(super) fn picture(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    events: &mut Vec<Event>,
-) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        // Space for the frame around the selected one.
-        Frame::new().inner_margin(4.0).show(ui, |ui| {
-            // Two in a row at least: phones have no room for two large ones.
-            let half = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
-            let width = half.floor().clamp(SMALLEST, SMALL);
-            ui.horizontal_wrapped(|ui| {
-                for photo in &project.document().photos {
-                    card(project, memory, ui, photo, width, events);
-                }
+/// Panel of the step "Photographs".
+pub(super) struct Photographs;
+
+impl Panel for Photographs {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            // Space for the frame around the selected one.
+            Frame::new().inner_margin(4.0).show(ui, |ui| {
+                // Two in a row at least: phones have no room for two large ones.
+                let half = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
+                let width = half.floor().clamp(SMALLEST, SMALL);
+                ui.horizontal_wrapped(|ui| {
+                    for photo in &project.document().photos {
+                        card(screen, ui, photo, width);
+                    }
+                });
             });
         });
-    });
+    }
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        if ui.button("Take photographs…").clicked() {
+            screen.actions.push(Action::TakePhotographs);
+        }
+        if let Some(photo) = project.document().photo(project.view().photo) {
+            one(screen, ui, photo);
+            ui.separator();
+        }
+        let held = project.orientation_words();
+        if !held.is_empty() {
+            ui.weak(held.trim());
+            ui.separator();
+        }
+        let left_out = project.left_out();
+        // The state of the selected photograph is already shown above.
+        let is_other = |(id, _): &&(PhotoId, Outcome)| *id != project.view().photo;
+        if left_out.iter().any(|photo| is_other(&photo)) {
+            ui.strong(format!("Left out: {}", left_out.len()));
+            for (id, _) in left_out.iter().filter(is_other) {
+                if let Some(photo) = project.document().photo(*id) {
+                    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
+                    ui.colored_label(look::color(ui, Role::Outlier), words);
+                }
+            }
+            ui.separator();
+        }
+        controls::edit(screen, |settings| {
+            let size = Slider::new(&mut settings.max_megapixels, 0.1..=12.0).logarithmic(true);
+            let change = controls::slider(ui, "Largest size, megapixels", size.max_decimals(1));
+            let frames = Slider::new(&mut settings.num_frames, 2..=MAX_FRAMES);
+            change.max(controls::slider(ui, "Frames from a video", frames))
+        });
+        ui.weak("You can add a video instead. The Lab cuts it into this many equal parts and takes the sharpest frame of each.");
+        ui.weak("Nothing is uploaded. Your photographs stay on this machine.");
+        controls::book(ui, Step::Photographs);
+    }
 }
 
-fn card(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    photo: &Given,
-    width: f32,
-    events: &mut Vec<Event>,
-) {
+fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
+    let project = screen.project;
     let selected = project.view().photo == photo.id;
     let (whole, response) =
         ui.allocate_exact_size(vec2(width, 0.75 * width + NAME), Sense::click());
     let (rect, below) = whole.split_top_bottom_at_y(whole.bottom() - NAME);
-    let fate = project.fate(photo);
-    let words = format!("{}: {}", photo.name, project.fate_words(photo));
+    let outcome = project.outcome(photo);
+    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, selected, &words));
     ui.painter()
         .rect_filled(rect, 3.0, look::color(ui, Role::Surface));
-    let is_out = !matches!(fate, Fate::Registered(_) | Fate::Open);
+    let is_out = !matches!(outcome, Outcome::Registered(_) | Outcome::Pending);
     if let Some(pixels) = project.shown(photo) {
         let key = project.key_of_photograph(photo);
-        let texture = memory.pictures.small(ui, key, pixels);
+        let texture = screen.views.pictures.small(ui, key, pixels);
         let size = texture.size_vec2();
         let fit = (rect.width() / size.x).min(rect.height() / size.y);
         let place = egui::Rect::from_center_size(rect.center(), size * fit);
@@ -83,56 +115,15 @@ fn card(
     let at = below.left_top() + vec2(0.0, 5.0);
     ui.painter().galley(at, text, look::color(ui, role));
     if response.clicked() {
-        events.push(Event::Look(photo.id));
+        screen.send(Event::Look(photo.id));
     }
     response.on_hover_text(words);
 }
 
-/// Size, focal length and outcome of the selected one, and the outcomes of those left out.
-pub(super) fn knobs(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    events: &mut Vec<Event>,
-) -> Option<Wish> {
-    let taken = ui.button("Take photographs…").clicked();
-    if let Some(photo) = project.document().photo(project.view().photo) {
-        one(project, ui, photo, events);
-        ui.separator();
-    }
-    let held = project.orientation_words();
-    if !held.is_empty() {
-        ui.weak(held.trim());
-        ui.separator();
-    }
-    let left_out = project.left_out();
-    // The state of the selected photograph is already shown above.
-    let is_other = |(id, _): &&(PhotoId, Fate)| *id != project.view().photo;
-    if left_out.iter().any(|photo| is_other(&photo)) {
-        ui.strong(format!("Left out: {}", left_out.len()));
-        for (id, _) in left_out.iter().filter(is_other) {
-            if let Some(photo) = project.document().photo(*id) {
-                let words = format!("{}: {}", photo.name, project.fate_words(photo));
-                ui.colored_label(look::color(ui, Role::Outlier), words);
-            }
-        }
-        ui.separator();
-    }
-    knobs::edit(project, memory, events, |settings| {
-        let size = Slider::new(&mut settings.max_megapixels, 0.1..=12.0).logarithmic(true);
-        let turned = knobs::slider(ui, "Largest size, megapixels", size.max_decimals(1));
-        let frames = Slider::new(&mut settings.num_frames, 2..=MAX_FRAMES);
-        turned.max(knobs::slider(ui, "Frames from a video", frames))
-    });
-    ui.weak("You can add a video instead. The Lab cuts it into this many equal parts and takes the sharpest frame of each.");
-    ui.weak("Nothing is uploaded. Your photographs stay on this machine.");
-    knobs::book(ui, Step::Photographs);
-    taken.then_some(Wish::TakePhotographs)
-}
-
-fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
+fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
+    let project = screen.project;
     ui.strong(&photo.name);
-    ui.label(project.fate_words(photo));
+    ui.label(project.outcome_words(photo));
     if let (Some(pixels), Some(camera)) = (project.shown(photo), project.camera(photo)) {
         let (width, height) = pixels.full_size;
         let mut size = format!("{width} × {height}");
@@ -142,7 +133,7 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
                 pixels.width, pixels.height
             ));
         }
-        knobs::row(ui, "size", size);
+        controls::row(ui, "size", size);
         let origin = match project.focal_origin(photo) {
             Some(FocalOrigin::Typed) => "you typed it",
             Some(FocalOrigin::Calibration) => {
@@ -162,7 +153,7 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
                 .add(field.update_while_editing(false))
                 .labelled_by(label.id);
             if (response.changed() && !response.dragged()) || response.drag_stopped() {
-                events.push(Event::Focal(photo.id, Some(focal_px)));
+                screen.send(Event::Focal(photo.id, Some(focal_px)));
             }
         });
         ui.weak(origin);
@@ -171,7 +162,7 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
             ui.weak(unused);
         }
         if photo.focal_px.is_some() && ui.button("Reset focal length").clicked() {
-            events.push(Event::Focal(photo.id, None));
+            screen.send(Event::Focal(photo.id, None));
         }
     }
     ui.horizontal_wrapped(|ui| {
@@ -180,13 +171,13 @@ fn one(project: &Project, ui: &mut Ui, photo: &Given, events: &mut Vec<Event>) {
             .checkbox(&mut takes_part, "Use this photograph")
             .changed()
         {
-            events.push(Event::Exclude(photo.id, !takes_part));
+            screen.send(Event::Exclude(photo.id, !takes_part));
         }
         if ui.button("Move earlier").clicked() {
-            events.push(Event::Earlier(photo.id));
+            screen.send(Event::Earlier(photo.id));
         }
         if ui.button("Remove").clicked() {
-            events.push(Event::Remove(photo.id));
+            screen.send(Event::Remove(photo.id));
         }
     });
 }

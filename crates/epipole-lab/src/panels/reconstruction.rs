@@ -1,21 +1,73 @@
 //! Cameras and points, why photographs were left out, and how the cost fell.
 
-use super::app::Memory;
-use super::cloud::Coloring;
-use super::knobs::{self, Turned};
-use super::look;
-use super::marks::sights;
-use crate::project::{Event, Project, RefineFocal, Step};
+use super::screen::{Panel, Screen};
+use super::widgets::cloud::{CloudView, Coloring};
+use super::widgets::controls::{self, Change};
+use super::widgets::{look, observations};
+use crate::project::{Project, RefineFocal, Step};
+use crate::session::Event;
+use crate::tasks::ReconstructionOfAll;
 use egui::{Slider, Ui};
 use epipole_canvas::theme::Role;
 
-/// The space.
-pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
+/// Panel of the step "Reconstruction".
+pub(super) struct Reconstruction;
+
+impl Panel for Reconstruction {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        space(screen, ui);
+    }
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        numbers(screen, ui);
+        // Without any, a message in place of the image gives the reason.
+        if project.component().is_some() {
+            for (id, _) in &project.left_out() {
+                if let Some(photo) = project.document().photo(*id) {
+                    let words = format!("{}: {}", photo.name, project.outcome_words(photo));
+                    ui.colored_label(look::color(ui, Role::Outlier), words);
+                }
+            }
+            ui.separator();
+            view(project, &mut screen.views.cloud, ui);
+            ui.separator();
+        }
+        controls::edit(screen, |settings| {
+            let mut change = Change::No;
+            ui.weak("Refine focal lengths");
+            ui.horizontal_wrapped(|ui| {
+                for (when, name) in [
+                    (RefineFocal::WhenGuessed, "if guessed"),
+                    (RefineFocal::Always, "always"),
+                    (RefineFocal::Never, "never"),
+                ] {
+                    let radio = ui.radio_value(&mut settings.refine_focal, when, name);
+                    change = change.max(radio.changed().into());
+                }
+            });
+            let distortion = ui.checkbox(
+                &mut settings.sfm.refine_distortion,
+                "Refine radial distortion",
+            );
+            change = change.max(distortion.changed().into());
+            let enough = Slider::new(&mut settings.sfm.min_num_inliers, 6..=200);
+            change = change.max(controls::slider(ui, "Fewest inliers", enough));
+            let seed = Slider::new(&mut settings.sfm.seed, 0..=20);
+            change.max(controls::slider(ui, "Seed", seed))
+        });
+        controls::book(ui, Step::Reconstruction);
+    }
+}
+
+/// Draws the point cloud, or the reason why there is none.
+pub(super) fn space(screen: &mut Screen<'_>, ui: &mut Ui) {
+    let project = screen.project;
     if project.component().or(project.growing()).is_none() {
-        return knobs::instead(ui, &why_none(project));
+        return controls::instead(ui, &why_none(project));
     }
     let rect = ui.available_rect_before_wrap();
-    memory.cloud.show(project, ui, rect);
+    screen.views.cloud.show(project, ui, rect);
 }
 
 /// Reason for an empty view, with one line for each photograph left out.
@@ -23,57 +75,16 @@ fn why_none(project: &Project) -> String {
     let mut words = project.describe();
     for (id, _) in project.left_out() {
         if let Some(photo) = project.document().photo(id) {
-            let told = format!("{}: {}", photo.name, project.fate_words(photo));
-            words = words.replace(&format!(" {told}"), &format!("\n{told}"));
+            let line = format!("{}: {}", photo.name, project.outcome_words(photo));
+            words = words.replace(&format!(" {line}"), &format!("\n{line}"));
         }
     }
     words
 }
 
-/// Numbers, reasons, knobs.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    numbers(project, ui, events);
-    // Without any, a message in place of the image gives the reason.
-    if project.component().is_some() {
-        for (id, _) in &project.left_out() {
-            if let Some(photo) = project.document().photo(*id) {
-                let words = format!("{}: {}", photo.name, project.fate_words(photo));
-                ui.colored_label(look::color(ui, Role::Outlier), words);
-            }
-        }
-        ui.separator();
-        view(project, memory, ui);
-        ui.separator();
-    }
-    knobs::edit(project, memory, events, |settings| {
-        let mut turned = Turned::No;
-        ui.weak("Refine focal lengths");
-        ui.horizontal_wrapped(|ui| {
-            for (when, name) in [
-                (RefineFocal::WhenGuessed, "if guessed"),
-                (RefineFocal::Always, "always"),
-                (RefineFocal::Never, "never"),
-            ] {
-                let radio = ui.radio_value(&mut settings.refine_focal, when, name);
-                turned = turned.max(radio.changed().into());
-            }
-        });
-        let distortion = ui.checkbox(
-            &mut settings.sfm.refine_distortion,
-            "Refine radial distortion",
-        );
-        turned = turned.max(distortion.changed().into());
-        let enough = Slider::new(&mut settings.sfm.min_num_inliers, 6..=200);
-        turned = turned.max(knobs::slider(ui, "Fewest inliers", enough));
-        let seed = Slider::new(&mut settings.sfm.seed, 0..=20);
-        turned.max(knobs::slider(ui, "Seed", seed))
-    });
-    knobs::book(ui, Step::Reconstruction);
-}
-
 /// Draws the view options of the point cloud.
-fn view(project: &Project, memory: &mut Memory, ui: &mut Ui) {
-    point(project, memory, ui);
+fn view(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
+    point(project, cloud.point, ui);
     ui.horizontal_wrapped(|ui| {
         ui.weak("Color by");
         for (coloring, name) in [
@@ -81,22 +92,23 @@ fn view(project: &Project, memory: &mut Memory, ui: &mut Ui) {
             (Coloring::Error, "error"),
             (Coloring::Track, "track length"),
         ] {
-            ui.radio_value(&mut memory.cloud.coloring, coloring, name);
+            ui.radio_value(&mut cloud.coloring, coloring, name);
         }
     });
-    ui.checkbox(&mut memory.cloud.photographs, "Show photographs");
-    match memory.cloud.coloring {
+    ui.checkbox(&mut cloud.photographs, "Show photographs");
+    match cloud.coloring {
         Coloring::Photographs => {}
         Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),
         Coloring::Track => drop(ui.weak("dark: two photographs, yellow: eight or more")),
     }
     if ui.button("Reset view").clicked() {
-        memory.cloud.look_at_all();
+        cloud.look_at_all();
     }
 }
 
-fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
-    let Some(found) = project.reconstruction() else {
+fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
+    let project = screen.project;
+    let Some(found) = project.get(ReconstructionOfAll) else {
         // The view grows meanwhile, without a progress bar.
         if project.growing().is_some() {
             ui.label(project.describe());
@@ -109,7 +121,7 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
             for n in 0..found.components.len() {
                 let label = format!("Part {}", n + 1);
                 if ui.selectable_label(n == current, label).clicked() {
-                    events.push(Event::LookAtComponent(n));
+                    screen.send(Event::LookAtComponent(n));
                 }
             }
         });
@@ -118,19 +130,19 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
         return;
     };
     let photos = project.document().photos.len();
-    knobs::row(
+    controls::row(
         ui,
         "photographs",
         format!("{} of {photos}", component.num_registered()),
     );
-    knobs::row(ui, "points", component.points.len().to_string());
+    controls::row(ui, "points", component.points.len().to_string());
     if let Some(mean_px) = found.mean_error_px.get(current) {
-        knobs::row(ui, "mean reprojection error", format!("{mean_px:.3} px"));
+        controls::row(ui, "mean reprojection error", format!("{mean_px:.3} px"));
     }
     if project.sfm_options().refine_focal
         && let Some(camera) = component.cameras.iter().flatten().next()
     {
-        knobs::row(
+        controls::row(
             ui,
             "focal length, refined",
             format!("{:.1} px", camera.intrinsics[0]),
@@ -139,7 +151,7 @@ fn numbers(project: &Project, ui: &mut Ui, events: &mut Vec<Event>) {
     if project.sfm_options().refine_distortion {
         let terms = component.lens.coefficients();
         let words = format!("{:.4}, {:.4}", terms[0], terms[1]);
-        knobs::row(ui, "radial distortion", words);
+        controls::row(ui, "radial distortion", words);
     }
     costs(ui, &found.costs);
 }
@@ -174,21 +186,21 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
 }
 
 /// The point that was clicked.
-fn point(project: &Project, memory: &Memory, ui: &mut Ui) {
-    let Some(index) = memory.cloud.point else {
+fn point(project: &Project, point: Option<usize>, ui: &mut Ui) {
+    let Some(index) = point else {
         ui.weak(
             "Drag to orbit, with Shift or two fingers to pan. Scroll or pinch to zoom. Click a point to see which photographs \
              see it.",
         );
         return;
     };
-    let sights = sights(project, index);
+    let all = observations(project, index);
     ui.strong(format!(
         "Point {}, seen in {} photographs",
         index + 1,
-        sights.len()
+        all.len()
     ));
-    for (name, [u, v], error_px) in sights {
+    for (name, [u, v], error_px) in all {
         ui.label(format!(
             "{name}: ({u:.1}, {v:.1}) px, error {error_px:.2} px"
         ));

@@ -1,99 +1,169 @@
 //! One pair: its matches, and the epipolar line of any place.
 
-use super::app::Memory;
-use super::knobs;
-use super::{look, photo};
-use crate::project::{Event, Given, Project, Step};
-use crate::tasks::ViewModel;
+use super::screen::{Panel, Screen};
+use super::widgets::{controls, look, photo};
+use crate::project::{Given, Step};
+use crate::tasks::{FeaturesOf, MatchesOf, TwoViewsOf, ViewModel};
 use egui::{Align, Layout, Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
 /// Maximum number of matches drawn.
 const MAX_DRAWN: usize = 400;
 
-/// Both photographs, beside or above each other.
-pub(super) fn picture(project: &Project, memory: &mut Memory, ui: &mut Ui) {
-    let (first, second) = project.view().pair;
-    let document = project.document();
-    let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
-        return knobs::instead(ui, "A pair needs two photographs.");
-    };
-    let (Some(one), Some(two)) = (project.shown(first), project.shown(second)) else {
-        return knobs::instead(ui, &project.describe());
-    };
-    let whole = ui.available_rect_before_wrap();
-    let (left, right) = halves(whole);
-    let [lens1, lens2] = &mut memory.lenses;
-    let full = memory
-        .pictures
-        .full(ui, project.key_of_photograph(first), one);
-    let shown1 = photo::show(ui, left, &full, lens1, &first.name);
-    let full = memory
-        .pictures
-        .full(ui, project.key_of_photograph(second), two);
-    let shown2 = photo::show(ui, right, &full, lens2, &second.name);
-    let (Some(places), Some(pair)) = (
-        project.match_places(first, second),
-        project.two_views(first, second),
-    ) else {
-        return;
-    };
-    if let Some([u, v]) = shown1.clicked() {
-        let away = |p: &[f64; 4]| libm::hypot(p[0] - u, p[1] - v);
-        let near = (0..places.len()).min_by(|&a, &b| away(&places[a]).total_cmp(&away(&places[b])));
-        let reach = f64::from(10.0 / shown1.scale());
-        memory.chosen_match = near.filter(|&n| away(&places[n]) <= reach);
-        memory.probe = Some(match memory.chosen_match {
-            Some(n) => [places[n][0], places[n][1]],
-            None => [u, v],
-        });
-    }
-    let (inlier, outlier) = (
-        look::of(Theme::Dark, Role::Inlier),
-        look::of(Theme::Dark, Role::Outlier),
-    );
-    let every = places.len().div_ceil(MAX_DRAWN).max(1);
-    let mut shapes = Vec::new();
-    for (place, is_inlier) in places.iter().zip(&pair.inliers).step_by(every) {
-        let [u1, v1, u2, v2] = *place;
-        for at in [shown1.at(u1, v1), shown2.at(u2, v2)] {
-            if *is_inlier {
-                shapes.push(egui::Shape::circle_stroke(
-                    at,
-                    3.0,
-                    egui::Stroke::new(1.2, inlier),
-                ));
-            } else {
-                // A cross: color is not the only sign.
-                for d in [vec2(3.0, 3.0), vec2(3.0, -3.0)] {
-                    shapes.push(egui::Shape::line_segment(
-                        [at - d, at + d],
-                        egui::Stroke::new(1.2, outlier),
+/// Panel of the step "Two views".
+#[derive(Default)]
+pub(super) struct TwoViews {
+    /// Pixel that was clicked in the first photograph.
+    probe: Option<[f64; 2]>,
+    /// Index of the match that was clicked.
+    selected: Option<usize>,
+}
+
+impl Panel for TwoViews {
+    fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let (project, views) = (screen.project, &mut *screen.views);
+        let (first, second) = project.view().pair;
+        let document = project.document();
+        let (Some(first), Some(second)) = (document.photo(first), document.photo(second)) else {
+            return controls::instead(ui, "A pair needs two photographs.");
+        };
+        let (Some(one), Some(two)) = (project.shown(first), project.shown(second)) else {
+            return controls::instead(ui, &project.describe());
+        };
+        let whole = ui.available_rect_before_wrap();
+        let (left, right) = halves(whole);
+        let [lens1, lens2] = &mut views.lenses;
+        let full = views
+            .pictures
+            .full(ui, project.key_of_photograph(first), one);
+        let shown1 = photo::show(ui, left, &full, lens1, &first.name);
+        let full = views
+            .pictures
+            .full(ui, project.key_of_photograph(second), two);
+        let shown2 = photo::show(ui, right, &full, lens2, &second.name);
+        let (Some(places), Some(pair)) = (
+            MatchesOf(first.id, second.id).places(project),
+            project.get(TwoViewsOf(first.id, second.id)),
+        ) else {
+            return;
+        };
+        if let Some([u, v]) = shown1.clicked() {
+            let away = |p: &[f64; 4]| libm::hypot(p[0] - u, p[1] - v);
+            let near =
+                (0..places.len()).min_by(|&a, &b| away(&places[a]).total_cmp(&away(&places[b])));
+            let reach = f64::from(10.0 / shown1.scale());
+            self.selected = near.filter(|&n| away(&places[n]) <= reach);
+            self.probe = Some(match self.selected {
+                Some(n) => [places[n][0], places[n][1]],
+                None => [u, v],
+            });
+        }
+        let (inlier, outlier) = (
+            look::of(Theme::Dark, Role::Inlier),
+            look::of(Theme::Dark, Role::Outlier),
+        );
+        let every = places.len().div_ceil(MAX_DRAWN).max(1);
+        let mut shapes = Vec::new();
+        for (place, is_inlier) in places.iter().zip(&pair.inliers).step_by(every) {
+            let [u1, v1, u2, v2] = *place;
+            for at in [shown1.at(u1, v1), shown2.at(u2, v2)] {
+                if *is_inlier {
+                    shapes.push(egui::Shape::circle_stroke(
+                        at,
+                        3.0,
+                        egui::Stroke::new(1.2, inlier),
                     ));
+                } else {
+                    // A cross: color is not the only sign.
+                    for d in [vec2(3.0, 3.0), vec2(3.0, -3.0)] {
+                        shapes.push(egui::Shape::line_segment(
+                            [at - d, at + d],
+                            egui::Stroke::new(1.2, outlier),
+                        ));
+                    }
                 }
             }
         }
-    }
-    let (of_first, of_second): (Vec<_>, Vec<_>) = shapes
-        .into_iter()
-        .partition(|shape| left.contains(shape.visual_bounding_rect().center()));
-    shown1.add(of_first);
-    shown2.add(of_second);
-    let grip = look::of(Theme::Dark, Role::Grip);
-    if let Some([u, v]) = memory.probe {
-        shown1.ring(shown1.at(u, v), 6.0, grip);
-        if let Some(f) = pair.fundamental
-            && let Some((from, to)) = epipolar_line(&f, [u, v], [two.width, two.height])
-        {
-            shown2.line(shown2.at(from[0], from[1]), shown2.at(to[0], to[1]), grip);
-        } else if let ViewModel::Homography(h) = pair.model
-            && let Some([u2, v2]) = mapped(&h, [u, v])
-        {
-            shown2.ring(shown2.at(u2, v2), 9.0, grip);
+        let (of_first, of_second): (Vec<_>, Vec<_>) = shapes
+            .into_iter()
+            .partition(|shape| left.contains(shape.visual_bounding_rect().center()));
+        shown1.add(of_first);
+        shown2.add(of_second);
+        let grip = look::of(Theme::Dark, Role::Grip);
+        if let Some([u, v]) = self.probe {
+            shown1.ring(shown1.at(u, v), 6.0, grip);
+            if let Some(f) = pair.fundamental
+                && let Some((from, to)) = epipolar_line(&f, [u, v], [two.width, two.height])
+            {
+                shown2.line(shown2.at(from[0], from[1]), shown2.at(to[0], to[1]), grip);
+            } else if let ViewModel::Homography(h) = pair.model
+                && let Some([u2, v2]) = mapped(&h, [u, v])
+            {
+                shown2.ring(shown2.at(u2, v2), 9.0, grip);
+            }
+        }
+        if let Some(place) = self.selected.and_then(|n| places.get(n)) {
+            shown2.ring(shown2.at(place[2], place[3]), 5.0, grip);
         }
     }
-    if let Some(place) = memory.chosen_match.and_then(|n| places.get(n)) {
-        shown2.ring(shown2.at(place[2], place[3]), 5.0, grip);
+
+    fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        let project = screen.project;
+        let (a, b) = project.view().pair;
+        if controls::choose_pair(screen, ui) {
+            self.probe = None;
+            self.selected = None;
+        }
+        ui.label(project.describe());
+        let document = project.document();
+        if let (Some(first), Some(second)) = (document.photo(a), document.photo(b))
+            && let (Some(pair), Some(matches)) = (
+                project.get(TwoViewsOf(first.id, second.id)),
+                project.get(MatchesOf(first.id, second.id)),
+            )
+        {
+            let (name, values) = match &pair.model {
+                ViewModel::Essential(e) => ("E", e),
+                ViewModel::Fundamental(f) => ("F", f),
+                ViewModel::Homography(h) => ("H", h),
+            };
+            controls::row(
+                ui,
+                "inliers",
+                format!("{} of {}", pair.num_inliers, matches.len()),
+            );
+            controls::row(ui, "RANSAC samples", pair.iterations.to_string());
+            if let Some(turn) = pair.turn_deg {
+                controls::row(ui, "camera rotation", format!("{turn:.1}°"));
+            }
+            ui.weak(format!("{name}, scaled to norm 1"));
+            egui::Grid::new("matrix").show(ui, |ui| {
+                for row in values.chunks(3) {
+                    for value in row {
+                        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                            ui.label(scientific(*value));
+                        });
+                    }
+                    ui.end_row();
+                }
+            });
+            if let Some(m) = self.selected.and_then(|n| matches.get(n).map(|m| (n, m))) {
+                let fits = match pair.inliers.get(m.0) {
+                    Some(true) => "an inlier",
+                    _ => "an outlier",
+                };
+                controls::row(ui, "match", format!("ratio {:.2}, {fits}", m.1.ratio));
+                patches(screen, ui, [first, second], [m.1.first, m.1.second]);
+            }
+        }
+        ui.weak("Click in the first photograph: the same point must lie on the line in the second. Circles are inliers, crosses are outliers.");
+        controls::edit(screen, |settings| {
+            let error = Slider::new(&mut settings.pairs.max_error_px, 0.1..=10.0).logarithmic(true);
+            let change = controls::slider(ui, "Inlier threshold ε, px", error.max_decimals(2));
+            let seed = Slider::new(&mut settings.pairs.seed, 0..=20);
+            change.max(controls::slider(ui, "Seed", seed))
+        });
+        controls::book(ui, Step::TwoViews);
     }
 }
 
@@ -148,92 +218,22 @@ fn mapped(h: &[f64; 9], [u, v]: [f64; 2]) -> Option<[f64; 2]> {
     place.iter().all(|x| x.is_finite()).then_some(place)
 }
 
-/// Draws the choice of the pair, and its results.
-pub(super) fn knobs(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    let (a, b) = project.view().pair;
-    if knobs::choose_pair(project, ui, events) {
-        memory.probe = None;
-        memory.chosen_match = None;
-    }
-    ui.label(project.describe());
-    let document = project.document();
-    if let (Some(first), Some(second)) = (document.photo(a), document.photo(b))
-        && let (Some(pair), Some(matches)) = (
-            project.two_views(first, second),
-            project.matches(first, second),
-        )
-    {
-        let (name, values) = match &pair.model {
-            ViewModel::Essential(e) => ("E", e),
-            ViewModel::Fundamental(f) => ("F", f),
-            ViewModel::Homography(h) => ("H", h),
-        };
-        knobs::row(
-            ui,
-            "inliers",
-            format!("{} of {}", pair.num_inliers, matches.len()),
-        );
-        knobs::row(ui, "RANSAC samples", pair.iterations.to_string());
-        if let Some(turn) = pair.turn_deg {
-            knobs::row(ui, "camera rotation", format!("{turn:.1}°"));
-        }
-        ui.weak(format!("{name}, scaled to norm 1"));
-        egui::Grid::new("matrix").show(ui, |ui| {
-            for row in values.chunks(3) {
-                for value in row {
-                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        ui.label(scientific(*value));
-                    });
-                }
-                ui.end_row();
-            }
-        });
-        if let Some(m) = memory
-            .chosen_match
-            .and_then(|n| matches.get(n).map(|m| (n, m)))
-        {
-            let fits = match pair.inliers.get(m.0) {
-                Some(true) => "an inlier",
-                _ => "an outlier",
-            };
-            knobs::row(ui, "match", format!("ratio {:.2}, {fits}", m.1.ratio));
-            patches(
-                project,
-                memory,
-                ui,
-                [first, second],
-                [m.1.first, m.1.second],
-            );
-        }
-    }
-    ui.weak("Click in the first photograph: the same point must lie on the line in the second. Circles are inliers, crosses are outliers.");
-    knobs::edit(project, memory, events, |settings| {
-        let error = Slider::new(&mut settings.pairs.max_error_px, 0.1..=10.0).logarithmic(true);
-        let turned = knobs::slider(ui, "Inlier threshold ε, px", error.max_decimals(2));
-        let seed = Slider::new(&mut settings.pairs.seed, 0..=20);
-        turned.max(knobs::slider(ui, "Seed", seed))
-    });
-    knobs::book(ui, Step::TwoViews);
-}
-
 /// A number with its sign and power of ten, for aligned rows.
 fn scientific(value: f64) -> String {
     format!("{value:.3e}").replace('-', "−")
 }
 
+/// Side of a patch, points.
+const SIDE: f32 = 136.0;
+
 /// Draws both features in the windows of their descriptors, each in the orientation of its
 /// photograph.
-fn patches(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    photos: [&Given; 2],
-    features: [u32; 2],
-) {
-    const SIDE: f32 = 136.0;
+fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&Given; 2], features: [u32; 2]) {
+    let project = screen.project;
     ui.horizontal(|ui| {
         for (photo, index) in photos.into_iter().zip(features) {
-            let (Some(pixels), Some(found)) = (project.shown(photo), project.features(photo))
+            let (Some(pixels), Some(found)) =
+                (project.shown(photo), project.get(FeaturesOf(photo.id)))
             else {
                 continue;
             };
@@ -241,7 +241,7 @@ fn patches(
                 continue;
             };
             let key = project.key_of_photograph(photo);
-            let full = memory.pictures.full(ui, key, pixels);
+            let full = screen.views.pictures.full(ui, key, pixels);
             let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), egui::Sense::hover());
             let words = format!("Patch of the match in {}", photo.name);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));

@@ -1,14 +1,23 @@
 //! Contents of a project, restored by undo: photographs, settings, measurements.
 
-use super::keys::Key;
-use crate::tasks::{
-    BoardPattern, CalibrationOptions, DepthOptions, FeatureOptions, LensCamera, MatchOptions,
-    PairOptions, Sample, SfmOptions, Source,
-};
+use super::board_options::LensCamera;
+use super::bytes::Blob;
+use super::key::Key;
+use super::sample::Sample;
+use super::settings::Settings;
 use serde::{Deserialize, Serialize};
 
 /// A photograph's permanent number in its project.
 pub type PhotoId = u32;
+
+/// Source of a photograph.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Source {
+    /// The bytes of an image file.
+    File(Blob),
+    /// A photograph of a sample, rendered.
+    Rendered(Sample, u8),
+}
 
 /// A photograph as it was given.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,102 +36,10 @@ pub struct Given {
     pub focal_px: Option<f64>,
 }
 
-/// When focal lengths are refined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RefineFocal {
-    /// If a photograph has no focal length of its own.
-    WhenGuessed,
-    /// Always.
-    Always,
-    /// Never.
-    Never,
-}
-
-/// All knobs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
-    /// Maximum size of downscaled photographs, megapixels.
-    pub max_megapixels: f64,
-    /// Feature detection.
-    pub features: FeatureOptions,
-    /// Matching.
-    pub matching: MatchOptions,
-    /// Two-view verification.
-    pub pairs: PairOptions,
-    /// Reconstruction; its `refine_focal` follows the field below.
-    pub sfm: SfmOptions,
-    /// When focal lengths are refined.
-    pub refine_focal: RefineFocal,
-    /// Dense depth of pairs.
-    #[serde(default)]
-    pub depth: DepthOptions,
-    /// Calibration.
-    #[serde(default)]
-    pub calibration: CalibrationOptions,
-    /// Number of frames to extract from a video.
-    #[serde(default = "usual_num_frames")]
-    pub num_frames: u32,
-}
-
-fn usual_num_frames() -> u32 {
-    20
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            max_megapixels: 3.0,
-            features: FeatureOptions::default(),
-            matching: MatchOptions::default(),
-            pairs: PairOptions::default(),
-            sfm: SfmOptions::default(),
-            refine_focal: RefineFocal::WhenGuessed,
-            depth: DepthOptions::default(),
-            calibration: CalibrationOptions::default(),
-            num_frames: usual_num_frames(),
-        }
-    }
-}
-
-/// Maximum disparity, pixels.
-pub const MAX_DISPARITY_PX: i32 = 8192;
-/// Maximum number of frames from a video.
-pub const MAX_FRAMES: u32 = 60;
-/// Maximum number of columns and rows of a board.
-pub const MAX_MARKS: u32 = 100;
-/// The least and the greatest side of a square, meters.
-pub const SQUARES_M: [f64; 2] = [1e-4, 100.0];
-
-/// The value within the range, and the lowest for one that is not a number.
-fn within(value: f64, low: f64, high: f64) -> f64 {
-    // The other way round, NaN would pass.
-    if value >= low { value.min(high) } else { low }
-}
-
-impl Settings {
-    /// The same with every number in its range.
-    pub fn checked(mut self) -> Self {
-        self.max_megapixels = within(self.max_megapixels, 0.1, 12.0);
-        self.features.max_features = self.features.max_features.clamp(100, 20_000);
-        self.features.contrast = within(f64::from(self.features.contrast), 0.001, 0.2) as f32;
-        self.matching.ratio = within(f64::from(self.matching.ratio), 0.3, 1.0) as f32;
-        self.pairs.max_error_px = within(self.pairs.max_error_px, 0.1, 10.0);
-        self.sfm.min_num_inliers = self.sfm.min_num_inliers.clamp(6, 200);
-        if let Some([low, high]) = &mut self.depth.range_px {
-            *low = (*low).clamp(0, MAX_DISPARITY_PX - 1);
-            *high = (*high).clamp(*low + 1, MAX_DISPARITY_PX.min(*low + 4095));
-        }
-        self.num_frames = self.num_frames.clamp(2, MAX_FRAMES);
-        let board = &mut self.calibration.board;
-        let fewest = match board.pattern {
-            BoardPattern::Chessboard => 3,
-            BoardPattern::Circles => 2,
-        };
-        board.columns = board.columns.clamp(fewest, MAX_MARKS);
-        board.rows = board.rows.clamp(3, MAX_MARKS);
-        let [least, most] = SQUARES_M;
-        self.calibration.square_m = within(self.calibration.square_m, least, most);
-        self
+impl Given {
+    /// Whether it is of a sample.
+    pub fn is_rendered(&self) -> bool {
+        matches!(self.source, Source::Rendered(..))
     }
 }
 
@@ -149,7 +66,7 @@ pub struct Measure {
 pub struct Document {
     /// The photographs, in order.
     pub photos: Vec<Given>,
-    /// All knobs.
+    /// Settings of all steps.
     pub settings: Settings,
     /// Measurements.
     pub measures: Vec<Measure>,
@@ -174,6 +91,22 @@ impl Document {
         self.boards.iter().find(|photo| photo.id == id)
     }
 
+    /// Name of a photograph, which may be of a board; empty if there is none.
+    pub fn name_of(&self, id: PhotoId) -> &str {
+        let photo = self.photo(id).or(self.board(id));
+        photo.map_or("", |photo| &photo.name)
+    }
+
+    /// Whether all photographs are of a sample.
+    pub fn is_sample(&self) -> bool {
+        self.photos.iter().all(Given::is_rendered)
+    }
+
+    /// Whether all photographs of boards are of a sample.
+    pub fn has_sample_boards(&self) -> bool {
+        self.boards.iter().all(Given::is_rendered)
+    }
+
     /// Both photographs of a pair.
     pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&Given, &Given)> {
         let place = |id| self.photos.iter().position(|photo| photo.id == id);
@@ -194,8 +127,16 @@ impl Document {
     }
 }
 
-/// A source's name.
-pub(super) fn content_of(source: &Source) -> Key {
+/// All pairs of photographs, the first before the second in the list.
+pub fn pairs<'a>(photos: &'a [&'a Given]) -> impl Iterator<Item = (&'a Given, &'a Given)> {
+    let after = |(i, first): (usize, &'a &'a Given)| {
+        photos[i + 1..].iter().map(move |second| (*first, *second))
+    };
+    photos.iter().enumerate().flat_map(after)
+}
+
+/// Hash of a source's content.
+pub(crate) fn content_of(source: &Source) -> Key {
     match source {
         Source::File(bytes) => Key::of_bytes(bytes),
         // A duplicate photograph is the purpose of this sample.

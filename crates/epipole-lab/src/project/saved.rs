@@ -1,23 +1,20 @@
 //! Saved form of a project, without its photographs.
 
-use super::Project;
-use super::brought::Computed;
-use super::document::{Anchor, Document, Given, Measure, PhotoId, Settings};
-use super::keys::Key;
-use crate::tasks::{Blob, LensCamera, Packed, Request, Sample, Source};
+use super::board_options::LensCamera;
+use super::document::{Anchor, Measure, PhotoId};
+use super::sample::Sample;
+use super::settings::Settings;
 use serde::{Deserialize, Serialize};
 
 /// The version that is written.
 pub const VERSION: u32 = 1;
-/// The folder of files of boards.
-const BOARDS: &str = "boards/";
 
 /// A project without its photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Saved {
     /// The version of this form.
     pub version: u32,
-    /// All knobs.
+    /// All settings.
     pub settings: Settings,
     /// The photographs, in order.
     pub photos: Vec<SavedPhoto>,
@@ -48,165 +45,4 @@ pub struct SavedPhoto {
     pub excluded: bool,
     /// The focal length that the reader typed, pixels.
     pub focal_px: Option<f64>,
-}
-
-impl SavedPhoto {
-    fn of(photo: &Given) -> Self {
-        Self {
-            name: photo.name.clone(),
-            rendered: match photo.source {
-                Source::File(_) => None,
-                Source::Rendered(sample, index) => Some((sample, index)),
-            },
-            excluded: photo.excluded,
-            focal_px: photo.focal_px,
-        }
-    }
-}
-
-/// The measure with the photographs of its ends renumbered.
-fn renumbered(measure: &Measure, number: impl Fn(PhotoId) -> Option<PhotoId>) -> Option<Measure> {
-    Some(Measure {
-        ends: all_renumbered(measure.ends, number)?,
-        length_m: measure.length_m,
-    })
-}
-
-fn all_renumbered<const N: usize>(
-    mut ends: [Anchor; N],
-    number: impl Fn(PhotoId) -> Option<PhotoId>,
-) -> Option<[Anchor; N]> {
-    for end in &mut ends {
-        end.photo = number(end.photo)?;
-    }
-    Some(ends)
-}
-
-impl Project {
-    /// The saved form, without photographs.
-    fn saved(&self) -> Saved {
-        let photos = &self.document.photos;
-        let place = |id: PhotoId| {
-            let place = photos.iter().position(|photo| photo.id == id)?;
-            Some(place as u32)
-        };
-        let measures = self.document.measures.iter();
-        Saved {
-            version: VERSION,
-            settings: self.document.settings.clone(),
-            photos: photos.iter().map(SavedPhoto::of).collect(),
-            measures: measures.filter_map(|m| renumbered(m, place)).collect(),
-            floor: (self.document.floor).and_then(|ends| all_renumbered(ends, place)),
-            dense: (self.document.dense.iter())
-                .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
-                .collect(),
-            boards: self.document.boards.iter().map(SavedPhoto::of).collect(),
-            camera: self.document.camera.clone(),
-        }
-    }
-
-    /// Hash of the saved form: equal projects have equal keys.
-    pub fn saved_key(&self) -> Key {
-        let contents = self.given_photos().map(|photo| photo.content.0);
-        Key::of(&(self.saved(), contents.collect::<Vec<_>>()))
-    }
-
-    /// Bytes of all its files.
-    pub fn num_file_bytes(&self) -> usize {
-        let bytes = |photo: &Given| match &photo.source {
-            Source::File(bytes) => bytes.len(),
-            Source::Rendered(..) => 0,
-        };
-        self.given_photos().map(bytes).sum()
-    }
-
-    /// All photographs, then those of boards.
-    fn given_photos(&self) -> impl Iterator<Item = &Given> {
-        self.document.photos.iter().chain(&self.document.boards)
-    }
-
-    /// The request for a zip file, from which [`Event::OpenProject`](super::Event::OpenProject)
-    /// restores the project and [`Project::bring`] its results.
-    pub fn save_request(&self) -> Request {
-        self.save_request_with(self.computed())
-    }
-
-    /// The same without results, which are computed once more: small, and written at once.
-    pub fn keep_request(&self) -> Request {
-        self.save_request_with(Computed::default())
-    }
-
-    fn save_request_with(&self, computed: Computed) -> Request {
-        let photos = &self.document.photos;
-        let packed = |photo: &Given, folder: &str| Packed {
-            name: format!("{folder}{}", photo.name),
-            source: photo.source.clone(),
-            used: None,
-        };
-        let boards = self.document.boards.iter();
-        Request::Save {
-            photographs: (photos.iter().map(|photo| packed(photo, "")))
-                .chain(boards.map(|photo| packed(photo, BOARDS)))
-                .collect(),
-            project: self.saved(),
-            computed,
-        }
-    }
-
-    /// The document of a saved project, without photographs whose file is missing.
-    pub(super) fn restored(&mut self, saved: Saved, files: Vec<(String, Blob)>) -> Document {
-        let mut document = Document {
-            settings: saved.settings.checked(),
-            ..Document::default()
-        };
-        let mut numbers = Vec::new();
-        for photo in saved.photos {
-            let given = self.restored_photo(&document.photos, photo, &files, "");
-            numbers.push(given.as_ref().map(|given| given.id));
-            document.photos.extend(given);
-        }
-        for photo in saved.boards {
-            let given = self.restored_photo(&document.boards, photo, &files, BOARDS);
-            document.boards.extend(given);
-        }
-        document.camera = saved.camera.filter(LensCamera::is_finite);
-        let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
-        let measures = saved.measures.iter();
-        document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
-        document.floor = saved.floor.and_then(|ends| all_renumbered(ends, number));
-        for (a, b) in saved.dense {
-            if let (Some(a), Some(b)) = (number(a), number(b))
-                && a != b
-                && !document.is_dense((a, b))
-            {
-                document.dense.push((a, b));
-            }
-        }
-        document
-    }
-
-    /// A photograph of a list, with a new number; `None` if its file is missing.
-    fn restored_photo(
-        &mut self,
-        list: &[Given],
-        photo: SavedPhoto,
-        files: &[(String, Blob)],
-        folder: &str,
-    ) -> Option<Given> {
-        let source = match photo.rendered {
-            Some((sample, index)) => Source::Rendered(sample, index),
-            None => {
-                let is_its = |name: &str| name.strip_prefix(folder) == Some(&photo.name);
-                let file = files.iter().find(|(name, _)| is_its(name))?;
-                Source::File(file.1.clone())
-            }
-        };
-        let given = self.given(list, &photo.name, source);
-        self.next_id = given.id;
-        Some(Given {
-            excluded: photo.excluded,
-            focal_px: photo.focal_px.filter(|f| f.is_finite() && *f > 0.0),
-            ..given
-        })
-    }
 }

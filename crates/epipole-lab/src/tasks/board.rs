@@ -1,71 +1,191 @@
 //! The board in a photograph of full size: read and searched in one go, so that only a small
 //! picture travels.
 
-use super::board_sample;
-use super::convert::{core_board, unreadable};
-use super::{BoardFound, BoardOptions, Photograph, Progress, Sample, Source, Thumbnail, Told};
-use epipole::calibration::{BoardSearch, find_board};
-use epipole::feature::photo_to_gray;
-use epipole::imaging::reduce_rgb;
-use epipole_io::photo::{DecodeOptions, decode_rgb};
-use image::RgbImage;
+use super::photograph::Photograph;
+#[cfg(feature = "files")]
+use super::task::{Monitor, Run, report};
+use super::task::{Query, Task};
+use crate::project::{BoardOptions, Given, Key, PhotoId, Project, Source, Step};
+use serde::{Deserialize, Serialize};
 
 /// Pixels of the picture for the screen.
+#[cfg(feature = "files")]
 const SHOWN_PIXELS: u64 = 1_200_000;
 
-/// Looks for a board just as `epipole calibrate` does.
-///
-/// # Errors
-/// A sentence: for a file that cannot be read, for a board that is none, and if `progress` wants no
-/// more.
-pub(super) fn board(
-    source: &Source,
-    options: &BoardOptions,
-    progress: Progress<'_>,
-) -> Result<BoardFound, String> {
-    let mut tell = |share, words: &str| match progress(Told::Share(share, words)).is_break() {
-        true => Err("stopped".to_owned()),
-        false => Ok(()),
-    };
-    // The unit of length does not matter here.
-    let board = core_board(options, 1.0)?;
-    tell(0.0, "reading")?;
-    let whole = of_sensor(source)?;
-    let sensor_size = whole.dimensions();
-    tell(0.3, "searching")?;
-    let search = find_board(&photo_to_gray(&whole), &board).map_err(|error| error.to_string())?;
-    let problem = search.problem(&board);
-    let other_grid = match search {
-        BoardSearch::Partial { columns, rows, .. } => Some((columns as u32, rows as u32)),
-        BoardSearch::Found(_) | BoardSearch::Markers { .. } | BoardSearch::Nothing => None,
-    };
-    let marks = search.view().map_or_else(Vec::new, |view| view.pixels);
-    let picture = reduce_rgb(whole, SHOWN_PIXELS);
-    let (width, height) = picture.dimensions();
-    let small = Thumbnail::new((width, height), &picture);
-    Ok(BoardFound {
-        picture: Photograph {
-            width,
-            height,
-            rgb: picture.into_raw().into(),
-            small,
-            focal_px: None,
-            k: None,
-            full_size: sensor_size,
-            sensor_size,
-            as_given: (width, height) == sensor_size,
-        },
-        marks: (marks.iter()).map(|mark| mark.map(Into::into)).collect(),
-        problem,
-        other_grid,
-    })
+/// A board that was looked for in a photograph.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BoardFound {
+    /// The photograph, reduced for the screen.
+    pub picture: Photograph,
+    /// For each mark, row by row, its pixel in the photograph of full size, or none where something
+    /// hides it; no marks at all if the board was not found.
+    pub marks: Vec<Option<[f64; 2]>>,
+    /// Why it was not found.
+    pub problem: Option<String>,
+    /// Marks along the longer and the shorter side of another grid that was found in its place.
+    pub other_grid: Option<(u32, u32)>,
+}
+
+impl BoardFound {
+    /// Position of a mark in the downscaled photograph.
+    pub fn in_picture(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let full = self.picture.full_size;
+        // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
+        let moved = |at: f64, small: u32, full: u32| {
+            (at + 0.5) * f64::from(small) / f64::from(full.max(1)) - 0.5
+        };
+        [
+            moved(u, self.picture.width, full.0),
+            moved(v, self.picture.height, full.1),
+        ]
+    }
+
+    /// Number of visible marks.
+    pub fn num_seen(&self) -> usize {
+        self.marks.iter().flatten().count()
+    }
+}
+
+/// Searches a photograph of full size for a board.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FindBoard {
+    /// File or sample.
+    pub source: Source,
+    /// The board.
+    pub options: BoardOptions,
+}
+
+impl Task for FindBoard {
+    type Output = BoardFound;
+}
+
+/// The board in the photograph of this number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BoardOf(pub PhotoId);
+
+impl Query for BoardOf {
+    type Task = FindBoard;
+
+    fn all(project: &Project) -> Vec<Self> {
+        let boards = project.document.boards.iter();
+        boards.map(|photo| Self(photo.id)).collect()
+    }
+
+    fn key(self, project: &Project) -> Option<Key> {
+        let photo = project.document.board(self.0)?;
+        let options = project.document.settings.calibration.board;
+        Some(Key::of(&("board", photo.content.0, options)))
+    }
+
+    fn is_ready(self, project: &Project, _is_imported: bool) -> bool {
+        let photo = project.document.board(self.0);
+        photo.is_some_and(|photo| !photo.excluded)
+    }
+
+    /// Boards come first during their step, and else last.
+    fn priority(self, project: &Project) -> u8 {
+        match project.view.step {
+            Step::Calibrate => 0,
+            _ => 90,
+        }
+    }
+
+    fn task(self, project: &Project) -> Option<FindBoard> {
+        Some(FindBoard {
+            source: project.document.board(self.0)?.source.clone(),
+            options: project.document.settings.calibration.board,
+        })
+    }
+
+    fn label(self, project: &Project) -> String {
+        let name = project.document.name_of(self.0);
+        format!("Looking for the board in {name}")
+    }
+}
+
+impl Project {
+    /// The photographs of a board that take part.
+    pub fn boards_taking_part(&self) -> Vec<&Given> {
+        let readable = |photo: &&Given| self.failure(BoardOf(photo.id)).is_none();
+        let boards = self.document.boards.iter();
+        boards
+            .filter(|photo| !photo.excluded)
+            .filter(readable)
+            .collect()
+    }
+
+    /// Width and height that most photographs have in which the board was found; the first of those
+    /// with as many.
+    pub fn size_of_boards(&self) -> Option<(u32, u32)> {
+        let found = |photo: &&Given| {
+            Some(self.get(BoardOf(photo.id))?).filter(|found| !found.marks.is_empty())
+        };
+        let sizes: Vec<(u32, u32)> = (self.boards_taking_part().iter())
+            .filter_map(found)
+            .map(|found| found.picture.full_size)
+            .collect();
+        let count = |size: &(u32, u32)| sizes.iter().filter(|other| *other == size).count();
+        // The last of equals is the first of the list.
+        sizes.iter().rev().max_by_key(|size| count(size)).copied()
+    }
+}
+
+#[cfg(feature = "files")]
+impl Run for FindBoard {
+    /// Searches just as `epipole calibrate` does.
+    fn run(self, monitor: Monitor<'_>) -> Result<BoardFound, String> {
+        use super::convert::core_board;
+        use super::thumbnail::Thumbnail;
+        use epipole::calibration::{BoardSearch, find_board};
+        use epipole::feature::photo_to_gray;
+        use epipole::imaging::reduce_rgb;
+        // The unit of length does not matter here.
+        let board = core_board(&self.options, 1.0)?;
+        report(monitor, 0.0, "reading")?;
+        let whole = of_sensor(&self.source)?;
+        let sensor_size = whole.dimensions();
+        report(monitor, 0.3, "searching")?;
+        let search =
+            find_board(&photo_to_gray(&whole), &board).map_err(|error| error.to_string())?;
+        let problem = search.problem(&board);
+        let other_grid = match search {
+            BoardSearch::Partial { columns, rows, .. } => Some((columns as u32, rows as u32)),
+            BoardSearch::Found(_) | BoardSearch::Markers { .. } | BoardSearch::Nothing => None,
+        };
+        let marks = search.view().map_or_else(Vec::new, |view| view.pixels);
+        let picture = reduce_rgb(whole, SHOWN_PIXELS);
+        let (width, height) = picture.dimensions();
+        let small = Thumbnail::new((width, height), &picture);
+        Ok(BoardFound {
+            picture: Photograph {
+                width,
+                height,
+                rgb: picture.into_raw().into(),
+                small,
+                focal_px: None,
+                k: None,
+                full_size: sensor_size,
+                sensor_size,
+                as_given: (width, height) == sensor_size,
+            },
+            marks: (marks.iter()).map(|mark| mark.map(Into::into)).collect(),
+            problem,
+            other_grid,
+        })
+    }
 }
 
 /// The photograph as the sensor gave it, which is not always upright: a lens knows no other frame.
 ///
 /// # Errors
 /// A sentence, if a file is none that can be read, or there is no such photograph of a board.
-fn of_sensor(source: &Source) -> Result<RgbImage, String> {
+#[cfg(feature = "files")]
+fn of_sensor(source: &Source) -> Result<image::RgbImage, String> {
+    use super::board_sample;
+    use super::convert::unreadable;
+    use crate::project::Sample;
+    use epipole_io::photo::{DecodeOptions, decode_rgb};
+
     let bytes = match source {
         Source::File(bytes) => bytes,
         Source::Rendered(Sample::Board, index) => {

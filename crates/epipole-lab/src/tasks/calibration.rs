@@ -1,40 +1,168 @@
 //! A camera from boards.
 
-use super::convert::core_board;
-use super::{Calibration, CalibrationOptions, LensCamera, LensModel, Progress, Told, ViewFound};
-use epipole::calibration::{BoardView, CalibratedView, CalibrationWarning, calibrate};
-use epipole::camera::LensKind;
-use epipole::progress::Status;
-use nalgebra::Point2;
+use super::board::BoardOf;
+#[cfg(feature = "vision")]
+use super::task::{Monitor, Progress, Run};
+use super::task::{Query, Task};
+use crate::project::{CalibrationOptions, Given, Key, LensCamera, Project, Step};
+use serde::{Deserialize, Serialize};
 
-/// Calibrates just as `epipole calibrate` does.
-///
-/// * `views`: the marks of each photograph, as [`BoardFound::marks`](super::BoardFound::marks)
-///
-/// # Errors
-/// A sentence that says what to do: too few boards, or parallel ones; and if `progress` wants no
-/// more.
-pub(super) fn calibration(
-    options: &CalibrationOptions,
-    size: (u32, u32),
-    views: &[Vec<Option<[f64; 2]>>],
-    progress: Progress<'_>,
-) -> Result<Calibration, String> {
-    let board = core_board(&options.board, options.square_m)?;
-    let view = |marks: &Vec<Option<[f64; 2]>>| {
-        (!marks.is_empty()).then(|| BoardView {
-            pixels: marks.iter().map(|mark| mark.map(Point2::from)).collect(),
+/// Calibration results for one photograph.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ViewFound {
+    /// Root mean square of its reprojection errors, pixels.
+    pub rms_px: f64,
+    /// Marks seen.
+    pub num_marks: u32,
+    /// Rotation of camera from board, as a quaternion i, j, k, w.
+    pub rotation: [f64; 4],
+    /// Translation of camera from board, meters.
+    pub translation: [f64; 3],
+}
+
+/// A calibrated camera, and how sure it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Calibration {
+    /// The camera.
+    pub camera: LensCamera,
+    /// Root mean square of all reprojection errors, pixels.
+    pub rms_px: f64,
+    /// One standard deviation of focal lengths and principal point, pixels.
+    pub std_dev_k: [f64; 4],
+    /// One standard deviation of each number of the lens.
+    pub std_dev_lens: Vec<f64>,
+    /// The share of the photograph that boards reach.
+    pub coverage: f64,
+    /// Of each photograph that was given.
+    pub views: Vec<Option<ViewFound>>,
+    /// Reasons why it is less accurate than the errors suggest: index of the photograph, if it is
+    /// about one, and a sentence.
+    pub warnings: Vec<(Option<u32>, String)>,
+}
+
+/// Calibrates a camera.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Calibrate {
+    /// The board and the lens.
+    pub options: CalibrationOptions,
+    /// Width and height of all photographs, pixels.
+    pub size: (u32, u32),
+    /// The marks in each, as [`BoardFound::marks`](super::BoardFound::marks); none at all where the
+    /// board was not found.
+    pub views: Vec<Vec<Option<[f64; 2]>>>,
+}
+
+impl Task for Calibrate {
+    type Output = Calibration;
+}
+
+/// The camera that the boards give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CalibrationOfBoards;
+
+impl Query for CalibrationOfBoards {
+    type Task = Calibrate;
+
+    fn all(_project: &Project) -> Vec<Self> {
+        vec![Self]
+    }
+
+    /// Known once all photographs are searched, if two boards were found.
+    fn key(self, project: &Project) -> Option<Key> {
+        let views = project.board_views()?;
+        if views.iter().filter(|marks| !marks.is_empty()).count() < 2 {
+            return None;
+        }
+        let boards = project.boards_taking_part();
+        let keys = boards
+            .iter()
+            .map(|photo| Some(BoardOf(photo.id).key(project)?.0));
+        let keys: Vec<u64> = keys.collect::<Option<_>>()?;
+        Some(Key::of(&(
+            "calibration",
+            keys,
+            project.document.settings.calibration,
+        )))
+    }
+
+    fn is_ready(self, _project: &Project, _is_imported: bool) -> bool {
+        true
+    }
+
+    fn priority(self, project: &Project) -> u8 {
+        match project.view.step {
+            Step::Calibrate => 1,
+            _ => 91,
+        }
+    }
+
+    fn task(self, project: &Project) -> Option<Calibrate> {
+        Some(Calibrate {
+            options: project.document.settings.calibration,
+            size: project.size_of_boards()?,
+            views: (project.board_views()?.into_iter())
+                .map(<[_]>::to_vec)
+                .collect(),
         })
-    };
-    let views: Vec<_> = views.iter().map(view).collect();
-    let how = epipole::calibration::CalibrationOptions::default().with_lens(match options.lens {
-        LensModel::Brown => LensKind::Brown,
-        LensModel::Rational => LensKind::Rational,
-        LensModel::Fisheye => LensKind::Fisheye,
-    });
-    let mut watch = |status: Status| progress(Told::Share(status.share, status.stage.words()));
-    let found = calibrate(&board, &views, size, &how, &mut watch);
-    let found = found.map_err(|error| match error {
+    }
+
+    fn label(self, _project: &Project) -> String {
+        "Calibrating".to_owned()
+    }
+}
+
+impl Project {
+    /// The marks of each photograph that takes part, none where the board was not found or the size
+    /// is another one; `None` until all were looked through.
+    fn board_views(&self) -> Option<Vec<&[Option<[f64; 2]>]>> {
+        let size = self.size_of_boards();
+        let marks = |photo: &&Given| {
+            let found = self.get(BoardOf(photo.id))?;
+            let fits = Some(found.picture.full_size) == size;
+            Some(if fits { &found.marks[..] } else { &[] })
+        };
+        self.boards_taking_part().iter().map(marks).collect()
+    }
+
+    /// The place of a photograph among those of the calibration.
+    pub fn place_of_board(&self, photo: &Given) -> Option<usize> {
+        let boards = self.boards_taking_part();
+        boards.iter().position(|other| other.id == photo.id)
+    }
+}
+
+#[cfg(feature = "vision")]
+impl Run for Calibrate {
+    /// Calibrates just as `epipole calibrate` does.
+    fn run(self, monitor: Monitor<'_>) -> Result<Calibration, String> {
+        use super::convert::core_board;
+        use crate::project::LensModel;
+        use epipole::calibration::{BoardView, calibrate};
+        use epipole::camera::LensKind;
+        use epipole::progress::Status;
+        use nalgebra::Point2;
+        let Self {
+            options,
+            size,
+            views,
+        } = self;
+        let board = core_board(&options.board, options.square_m)?;
+        let view = |marks: &Vec<Option<[f64; 2]>>| {
+            (!marks.is_empty()).then(|| BoardView {
+                pixels: marks.iter().map(|mark| mark.map(Point2::from)).collect(),
+            })
+        };
+        let views: Vec<_> = views.iter().map(view).collect();
+        let how =
+            epipole::calibration::CalibrationOptions::default().with_lens(match options.lens {
+                LensModel::Brown => LensKind::Brown,
+                LensModel::Rational => LensKind::Rational,
+                LensModel::Fisheye => LensKind::Fisheye,
+            });
+        let mut watch =
+            |status: Status| monitor(Progress::Share(status.share, status.stage.words()));
+        let found = calibrate(&board, &views, size, &how, &mut watch);
+        let found = found.map_err(|error| match error {
         epipole::Error::Canceled => "stopped".to_owned(),
         epipole::Error::TooFew { .. } | epipole::Error::Degenerate { .. } => format!(
             "{error}. Photograph the board, large in the picture, from ten to twenty sides, turned by 30° to 45° \
@@ -42,27 +170,29 @@ pub(super) fn calibration(
         ),
         other => other.to_string(),
     })?;
-    let k = found.camera.intrinsics;
-    let center = k.principal_point();
-    Ok(Calibration {
-        camera: LensCamera {
-            size,
-            k: [k.fu_px(), k.fv_px(), center.x, center.y],
-            lens: options.lens,
-            coefficients: found.camera.lens.coefficients(),
-        },
-        rms_px: found.rms_px,
-        std_dev_k: found.std_dev_k,
-        std_dev_lens: found.std_dev_lens,
-        coverage: found.coverage,
-        views: (found.views.iter())
-            .map(|v| v.as_ref().map(plain))
-            .collect(),
-        warnings: found.warnings.iter().map(told).collect(),
-    })
+        let k = found.camera.intrinsics;
+        let center = k.principal_point();
+        Ok(Calibration {
+            camera: LensCamera {
+                size,
+                k: [k.fu_px(), k.fv_px(), center.x, center.y],
+                lens: options.lens,
+                coefficients: found.camera.lens.coefficients(),
+            },
+            rms_px: found.rms_px,
+            std_dev_k: found.std_dev_k,
+            std_dev_lens: found.std_dev_lens,
+            coverage: found.coverage,
+            views: (found.views.iter())
+                .map(|v| v.as_ref().map(plain))
+                .collect(),
+            warnings: found.warnings.iter().map(warning).collect(),
+        })
+    }
 }
 
-fn plain(view: &CalibratedView) -> ViewFound {
+#[cfg(feature = "vision")]
+fn plain(view: &epipole::calibration::CalibratedView) -> ViewFound {
     ViewFound {
         rms_px: view.rms_px,
         num_marks: view.num_marks as u32,
@@ -71,7 +201,9 @@ fn plain(view: &CalibratedView) -> ViewFound {
     }
 }
 
-fn told(warning: &CalibrationWarning) -> (Option<u32>, String) {
+#[cfg(feature = "vision")]
+fn warning(warning: &epipole::calibration::CalibrationWarning) -> (Option<u32>, String) {
+    use epipole::calibration::CalibrationWarning;
     let place = match warning {
         CalibrationWarning::BadView { number, .. } => number.checked_sub(1).map(|n| n as u32),
         _ => None,

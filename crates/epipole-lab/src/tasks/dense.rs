@@ -1,6 +1,7 @@
-//! The depth of every pixel of a pair.
+//! A rectified pair with its disparities.
 
-use super::{Blob, CameraFound};
+use super::camera_found::CameraFound;
+use crate::project::Blob;
 use serde::{Deserialize, Serialize};
 
 /// A rectified pair and its disparities. The first image is the left one or, for a vertical pair,

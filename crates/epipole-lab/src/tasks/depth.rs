@@ -1,214 +1,131 @@
-//! Depth of every pixel of a pair whose cameras are known: rectified, matched along the rows.
+//! Depth of every pixel of a pair whose cameras are known.
 
-use super::convert::{core_camera, sentence, to_image};
-use super::depth_size::{common_size, reduced_factor, span};
-use super::{CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Progress, Told};
-use epipole::camera::{Camera, Intrinsics, Lens, PosedCamera, RigidTransform};
-use epipole::progress::Status;
-use epipole::stereo::{
-    DisparityImage, Rectification, RectifiedPair, RectifyOptions, StereoBm, StereoSgm,
-    rectify_calibrated,
-};
-use image::imageops::{FilterType, resize};
-use image::{GrayImage, RgbImage};
-use nalgebra::{Point3, UnitQuaternion};
+use super::camera_found::CameraFound;
+use super::dense::Dense;
+use super::photograph::{Photograph, PhotographOf};
+use super::reconstruction::ReconstructionOfAll;
+use super::task::{Query, Task};
+use crate::project::{DepthOptions, Given, Key, PhotoId, Project, Step};
+use epipole::camera::Lens;
+use serde::{Deserialize, Serialize};
 
-/// A pair as it was reconstructed.
-pub(super) struct Pair<'a> {
-    pub(super) photographs: &'a [Photograph; 2],
-    pub(super) cameras: &'a [CameraFound; 2],
-    pub(super) lens: Lens,
-    /// Points that both photographs show.
-    pub(super) points: &'a [[f64; 3]],
+/// Finds the depth of every pixel of a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FindDepth {
+    /// The pair.
+    pub photographs: [Photograph; 2],
+    /// Their cameras.
+    pub cameras: [CameraFound; 2],
+    /// The lens of both.
+    #[serde(rename = "distortion", with = "super::radial_lens")]
+    pub lens: Lens,
+    /// Points that both show.
+    pub points: Vec<[f64; 3]>,
+    /// Dense depth settings.
+    pub options: DepthOptions,
 }
 
-/// Rectifies and matches.
-///
-/// Photographs of two sizes are brought to one first, in which a pixel of either spans as large an
-/// angle.
-///
-/// # Errors
-/// A sentence: one camera in front of the other, or too few points to propose
-/// which disparities to look for; and if `progress` wants no more.
-pub(super) fn depth(
-    pair: &Pair<'_>,
-    options: &DepthOptions,
-    progress: Progress<'_>,
-) -> Result<Dense, String> {
-    tell(progress, 0.02, "rectifying")?;
-    let sizes = (pair.photographs.each_ref()).map(|photo| [photo.width, photo.height]);
-    let camera = |n: usize| {
-        let [width, height] = sizes[n];
-        core_camera(&pair.cameras[n], (width, height), Lens::NONE)
-    };
-    let cameras = [camera(0)?, camera(1)?];
-    let size = common_size(
-        sizes,
-        cameras
-            .each_ref()
-            .map(|camera| camera.camera.intrinsics.fu_px()),
-    );
-    // Disparities are positive where the second photograph is the one from the right, or from
-    // below.
-    let mut order = [0, 1];
-    let mut whole = rectify(pair, &cameras, order, size)?;
-    if stands_before(&whole, &cameras) {
-        order = [1, 0];
-        whole = rectify(pair, &cameras, order, size)?;
-    }
-    let first = &cameras[order[0]].cam_from_world;
-    let places = pair.points.iter().map(|place| first * Point3::from(*place));
-    let proposed_px = whole.disparity_range(&places.collect::<Vec<_>>()).ok();
-    let range_px = match (options.range_px, proposed_px) {
-        (Some(range), _) | (None, Some(range)) => range,
-        (None, None) => {
-            return Err(
-                "the two share too few points to propose a range of disparities: type one"
-                    .to_owned(),
-            );
-        }
-    };
-    let factor = reduced_factor(size, range_px);
-    let small = size.map(|side| (side / factor).max(1));
-    let rig = match factor {
-        1 => whole,
-        _ => rectify(pair, &cameras, order, small)?,
-    };
-    tell(progress, 0.06, "warping the photographs")?;
-    let image = |index: usize| Ok::<_, String>(resized(to_image(&pair.photographs[index])?, small));
-    let (first, second) = (image(order[0])?, image(order[1])?);
-    let redrawn = RectifiedPair::new(&rig, [&first, &second]).map_err(sentence)?;
-    let mut disparity = redrawn
-        .disparity(|left, right| matched(left, right, options, span(range_px, factor), progress))
-        .map_err(sentence)?;
-    if options.fill {
-        disparity = redrawn.filled(&disparity).map_err(sentence)?;
-    }
-    let num_answers = disparity.as_raw().iter().filter(|d| d.is_finite()).count();
-    let num_shown = redrawn.num_shown();
-    let [left, right] = redrawn.pictures();
-    Ok(Dense {
-        width: rig.width,
-        height: rig.height,
-        factor,
-        is_vertical: rig.is_vertical,
-        is_swapped: order == [1, 0],
-        camera: rectified_camera(&rig, &cameras[order[0]]),
-        baseline: rig.baseline_m,
-        proposed_px,
-        range_px,
-        num_shown: num_shown as u32,
-        density: num_answers as f64 / num_shown.max(1) as f64,
-        disparity: (disparity.as_raw().iter())
-            .flat_map(|d| d.to_le_bytes())
-            .collect::<Vec<u8>>()
-            .into(),
-        left: left.as_raw().clone().into(),
-        right: right.as_raw().clone().into(),
-    })
-}
+impl Task for FindDepth {
+    type Output = Dense;
 
-fn tell(progress: Progress<'_>, share: f32, words: &str) -> Result<(), String> {
-    match progress(Told::Share(share, words)).is_break() {
-        true => Err("stopped".to_owned()),
-        false => Ok(()),
+    fn is_whole(output: &Dense) -> bool {
+        output.is_whole()
     }
 }
 
-/// * `width`, `height`: what both photographs are resized to, pixels
-fn rectify(
-    pair: &Pair<'_>,
-    cameras: &[PosedCamera; 2],
-    [first, second]: [usize; 2],
-    [width, height]: [u32; 2],
-) -> Result<Rectification, String> {
-    let sentence = |error: epipole::Error| format!("these two cannot be rectified: {error}");
-    let camera = |index: usize| -> Result<Camera, String> {
-        let photograph = &pair.photographs[index];
-        let shares = [
-            f64::from(width) / f64::from(photograph.width),
-            f64::from(height) / f64::from(photograph.height),
-        ];
-        let k = cameras[index].camera.intrinsics;
-        let center = k.principal_point();
-        // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
-        let moved = |at: f64, share: f64| (at + 0.5) * share - 0.5;
-        Ok(Camera {
-            width,
-            height,
-            intrinsics: Intrinsics::new(
-                k.fu_px() * shares[0],
-                k.fv_px() * shares[1],
-                moved(center.x, shares[0]),
-                moved(center.y, shares[1]),
-            )
-            .map_err(sentence)?,
-            lens: pair.lens,
+/// The depth of a pair, the first before the second in the list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DepthOf(pub PhotoId, pub PhotoId);
+
+impl DepthOf {
+    /// Whether it is part of the cloud, or looked at in its step.
+    pub(crate) fn is_asked(self, project: &Project) -> bool {
+        let pair = (self.0, self.1);
+        project.document.is_dense(pair)
+            || (project.view.step == Step::Depth && project.view.pair == pair)
+    }
+
+    /// Cameras of both photographs in the component that is looked at.
+    fn cameras(self, project: &Project) -> Option<[CameraFound; 2]> {
+        let cameras = &project.component()?.cameras;
+        let camera = |id| *cameras.get(project.place(id)?)?;
+        Some([camera(self.0)?, camera(self.1)?])
+    }
+}
+
+impl Query for DepthOf {
+    type Task = FindDepth;
+
+    /// The pairs whose depth is part of the cloud, and the one that is looked at.
+    fn all(project: &Project) -> Vec<Self> {
+        let pairs = [&project.view.pair]
+            .into_iter()
+            .chain(&project.document.dense);
+        let ordered = pairs.filter_map(|pair| project.document.pair(*pair));
+        ordered
+            .map(|(first, second)| Self(first.id, second.id))
+            .collect()
+    }
+
+    /// Known if both photographs have a camera in the component that is looked at.
+    fn key(self, project: &Project) -> Option<Key> {
+        self.cameras(project)?;
+        let first = PhotographOf(self.0).key(project)?;
+        let second = PhotographOf(self.1).key(project)?;
+        let (reconstruction, part) = (ReconstructionOfAll.key(project)?.0, project.view.component);
+        let options = project.document.settings.depth;
+        Some(Key::of(&(
+            "depth",
+            (first.0, second.0),
+            reconstruction,
+            part,
+            options,
+        )))
+    }
+
+    fn is_ready(self, project: &Project, _is_imported: bool) -> bool {
+        let has_pixels = |id| {
+            let photo = project.document.photo(id);
+            photo.is_some_and(|photo| project.photograph(photo).is_some())
+        };
+        self.is_asked(project) && has_pixels(self.0) && has_pixels(self.1)
+    }
+
+    fn priority(self, _project: &Project) -> u8 {
+        70
+    }
+
+    fn task(self, project: &Project) -> Option<FindDepth> {
+        let component = project.component()?;
+        let places = [project.place(self.0)? as u32, project.place(self.1)? as u32];
+        let sees =
+            |track: &[(u32, u32)], place: u32| track.iter().any(|(image, _)| *image == place);
+        let shared = (component.points.iter())
+            .filter(|point| places.iter().all(|place| sees(&point.track, *place)));
+        let pixels = |id| project.photograph(project.document.photo(id)?).cloned();
+        Some(FindDepth {
+            photographs: [pixels(self.0)?, pixels(self.1)?],
+            cameras: self.cameras(project)?,
+            lens: component.lens,
+            points: shared.map(|point| point.position).collect(),
+            options: project.document.settings.depth,
         })
-    };
-    let cam2_from_cam1: RigidTransform =
-        cameras[second].cam_from_world * cameras[first].cam_from_world.inverse();
-    // All of both photographs: a camera that rolled a little would leave only a small part without
-    // a border.
-    let options = RectifyOptions::default().with_alpha(1.0);
-    rectify_calibrated(
-        &[camera(first)?, camera(second)?],
-        &cam2_from_cam1,
-        &options,
-    )
-    .map_err(sentence)
-}
+    }
 
-/// The photograph in another size, whose sides need not keep their proportion.
-fn resized(image: RgbImage, [width, height]: [u32; 2]) -> RgbImage {
-    match image.dimensions() == (width, height) {
-        true => image,
-        false => resize(&image, width, height, FilterType::Triangle),
+    fn label(self, _project: &Project) -> String {
+        "Computing depth".to_owned()
     }
 }
 
-/// The first rectified camera.
-fn rectified_camera(rig: &Rectification, first: &PosedCamera) -> CameraFound {
-    let k = rig.intrinsics[0];
-    let center = k.principal_point();
-    let rotation = UnitQuaternion::from_rotation_matrix(&rig.rect_from_cam[0]);
-    let rect_from_world = RigidTransform::from_parts(nalgebra::Translation3::identity(), rotation)
-        * first.cam_from_world;
-    CameraFound {
-        intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],
-        rotation: rect_from_world.rotation.coords.into(),
-        translation: rect_from_world.translation.vector.into(),
-    }
-}
-
-/// Whether the second camera stands to the left of the first, or above it.
-fn stands_before(rig: &Rectification, cameras: &[PosedCamera; 2]) -> bool {
-    let second: Point3<f64> = cameras[1].cam_from_world.inverse() * Point3::origin();
-    let in_first = cameras[0].cam_from_world * second;
-    let turned = rig.rect_from_cam[0] * in_first;
-    match rig.is_vertical {
-        true => turned.y < 0.0,
-        false => turned.x < 0.0,
-    }
-}
-
-fn matched(
-    left: &GrayImage,
-    right: &GrayImage,
-    options: &DepthOptions,
-    (min_disparity_px, num_disparities): (i32, u32),
-    progress: Progress<'_>,
-) -> Result<DisparityImage, epipole::Error> {
-    let mut watch =
-        |status: Status| progress(Told::Share(0.1 + 0.85 * status.share, status.stage.words()));
-    match options.method {
-        DepthMethod::SemiGlobal => StereoSgm::default()
-            .with_min_disparity_px(min_disparity_px)
-            .with_num_disparities(num_disparities)
-            .compute(left, right, &mut watch),
-        DepthMethod::Block => StereoBm::default()
-            .with_min_disparity_px(min_disparity_px)
-            .with_num_disparities(num_disparities)
-            .compute(left, right, &mut watch),
+impl Project {
+    /// The pairs whose depth is part of the cloud and is there, with its key.
+    pub fn dense_pairs(&self) -> Vec<(Key, &Given, &Given, &Dense)> {
+        let pairs = self.document.dense.iter();
+        let ready = |pair: &(PhotoId, PhotoId)| {
+            let (first, second) = self.document.pair(*pair)?;
+            let query = DepthOf(first.id, second.id);
+            Some((query.key(self)?, first, second, self.get(query)?))
+        };
+        pairs.filter_map(ready).collect()
     }
 }

@@ -1,48 +1,65 @@
 //! The sharpest of the frames of one part of a video.
 
-use super::{Blob, Progress, Told};
-use epipole::feature::photo_to_gray;
-use epipole::imaging::sharpness;
-use epipole_io::photo::{DecodeOptions, decode_rgb};
+use super::task::Task;
+#[cfg(feature = "files")]
+use super::task::{Monitor, Run, report};
+use crate::project::Blob;
+use serde::{Deserialize, Serialize};
 
-/// The sharpest frame, as `epipole frames` chooses it, with a name that says which part it is of;
-/// nothing, if none can be read.
-///
-/// # Errors
-/// If `progress` wants no more.
-pub(super) fn sharpest(
-    video: &str,
-    part: u32,
-    frames: Vec<Blob>,
-    progress: Progress<'_>,
-) -> Result<Vec<(String, Blob)>, String> {
-    let stem = video.rsplit_once('.').map_or(video, |(stem, _)| stem);
-    let num_frames = frames.len();
-    let mut best: Option<(f64, Blob)> = None;
-    // One decoded frame at a time.
-    for (index, frame) in frames.into_iter().enumerate() {
-        let share = index as f32 / num_frames as f32;
-        if progress(Told::Share(share, "looking for the sharpest frame")).is_break() {
-            return Err("stopped".to_owned());
-        }
-        let Ok(decoded) = decode_rgb(&frame, &DecodeOptions::default()) else {
-            continue;
-        };
-        let value = sharpness(&photo_to_gray(&decoded.image));
-        // The first of equals.
-        if best.as_ref().is_none_or(|(most, _)| value > *most) {
-            best = Some((value, frame));
-        }
-    }
-    let named = |(_, frame)| (format!("{stem}-{:02}.jpg", part + 1), frame);
-    Ok(best.map(named).into_iter().collect())
+/// Chooses the sharpest frame of a part of a video.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChooseFrame {
+    /// Name of the video.
+    pub name: String,
+    /// Index of the part.
+    pub part: u32,
+    /// Some frames of it, as files of photographs.
+    pub frames: Vec<Blob>,
 }
 
-#[cfg(test)]
+impl Task for ChooseFrame {
+    /// The frame as a file, with a name that contains the number of the part; empty if no frame can
+    /// be read.
+    type Output = Vec<(String, Blob)>;
+}
+
+#[cfg(feature = "files")]
+impl Run for ChooseFrame {
+    /// Chooses just as `epipole frames` does.
+    fn run(self, monitor: Monitor<'_>) -> Result<Vec<(String, Blob)>, String> {
+        use epipole::feature::photo_to_gray;
+        use epipole::imaging::sharpness;
+        use epipole_io::photo::{DecodeOptions, decode_rgb};
+        let Self { name, part, frames } = self;
+        let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
+        let num_frames = frames.len();
+        let mut best: Option<(f64, Blob)> = None;
+        // One decoded frame at a time.
+        for (index, frame) in frames.into_iter().enumerate() {
+            let share = index as f32 / num_frames as f32;
+            report(monitor, share, "looking for the sharpest frame")?;
+            let Ok(decoded) = decode_rgb(&frame, &DecodeOptions::default()) else {
+                continue;
+            };
+            let value = sharpness(&photo_to_gray(&decoded.image));
+            // The first of equals.
+            if best.as_ref().is_none_or(|(most, _)| value > *most) {
+                best = Some((value, frame));
+            }
+        }
+        let named = |(_, frame)| (format!("{stem}-{:02}.jpg", part + 1), frame);
+        Ok(best.map(named).into_iter().collect())
+    }
+}
+
+#[cfg(all(test, feature = "files"))]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
     use super::*;
+    use crate::tasks::Progress;
+    use epipole::feature::photo_to_gray;
+    use epipole::imaging::sharpness;
     use epipole_scenes::{Sampling, Scene, still_life_camera};
     use image::{RgbImage, imageops};
     use std::io::Cursor;
@@ -97,16 +114,22 @@ mod tests {
 
         let frames = [4, 1, 8].map(|by| jpeg(&smeared(&sharp, by)));
         let broken = Blob::from(vec![0xFF, 0xD8, 0xFF, 0]);
-        let go_on = &mut |_: Told<'_>| ControlFlow::Continue(());
-        let chosen =
-            |frames: &[Blob], go_on: Progress<'_>| sharpest("walk.mp4", 2, frames.to_vec(), go_on);
+        let go_on = &mut |_: Progress<'_>| ControlFlow::Continue(());
+        let chosen = |frames: &[Blob], go_on: Monitor<'_>| {
+            let task = ChooseFrame {
+                name: "walk.mp4".to_owned(),
+                part: 2,
+                frames: frames.to_vec(),
+            };
+            task.run(go_on)
+        };
         let expected = |frame: &Blob| Ok(vec![("walk-03.jpg".to_owned(), frame.clone())]);
         assert_eq!(chosen(&frames, go_on), expected(&frames[1]));
         let some = [broken.clone(), frames[2].clone(), frames[0].clone()];
         assert_eq!(chosen(&some, go_on), expected(&frames[0]));
         assert_eq!(chosen(&[broken], go_on), Ok(Vec::new()));
         assert_eq!(chosen(&[], go_on), Ok(Vec::new()));
-        let stop = &mut |_: Told<'_>| ControlFlow::Break(());
+        let stop = &mut |_: Progress<'_>| ControlFlow::Break(());
         assert_eq!(chosen(&frames, stop), Err("stopped".to_owned()));
     }
 }

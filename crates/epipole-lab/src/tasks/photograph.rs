@@ -1,59 +1,348 @@
 //! Photographs: decoded or rendered, upright, without the distortion of a lens that is known,
 //! reduced.
 
-use super::board_sample;
-use super::convert::{core_lens_camera, unreadable};
-use super::{LensCamera, Photograph, Progress, Sample, Source, Thumbnail, ask};
-use epipole::calibration::{Keep, Undistortion};
-use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
-use epipole::math::random::Random;
-use epipole::stereo::PixelMap;
-use epipole_io::photo::{PrepareOptions, prepare_photo};
-use epipole_scenes::{Sampling, Scene, still_life_camera};
-use image::RgbImage;
-use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
+use super::are_finite;
+use super::task::{Destination, Query, Task};
+#[cfg(feature = "files")]
+use super::task::{Monitor, Run, report};
+use super::thumbnail::Thumbnail;
+use crate::project::{Blob, Given, Key, LensCamera, PhotoId, Project, Source, Step};
+use serde::{Deserialize, Serialize};
 
-/// Width and height of a rendered photograph, pixels.
-const RENDERED: (u32, u32) = (480, 360);
+/// A photograph, upright and of a size to work with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Photograph {
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+    /// Red, green, blue, row by row. Empty if only size and lens are known so far, or if the pixels
+    /// were dropped and can be read again.
+    pub rgb: Blob,
+    /// The same, small; nothing where pixels are to come, and of a board, which is in no list.
+    pub small: Thumbnail,
+    /// Focal length from the file, in pixels of this size.
+    pub focal_px: Option<f64>,
+    /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as
+    /// the calibrated camera would show it without its distortion.
+    pub k: Option<[f64; 4]>,
+    /// Width and height before it was reduced, upright.
+    pub full_size: (u32, u32),
+    /// Width and height in the sensor's orientation, before it was turned upright.
+    pub sensor_size: (u32, u32),
+    /// Whether the pixels are those of the file: not downscaled, rotated or undistorted.
+    pub as_given: bool,
+}
 
-/// Decodes or renders.
-///
-/// * `camera`: its distortion is removed from files of its size
-///
-/// # Errors
-/// A message for an unreadable file, a field of view that no flat image can show, or cancellation
-/// by `progress`.
-pub(super) fn photograph(
-    source: &Source,
-    max_pixels: u32,
-    camera: Option<&LensCamera>,
-    progress: Progress<'_>,
-) -> Result<Photograph, String> {
-    ask(progress, 0.0)?;
-    match source {
-        Source::File(bytes) => file(bytes, max_pixels, camera, progress),
-        Source::Rendered(sample, index) => render(*sample, *index),
+impl Photograph {
+    /// Whether its pixels are there.
+    pub fn has_pixels(&self) -> bool {
+        !self.rgb.is_empty()
+    }
+
+    /// Whether its pixels are or were in memory: it can be shown, at least as a thumbnail.
+    pub fn was_read(&self) -> bool {
+        self.has_pixels() || !self.small.rgb.is_empty()
+    }
+
+    /// Whether sizes and numbers agree, with its pixels or without.
+    fn is_valid(&self) -> bool {
+        let num_bytes = u64::from(self.width) * u64::from(self.height) * 3;
+        let sizes = [self.full_size, self.sensor_size];
+        let small = &self.small;
+        let num_small = u64::from(small.width) * u64::from(small.height) * 3;
+        num_bytes > 0
+            && (num_bytes == self.rgb.len() as u64 || !self.has_pixels())
+            && num_small == small.rgb.len() as u64
+            && (num_small > 0) == self.has_pixels()
+            && sizes
+                .iter()
+                .all(|(width, height)| *width > 0 && *height > 0)
+            && self.focal_px.is_none_or(|f| f.is_finite() && f > 0.0)
+            && self
+                .k
+                .is_none_or(|k| are_finite(&k) && k[0] > 0.0 && k[1] > 0.0)
+    }
+
+    /// Its pixels as an image.
+    ///
+    /// # Errors
+    /// A message, if they do not fit its size.
+    #[cfg(any(feature = "vision", feature = "files"))]
+    pub(super) fn to_image(&self) -> Result<image::RgbImage, String> {
+        image::RgbImage::from_raw(self.width, self.height, self.rgb.0.to_vec())
+            .ok_or_else(|| "the photograph did not arrive whole".to_owned())
+    }
+
+    /// Size of its pixels in bytes, whether loaded or not.
+    pub fn num_bytes(&self) -> usize {
+        3 * self.width as usize * self.height as usize
     }
 }
 
-/// Just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
+/// The size and the intrinsics of a photograph.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Calibrated {
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+    /// Focal lengths and principal point, pixels.
+    pub k: [f64; 4],
+}
+
+impl Calibrated {
+    /// Square pixels, and the principal point in the middle.
+    pub fn centered(width: u32, height: u32, focal_px: f64) -> Self {
+        let middle = |side: u32| (f64::from(side) - 1.0) / 2.0;
+        Self {
+            width,
+            height,
+            k: [focal_px, focal_px, middle(width), middle(height)],
+        }
+    }
+
+    /// Intrinsics.
+    ///
+    /// # Errors
+    /// A message for invalid numbers.
+    #[cfg(feature = "vision")]
+    pub(super) fn intrinsics(&self) -> Result<epipole::camera::Intrinsics, String> {
+        let [fu, fv, cu, cv] = self.k;
+        epipole::camera::Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())
+    }
+
+    /// The focal length of a camera that is [centered](Self::centered).
+    pub fn centered_focal_px(&self) -> Option<f64> {
+        let centered = Self::centered(self.width, self.height, self.k[0]);
+        (*self == centered).then_some(self.k[0])
+    }
+}
+
+/// Decodes or renders a photograph, upright, and reduces it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReadPhotograph {
+    /// File or sample.
+    pub source: Source,
+    /// The largest number of pixels.
+    pub max_pixels: u32,
+    /// Camera whose distortion is removed if it has the photograph's size.
+    pub camera: Option<LensCamera>,
+}
+
+impl Task for ReadPhotograph {
+    type Output = Photograph;
+}
+
+/// The photograph of this number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PhotographOf(pub PhotoId);
+
+impl Query for PhotographOf {
+    type Task = ReadPhotograph;
+
+    fn all(project: &Project) -> Vec<Self> {
+        let photos = project.document.photos.iter();
+        photos.map(|photo| Self(photo.id)).collect()
+    }
+
+    fn key(self, project: &Project) -> Option<Key> {
+        Some(project.key_of_photograph(project.document.photo(self.0)?))
+    }
+
+    fn is_ready(self, _project: &Project, _is_imported: bool) -> bool {
+        true
+    }
+
+    fn priority(self, project: &Project) -> u8 {
+        match project.shows_pixels(self.0) {
+            true => 10,
+            false => 20,
+        }
+    }
+
+    fn task(self, project: &Project) -> Option<ReadPhotograph> {
+        Some(ReadPhotograph {
+            source: project.document.photo(self.0)?.source.clone(),
+            max_pixels: project.max_pixels(),
+            camera: project.document.camera.clone(),
+        })
+    }
+
+    fn label(self, project: &Project) -> String {
+        format!("Reading {}", project.document.name_of(self.0))
+    }
+
+    /// A photograph whose pixels were never loaded does not count.
+    fn is_settled(self, project: &Project) -> bool {
+        project.get(self).is_some_and(Photograph::was_read) || project.failure(self).is_some()
+    }
+
+    /// The sample comes with sizes and lenses; its pixels are quickly rendered.
+    fn stored(output: &Photograph, destination: Destination) -> Option<Photograph> {
+        (destination == Destination::Sample).then(|| Photograph {
+            rgb: Blob::default(),
+            small: Thumbnail::default(),
+            ..output.clone()
+        })
+    }
+
+    fn fits(self, project: &Project, output: &Photograph) -> bool {
+        let photo = project.document.photo(self.0);
+        let is_rendered = photo.is_some_and(Given::is_rendered);
+        output.is_valid() && (output.has_pixels() || is_rendered)
+    }
+}
+
+/// Source of a focal length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FocalOrigin {
+    /// The reader typed it.
+    Typed,
+    /// The calibrated camera has it.
+    Calibration,
+    /// EXIF data of the file.
+    File,
+    /// 1.2 times the longer side.
+    Guessed,
+}
+
+impl Project {
+    /// The largest number of pixels of a photograph.
+    pub(crate) fn max_pixels(&self) -> u32 {
+        (self.document.settings.max_megapixels * 1e6).round() as u32
+    }
+
+    /// Key of a photograph's pixels.
+    pub fn key_of_photograph(&self, photo: &Given) -> Key {
+        // Rendered photographs have no distortion to remove.
+        let camera = match photo.source {
+            Source::File(_) => self.document.camera.as_ref(),
+            Source::Rendered(..) => None,
+        };
+        Key::of(&("photograph", photo.content.0, self.max_pixels(), camera))
+    }
+
+    /// A photograph with its pixels, if they are in memory.
+    pub fn photograph(&self, photo: &Given) -> Option<&Photograph> {
+        self.get(PhotographOf(photo.id))
+            .filter(|found| found.has_pixels())
+    }
+
+    /// A photograph that can be shown, at least as a thumbnail: its pixels may have to be read
+    /// again.
+    pub fn shown(&self, photo: &Given) -> Option<&Photograph> {
+        self.get(PhotographOf(photo.id))
+            .filter(|found| found.was_read())
+    }
+
+    /// Size and intrinsics of a photograph, once they are known.
+    pub fn camera(&self, photo: &Given) -> Option<Calibrated> {
+        Some(camera(photo, self.get(PhotographOf(photo.id))?).0)
+    }
+
+    /// Source of its focal length.
+    pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
+        Some(camera(photo, self.get(PhotographOf(photo.id))?).1)
+    }
+
+    /// Focal length of a photograph times a factor, in pixels of its file. 0 until it is known.
+    pub(crate) fn focal_px(&self, photo: &Given, factor: f64) -> f64 {
+        let known = self.get(PhotographOf(photo.id)).map(|pixels| {
+            let reduced = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
+            factor * camera(photo, pixels).0.k[0] / reduced
+        });
+        known.unwrap_or(0.0)
+    }
+
+    /// Whether the current step shows the pixels of a photograph in full.
+    pub(crate) fn shows_pixels(&self, id: PhotoId) -> bool {
+        let (a, b) = self.view.pair;
+        match self.view.step {
+            Step::Features => id == self.view.photo,
+            Step::TwoViews => id == a || id == b,
+            _ => false,
+        }
+    }
+}
+
+/// The intrinsics of a photograph in its own pixels, and where its focal length comes from.
+fn camera(photo: &Given, pixels: &Photograph) -> (Calibrated, FocalOrigin) {
+    let (width, height) = (pixels.width, pixels.height);
+    let factor = f64::from(width) / f64::from(pixels.full_size.0.max(1));
+    let centered = |focal_px| Calibrated::centered(width, height, focal_px);
+    let typed_px = photo.focal_px.map(|focal_px| focal_px * factor);
+    match (typed_px, pixels.k, pixels.focal_px) {
+        (Some(focal_px), Some([_, _, cu, cv]), _) => {
+            let k = [focal_px, focal_px, cu, cv];
+            (Calibrated { width, height, k }, FocalOrigin::Typed)
+        }
+        (Some(focal_px), None, _) => (centered(focal_px), FocalOrigin::Typed),
+        (None, Some(k), _) => (Calibrated { width, height, k }, FocalOrigin::Calibration),
+        (None, None, Some(focal_px)) => (centered(focal_px), FocalOrigin::File),
+        (None, None, None) => {
+            let longer = f64::from(width.max(height));
+            (centered(1.2 * longer), FocalOrigin::Guessed)
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+impl Run for ReadPhotograph {
+    fn run(self, monitor: Monitor<'_>) -> Result<Photograph, String> {
+        report(monitor, 0.0, "")?;
+        match &self.source {
+            Source::File(bytes) => file(bytes, self.max_pixels, self.camera.as_ref(), monitor),
+            Source::Rendered(sample, index) => {
+                let (image, focal_px) = super::rendered::render(*sample, *index)?;
+                Ok(rendered(image, focal_px))
+            }
+        }
+    }
+}
+
+#[cfg(feature = "files")]
+fn rendered(image: image::RgbImage, focal_px: Option<f64>) -> Photograph {
+    let (width, height) = image.dimensions();
+    Photograph {
+        width,
+        height,
+        small: Thumbnail::new((width, height), &image),
+        rgb: image.into_raw().into(),
+        focal_px,
+        k: None,
+        full_size: (width, height),
+        sensor_size: (width, height),
+        as_given: true,
+    }
+}
+
+/// Decodes a file just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
+///
+/// # Errors
+/// A message for an unreadable file, a field of view that no flat image can show, or cancellation.
+#[cfg(feature = "files")]
 fn file(
     bytes: &[u8],
     max_pixels: u32,
     camera: Option<&LensCamera>,
-    progress: Progress<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Photograph, String> {
+    use super::convert::{core_lens_camera, unreadable};
+    use epipole::calibration::{Keep, Undistortion};
+    use epipole_io::photo::{PrepareOptions, prepare_photo};
+    use epipole::camera::Intrinsics;
     let flat = |camera: &LensCamera| {
         Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
             .map_err(|error| format!("its lens cannot be undone: {error}"))
     };
     let undistortion = camera.map(flat).transpose()?;
-    ask(progress, 0.1)?;
+    report(monitor, 0.1, "")?;
     let options = PrepareOptions::default()
         .with_max_pixels(max_pixels.into())
         .with_undistortion(undistortion.as_ref());
     let photo = prepare_photo(bytes, &options).map_err(unreadable)?;
-    ask(progress, 0.9)?;
+    report(monitor, 0.9, "")?;
     let (width, height) = photo.image.dimensions();
     let plain = |k: Intrinsics| {
         let center = k.principal_point();
@@ -72,178 +361,14 @@ fn file(
     })
 }
 
-/// A photograph of a sample.
-///
-/// # Errors
-/// A sentence, if there is none of this number.
-fn render(sample: Sample, index: u8) -> Result<Photograph, String> {
-    if index >= sample.len() {
-        return Err("the sample has no such photograph".to_owned());
-    }
-    let sentence = |error: epipole::Error| error.to_string();
-    if sample == Sample::Board {
-        let image = board_sample::photograph(index).map_err(sentence)?;
-        let image = image.ok_or("the sample has no such photograph")?;
-        return Ok(rendered(image, None));
-    }
-    let camera = match sample {
-        Sample::Turned => turned(index),
-        Sample::Twice => around_table(4)?,
-        Sample::Mixed => around_table(3 + index % 3)?,
-        Sample::Upright => held(index)?,
-        _ => around_table(index)?,
-    };
-    let focal_px = camera.camera.intrinsics.fu_px();
-    let image = match sample {
-        Sample::Plane => {
-            let print = still_life_camera(PRINTED.0, PRINTED.1);
-            let picture = Scene::still_life().render(&print, PRINTED.0, PRINTED.1, Sampling::Full);
-            hung(&picture.map_err(sentence)?.image, index).map_err(sentence)?
-        }
-        Sample::Mixed if index >= 3 => hung(&carpet(), index - 3).map_err(sentence)?,
-        _ => photographed(&camera, sample, index)?,
-    };
-    Ok(rendered(image, Some(focal_px)))
-}
-
-/// Renders the still life as seen by a camera.
-fn photographed(camera: &PosedCamera, sample: Sample, index: u8) -> Result<RgbImage, String> {
-    let (width, height) = match is_upright(sample, index) {
-        true => (RENDERED.1, RENDERED.0),
-        false => RENDERED,
-    };
-    let picture = Scene::still_life().render(camera, width, height, Sampling::Full);
-    Ok(picture.map_err(|error| error.to_string())?.image)
-}
-
-fn rendered(image: RgbImage, focal_px: Option<f64>) -> Photograph {
-    let (width, height) = image.dimensions();
-    Photograph {
-        width,
-        height,
-        small: Thumbnail::new((width, height), &image),
-        rgb: image.into_raw().into(),
-        focal_px,
-        k: None,
-        full_size: (width, height),
-        sensor_size: (width, height),
-        as_given: true,
-    }
-}
-
-/// Nine places on an arc around the still life, every other one a little higher.
-fn around_table(index: u8) -> Result<PosedCamera, String> {
-    let camera = still_life_camera(RENDERED.0, RENDERED.1);
-    let middle = Point3::new(0.035, -0.13, 0.05);
-    let angle = (f64::from(index) - 4.0) * 8.0_f64.to_radians();
-    let height = if index.is_multiple_of(2) {
-        -0.43
-    } else {
-        -0.56
-    };
-    let radius = 1.38;
-    let center = Point3::new(
-        middle.x + radius * libm::sin(angle),
-        height,
-        middle.z - radius * libm::cos(angle),
-    );
-    let cam_from_world = look_at(&center, &middle, &Vector3::new(0.0, -1.0, 0.0))
-        .map_err(|error| error.to_string())?;
-    Ok(PosedCamera {
-        cam_from_world,
-        ..camera
-    })
-}
-
-fn is_upright(sample: Sample, index: u8) -> bool {
-    sample == Sample::Upright && index % 2 == 1
-}
-
-/// One camera around the table, every other time held upright.
-fn held(index: u8) -> Result<PosedCamera, String> {
-    let camera = around_table(index + 2)?;
-    let (width, height) = match is_upright(Sample::Upright, index) {
-        true => (RENDERED.1, RENDERED.0),
-        false => RENDERED,
-    };
-    let intrinsics = Intrinsics::centered(camera.camera.intrinsics.fu_px(), width, height);
-    Ok(PosedCamera {
-        camera: Camera::pinhole(
-            intrinsics.map_err(|error| error.to_string())?,
-            width,
-            height,
-        ),
-        ..camera
-    })
-}
-
-/// Size in pixels of the picture on the wall.
-const PRINTED: (u32, u32) = (960, 720);
-
-/// A picture on a wall, photographed from positions on an arc around its middle. The world frame is
-/// the picture's: a camera at the origin sees exactly the picture at a distance of 1.
-fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
-    let print = still_life_camera(PRINTED.0, PRINTED.1);
-    let k = still_life_camera(RENDERED.0, RENDERED.1).camera.intrinsics;
-    let angle = (f64::from(index) - 1.5) * 13.0_f64.to_radians();
-    let center = Vector3::new(0.7 * libm::sin(angle), 0.0, 1.0 - 0.7 * libm::cos(angle));
-    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
-    // A point p of the poster has the depth 1 there, so p - c = (I - c nᵀ) p.
-    let seen = Matrix3::identity() - center * Vector3::z().transpose();
-    let view_from_print = k.matrix()
-        * turn.to_rotation_matrix().matrix()
-        * seen
-        * print.camera.intrinsics.inverse_matrix();
-    let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print)?;
-    Ok(map.warp(picture))
-}
-
-/// A carpet of patches that are nowhere else.
-fn carpet() -> RgbImage {
-    let mut random = Random::new(3);
-    let mut image = RgbImage::from_pixel(PRINTED.0, PRINTED.1, image::Rgb([120, 110, 100]));
-    for _ in 0..900 {
-        let side = |random: &mut Random| 4 + random.below(40) as u32;
-        let (width, height) = (side(&mut random), side(&mut random));
-        let left = random.below((PRINTED.0 - width) as usize) as u32;
-        let top = random.below((PRINTED.1 - height) as usize) as u32;
-        let color = image::Rgb([0; 3].map(|_: u8| 30 + random.below(200) as u8));
-        for v in top..top + height {
-            for u in left..left + width {
-                image.put_pixel(u, v, color);
-            }
-        }
-    }
-    image
-}
-
-/// The camera of the still life, rotated about its own center.
-fn turned(index: u8) -> PosedCamera {
-    let camera = still_life_camera(RENDERED.0, RENDERED.1);
-    let angle = (f64::from(index) - 1.5) * 5.0_f64.to_radians();
-    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
-    PosedCamera {
-        cam_from_world: Isometry3::from_parts(Translation3::identity(), turn)
-            * camera.cam_from_world,
-        ..camera
-    }
-}
-
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 mod tests {
     use super::*;
-    use crate::tasks::Told;
     use std::ops::ControlFlow;
 
     #[test]
-    fn the_sample_has_as_many_photographs_as_it_says() {
-        assert_eq!(usize::from(Sample::Board.len()), board_sample::COUNT);
-        assert!(render(Sample::Board, Sample::Board.len()).is_err());
-    }
-
-    #[test]
     fn files_that_are_none_are_refused_in_words() {
-        let go_on = &mut |_: Told<'_>| ControlFlow::Continue(());
+        let go_on = &mut |_: super::super::Progress<'_>| ControlFlow::Continue(());
         let refused = file(b"no picture", 1000, None, go_on).expect_err("that is no picture");
         assert_eq!(refused, "it is no PNG, JPEG, WebP, TIFF, BMP or PNM file");
     }

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Blob;
+use crate::project::Blob;
 
 /// Width of a small photograph, pixels, or a little less.
 #[cfg(feature = "files")]
 const WIDTH: u32 = 352;
 
-/// A photograph, small: whoever shows many at once need not look at every pixel of each.
+/// A small copy of a photograph, for lists of many.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Thumbnail {
     /// Width, pixels.

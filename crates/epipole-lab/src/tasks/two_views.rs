@@ -1,96 +1,247 @@
 //! Two-view geometry of a pair of photographs.
 
-use super::convert::{intrinsics, sentence};
-use super::{Calibrated, PairOptions, Progress, Shows, Told, TwoViews, ViewModel, ask};
-use epipole::camera::Camera;
-use epipole::progress::Status;
-use epipole::robust::RansacOptions;
-use epipole::two_view::{
-    Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal,
-};
-use nalgebra::{Matrix3, Point2};
+use super::are_finite;
+use super::matches::MatchesOf;
+use super::photograph::Calibrated;
+use super::task::{Destination, Query, Task};
+#[cfg(feature = "vision")]
+use super::task::{Monitor, Progress, Run, report};
+use crate::project::{Key, PairOptions, PhotoId, Project, pairs};
+use serde::{Deserialize, Serialize};
 
-/// Chooses among E, F and H, as `epipole two-view` does with known intrinsics: the least ambiguous
-/// matches first.
-///
-/// Matches that do not allow any estimate also give an answer: [`Shows::Nothing`].
-///
-/// # Errors
-/// A message for invalid numbers, and for cancellation by `progress`.
-pub(super) fn two_views(
-    places: &[[f64; 4]],
-    ratios: &[f32],
-    cameras: &[Calibrated; 2],
-    options: &PairOptions,
-    progress: Progress<'_>,
-) -> Result<TwoViews, String> {
-    if ratios.len() != places.len() {
-        return Err("the matches did not arrive whole".to_owned());
-    }
-    let mut order: Vec<usize> = (0..places.len()).collect();
-    order.sort_by(|&a, &b| ratios[a].total_cmp(&ratios[b]));
-    let ordered = || order.iter().map(|&n| places[n]);
-    let first: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[0], p[1])).collect();
-    let second: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[2], p[3])).collect();
-    let [k1, k2] = [intrinsics(&cameras[0])?, intrinsics(&cameras[1])?];
-    let how = TwoViewOptions::default().with_ransac(
-        RansacOptions::default()
-            .with_max_error_px(options.max_error_px)
-            .with_seed(options.seed),
-    );
-    how.check().map_err(sentence)?;
-    let mut monitor = |status: Status| progress(Told::Share(status.share, ""));
-    // Estimators do not use the size of the images.
-    let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
-    let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut monitor);
-    if found == Err(epipole::Error::Canceled) {
-        return Err("stopped".to_owned());
-    }
-    let Ok(found) = found else {
-        return Ok(nothing(places.len()));
-    };
-    ask(progress, 0.0)?;
-    // With a wrong focal length a rotation passes for a plane.
-    let otherwise = match found.configuration {
-        Configuration::Planar => {
-            find_turn_and_focal(&first, &second, [&one, &two], &found.inliers, &how)
-                .map_err(sentence)?
-        }
-        _ => None,
-    };
-    let shows = match found.configuration {
-        Configuration::General => Shows::Depth,
-        Configuration::Planar if otherwise.is_some() => Shows::Turn,
-        Configuration::Planar => Shows::Plane,
-        Configuration::Panoramic => Shows::Turn,
-        Configuration::Degenerate => Shows::Nothing,
-    };
-    let motion = match &otherwise {
-        Some(turn) => Some(turn.cam2_from_cam1),
-        None => found.cam2_from_cam1,
-    };
-    let angle_rad = (found.median_triangulation_angle_rad).filter(|_| otherwise.is_none());
-    let mut inliers = vec![false; places.len()];
-    for (&place, is_inlier) in order.iter().zip(&found.inliers) {
-        inliers[place] = *is_inlier;
-    }
-    Ok(TwoViews {
-        shows,
-        model: match found.model {
-            TwoViewModel::Essential(e) => ViewModel::Essential(rows(&e)),
-            TwoViewModel::Fundamental(f) => ViewModel::Fundamental(rows(&f)),
-            TwoViewModel::Homography(h) => ViewModel::Homography(rows(&h)),
-        },
-        fundamental: found.fundamental.as_ref().map(rows),
-        num_inliers: found.num_inliers as u32,
-        iterations: found.iterations as u32,
-        turn_deg: motion.map(|motion| motion.rotation.angle().to_degrees()),
-        focal_factor: otherwise.map(|turn| turn.focal_factor),
-        angle_deg: angle_rad.map(f64::to_degrees),
-        inliers,
-    })
+/// Kind of scene and motion of two photographs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Shows {
+    /// A scene with depth, from two places.
+    Depth,
+    /// A plane, from two places.
+    Plane,
+    /// The camera only rotated, or did not move at all.
+    Turn,
+    /// No more matches agree than by chance.
+    Nothing,
 }
 
+/// The matrix that was chosen for two photographs, row by row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum ViewModel {
+    /// E.
+    Essential([f64; 9]),
+    /// F.
+    Fundamental([f64; 9]),
+    /// H.
+    Homography([f64; 9]),
+}
+
+/// Two-view geometry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TwoViews {
+    /// Kind of scene and motion.
+    pub shows: Shows,
+    /// The matrix chosen.
+    pub model: ViewModel,
+    /// F in pixels, where there is one.
+    pub fundamental: Option<[f64; 9]>,
+    /// Whether each match fits.
+    pub inliers: Vec<bool>,
+    /// Number of inliers.
+    pub num_inliers: u32,
+    /// Samples drawn.
+    pub iterations: u32,
+    /// The rotation of the camera, degrees, if known.
+    pub turn_deg: Option<f64>,
+    /// Factor of the given focal lengths for which the camera only rotated, if it did not with the
+    /// given ones.
+    pub focal_factor: Option<f64>,
+    /// The median triangulation angle, degrees, if known.
+    pub angle_deg: Option<f64>,
+}
+
+/// Estimates the two-view geometry of two photographs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VerifyPair {
+    /// Places of the matches: `u1, v1, u2, v2`.
+    pub places: Vec<[f64; 4]>,
+    /// Ratio of descriptor distances of each match: the higher, the more ambiguous.
+    pub ratios: Vec<f32>,
+    /// Of both photographs.
+    pub cameras: [Calibrated; 2],
+    /// Two-view settings.
+    pub options: PairOptions,
+}
+
+impl Task for VerifyPair {
+    type Output = TwoViews;
+}
+
+/// The two-view geometry of a pair, the first before the second in the list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TwoViewsOf(pub PhotoId, pub PhotoId);
+
+impl TwoViewsOf {
+    fn cameras(self, project: &Project) -> Option<[Calibrated; 2]> {
+        let camera = |id| project.camera(project.document.photo(id)?);
+        Some([camera(self.0)?, camera(self.1)?])
+    }
+}
+
+impl Query for TwoViewsOf {
+    type Task = VerifyPair;
+
+    fn all(project: &Project) -> Vec<Self> {
+        let photos = project.taking_part();
+        pairs(&photos)
+            .map(|(first, second)| Self(first.id, second.id))
+            .collect()
+    }
+
+    fn key(self, project: &Project) -> Option<Key> {
+        let [first, second] = self.cameras(project)?;
+        let matches = MatchesOf(self.0, self.1).key(project)?;
+        let options = project.document.settings.pairs;
+        Some(Key::of(&(
+            "two views",
+            matches.0,
+            (first.k, second.k),
+            options,
+        )))
+    }
+
+    fn is_ready(self, project: &Project, _is_imported: bool) -> bool {
+        project.get(MatchesOf(self.0, self.1)).is_some()
+    }
+
+    /// The pair that is looked at comes before the reconstruction, all others after it.
+    fn priority(self, project: &Project) -> u8 {
+        match project.view.pair == (self.0, self.1) {
+            true => 50,
+            false => 80,
+        }
+    }
+
+    fn task(self, project: &Project) -> Option<VerifyPair> {
+        let matches = MatchesOf(self.0, self.1);
+        Some(VerifyPair {
+            places: matches.places(project)?,
+            ratios: project.get(matches)?.iter().map(|m| m.ratio).collect(),
+            cameras: self.cameras(project)?,
+            options: project.document.settings.pairs,
+        })
+    }
+
+    fn label(self, _project: &Project) -> String {
+        "Verifying pairs".to_owned()
+    }
+
+    fn stored(output: &TwoViews, _destination: Destination) -> Option<TwoViews> {
+        Some(output.clone())
+    }
+
+    fn fits(self, project: &Project, found: &TwoViews) -> bool {
+        let Some(matches) = project.get(MatchesOf(self.0, self.1)) else {
+            return false;
+        };
+        let (ViewModel::Essential(m) | ViewModel::Fundamental(m) | ViewModel::Homography(m)) =
+            &found.model;
+        let others = [found.turn_deg, found.focal_factor, found.angle_deg];
+        found.inliers.len() == matches.len()
+            && found.inliers.iter().filter(|fits| **fits).count() == found.num_inliers as usize
+            && are_finite(m)
+            && found.fundamental.is_none_or(|f| are_finite(&f))
+            && others.into_iter().flatten().all(f64::is_finite)
+    }
+}
+
+#[cfg(feature = "vision")]
+impl Run for VerifyPair {
+    /// Chooses among E, F and H, as `epipole two-view` does with known intrinsics: the least
+    /// ambiguous matches first. Matches that do not allow any estimate also give an answer:
+    /// [`Shows::Nothing`].
+    fn run(self, monitor: Monitor<'_>) -> Result<TwoViews, String> {
+        use super::convert::sentence;
+        use epipole::camera::Camera;
+        use epipole::progress::Status;
+        use epipole::robust::RansacOptions;
+        use epipole::two_view::{
+            Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
+            find_turn_and_focal,
+        };
+        use nalgebra::Point2;
+        let Self {
+            places,
+            ratios,
+            cameras,
+            options,
+        } = self;
+        if ratios.len() != places.len() {
+            return Err("the matches did not arrive whole".to_owned());
+        }
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.sort_by(|&a, &b| ratios[a].total_cmp(&ratios[b]));
+        let ordered = || order.iter().map(|&n| places[n]);
+        let first: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[0], p[1])).collect();
+        let second: Vec<Point2<f64>> = ordered().map(|p| Point2::new(p[2], p[3])).collect();
+        let [k1, k2] = [cameras[0].intrinsics()?, cameras[1].intrinsics()?];
+        let how = TwoViewOptions::default().with_ransac(
+            RansacOptions::default()
+                .with_max_error_px(options.max_error_px)
+                .with_seed(options.seed),
+        );
+        how.check().map_err(sentence)?;
+        let mut watch = |status: Status| monitor(Progress::Share(status.share, ""));
+        // Estimators do not use the size of the images.
+        let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
+        let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut watch);
+        if found == Err(epipole::Error::Canceled) {
+            return Err("stopped".to_owned());
+        }
+        let Ok(found) = found else {
+            return Ok(nothing(places.len()));
+        };
+        report(monitor, 0.0, "")?;
+        // With a wrong focal length a rotation passes for a plane.
+        let otherwise = match found.configuration {
+            Configuration::Planar => {
+                find_turn_and_focal(&first, &second, [&one, &two], &found.inliers, &how)
+                    .map_err(sentence)?
+            }
+            _ => None,
+        };
+        let shows = match found.configuration {
+            Configuration::General => Shows::Depth,
+            Configuration::Planar if otherwise.is_some() => Shows::Turn,
+            Configuration::Planar => Shows::Plane,
+            Configuration::Panoramic => Shows::Turn,
+            Configuration::Degenerate => Shows::Nothing,
+        };
+        let motion = match &otherwise {
+            Some(turn) => Some(turn.cam2_from_cam1),
+            None => found.cam2_from_cam1,
+        };
+        let angle_rad = (found.median_triangulation_angle_rad).filter(|_| otherwise.is_none());
+        let mut inliers = vec![false; places.len()];
+        for (&place, is_inlier) in order.iter().zip(&found.inliers) {
+            inliers[place] = *is_inlier;
+        }
+        Ok(TwoViews {
+            shows,
+            model: match found.model {
+                TwoViewModel::Essential(e) => ViewModel::Essential(rows(&e)),
+                TwoViewModel::Fundamental(f) => ViewModel::Fundamental(rows(&f)),
+                TwoViewModel::Homography(h) => ViewModel::Homography(rows(&h)),
+            },
+            fundamental: found.fundamental.as_ref().map(rows),
+            num_inliers: found.num_inliers as u32,
+            iterations: found.iterations as u32,
+            turn_deg: motion.map(|motion| motion.rotation.angle().to_degrees()),
+            focal_factor: otherwise.map(|turn| turn.focal_factor),
+            angle_deg: angle_rad.map(f64::to_degrees),
+            inliers,
+        })
+    }
+}
+
+#[cfg(feature = "vision")]
 fn nothing(num_matches: usize) -> TwoViews {
     TwoViews {
         shows: Shows::Nothing,
@@ -105,7 +256,8 @@ fn nothing(num_matches: usize) -> TwoViews {
     }
 }
 
-fn rows(matrix: &Matrix3<f64>) -> [f64; 9] {
+#[cfg(feature = "vision")]
+fn rows(matrix: &nalgebra::Matrix3<f64>) -> [f64; 9] {
     let mut rows = [0.0; 9];
     rows.copy_from_slice(matrix.transpose().as_slice());
     rows

@@ -4,5 +4,7 @@
 mod mirror;
 #[cfg(feature = "page")]
 mod page;
+#[cfg(feature = "page")]
+mod shell;
 #[cfg(any(feature = "vision-worker", feature = "files-worker"))]
 pub mod worker;

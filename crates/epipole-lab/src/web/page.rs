@@ -1,51 +1,15 @@
 //! The wasm interface: exports for the page, imports from it.
 
 use super::mirror::{Mirror, Wish};
-use crate::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare, wear};
-use crate::tasks::{Blob, Branch};
+use super::shell::{Inbox, Page, Shell};
+use crate::app::{App, prepare, set_theme};
+use crate::session::{Arrival, JobId, Report, Stored};
 use eframe::web_sys::HtmlCanvasElement;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Duration;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
-
-#[wasm_bindgen]
-extern "C" {
-    /// The script of the page, which has workers, file inputs and downloads.
-    pub type Shell;
-
-    #[wasm_bindgen(method, structural)]
-    fn capacity(this: &Shell) -> u32;
-    #[wasm_bindgen(method, structural)]
-    fn start(this: &Shell, work: f64, branch: &str, request: Vec<u8>);
-    #[wasm_bindgen(method, structural)]
-    fn cancel(this: &Shell, work: f64);
-    #[wasm_bindgen(method, structural, js_name = bringsSample)]
-    fn brings_sample(this: &Shell) -> bool;
-    #[wasm_bindgen(method, structural, js_name = askForPhotographs)]
-    fn ask_for_photographs(this: &Shell);
-    #[wasm_bindgen(method, structural, js_name = askForProject)]
-    fn ask_for_project(this: &Shell);
-    #[wasm_bindgen(method, structural, js_name = askForCamera)]
-    fn ask_for_camera(this: &Shell);
-    #[wasm_bindgen(method, structural, js_name = askForFrames)]
-    fn ask_for_frames(this: &Shell, video: u32, part: u32, num_parts: u32);
-    #[wasm_bindgen(method, structural)]
-    fn save(this: &Shell, name: &str, bytes: Vec<u8>);
-    #[wasm_bindgen(method, structural)]
-    fn say(this: &Shell, words: &str);
-    #[wasm_bindgen(method, structural)]
-    fn explain(this: &Shell, figure: &str, page: &str, title: &str);
-    #[wasm_bindgen(method, structural)]
-    fn address(this: &Shell, link: &str);
-    #[wasm_bindgen(method, structural)]
-    fn keep(this: &Shell, project: Vec<u8>);
-    #[wasm_bindgen(method, structural)]
-    fn forget(this: &Shell);
-    #[wasm_bindgen(method, structural, js_name = askForKept)]
-    fn ask_for_kept(this: &Shell);
-}
 
 /// Delay of a progress report until the next frame: several workers report within it, and each
 /// frame slows them down.
@@ -56,118 +20,16 @@ const SOON: Duration = Duration::from_millis(120);
 /// Delay of a single further frame: without any, egui draws two.
 const NEXT: Duration = Duration::from_millis(1);
 
-/// Unread input from the page.
-#[derive(Default)]
-struct Inbox {
-    reports: Vec<Report>,
-    arrivals: Vec<Arrival>,
-    photographs: Vec<(String, Blob)>,
-    frames: Vec<Blob>,
-    theme: Option<String>,
-    context: Option<egui::Context>,
-}
-
-struct Page {
-    shell: Shell,
-    inbox: Rc<RefCell<Inbox>>,
-}
-
-impl Host for Page {
-    fn capacity(&self) -> usize {
-        self.shell.capacity() as usize
-    }
-
-    fn start(&mut self, work: WorkId, branch: Branch, request: Vec<u8>) {
-        let branch = match branch {
-            Branch::Vision => "vision",
-            Branch::Files => "files",
-        };
-        self.shell.start(work as f64, branch, request);
-    }
-
-    fn cancel(&mut self, work: WorkId) {
-        self.shell.cancel(work as f64);
-    }
-
-    fn reports(&mut self) -> Vec<Report> {
-        std::mem::take(&mut self.inbox.borrow_mut().reports)
-    }
-
-    fn arrivals(&mut self) -> Vec<Arrival> {
-        std::mem::take(&mut self.inbox.borrow_mut().arrivals)
-    }
-
-    fn brings_sample(&self) -> bool {
-        self.shell.brings_sample()
-    }
-
-    fn ask_for_photographs(&mut self) -> bool {
-        self.shell.ask_for_photographs();
-        true
-    }
-
-    fn ask_for_project(&mut self) -> bool {
-        self.shell.ask_for_project();
-        true
-    }
-
-    fn ask_for_camera(&mut self) -> bool {
-        self.shell.ask_for_camera();
-        true
-    }
-
-    fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32) {
-        self.shell.ask_for_frames(video, part, num_parts);
-    }
-
-    fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
-        self.shell.save(name, bytes);
-        Ok(format!("{name} is saved."))
-    }
-
-    fn say(&mut self, words: &str) {
-        self.shell.say(words);
-    }
-
-    fn explain(&mut self, about: About) {
-        self.shell.explain(about.figure, about.page, about.title);
-    }
-
-    fn has_book(&self) -> bool {
-        true
-    }
-
-    fn address(&mut self, link: &str) {
-        self.shell.address(link);
-    }
-
-    fn can_keep(&self) -> bool {
-        true
-    }
-
-    fn keep(&mut self, project: Vec<u8>) {
-        self.shell.keep(project);
-    }
-
-    fn forget(&mut self) {
-        self.shell.forget();
-    }
-
-    fn ask_for_kept(&mut self) {
-        self.shell.ask_for_kept();
-    }
-}
-
 struct Frames(App<Page>);
 
 impl eframe::App for Frames {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let inbox = Rc::clone(&self.0.host().inbox);
         if let Some(theme) = inbox.borrow_mut().theme.take() {
-            wear(ui.ctx(), &theme);
+            set_theme(ui.ctx(), &theme);
         }
         // Answers request a frame when they arrive, so nothing has to be drawn until then.
-        self.0.go_on();
+        self.0.advance();
         self.0.ui(ui);
     }
 
@@ -236,7 +98,7 @@ impl Lab {
     fn answered(&self, report: Report) {
         self.receive_within(SOON, |inbox| inbox.reports.push(report));
         let rests = (self.runner.app_mut::<Frames>()).is_none_or(|mut frames| {
-            frames.0.go_on();
+            frames.0.advance();
             !frames.0.is_waiting()
         });
         if !rests {
@@ -245,32 +107,32 @@ impl Lab {
     }
 
     /// Reports the progress of a job.
-    pub fn progress(&self, work: f64, share: f32, words: String) {
+    pub fn progress(&self, job: f64, share: f32, words: String) {
         self.receive_within(PATIENCE, |inbox| {
             inbox
                 .reports
-                .push(Report::Progress(work as WorkId, share, words))
+                .push(Report::Progress(job as JobId, share, words))
         });
     }
 
     /// Delivers the intermediate result of a job.
     #[wasm_bindgen(js_name = soFar)]
-    pub fn so_far(&self, work: f64, answer: Vec<u8>) {
-        let report = Report::SoFar(work as WorkId, answer);
+    pub fn so_far(&self, job: f64, answer: Vec<u8>) {
+        let report = Report::Partial(job as JobId, answer);
         self.receive_within(PATIENCE, |inbox| inbox.reports.push(report));
     }
 
     /// Delivers an answer.
-    pub fn done(&self, work: f64, answer: Vec<u8>) {
-        self.answered(Report::Done(work as WorkId, Ok(answer)));
+    pub fn done(&self, job: f64, answer: Vec<u8>) {
+        self.answered(Report::Done(job as JobId, Ok(answer)));
     }
 
     /// Delivers an error message; `broken` for a failure of the worker itself.
-    pub fn failed(&self, work: f64, sentence: String, broken: bool) {
-        let work = work as WorkId;
+    pub fn failed(&self, job: f64, sentence: String, broken: bool) {
+        let job = job as JobId;
         let report = match broken {
-            true => Report::Broken(work, sentence),
-            false => Report::Done(work, Err(sentence)),
+            true => Report::Broken(job, sentence),
+            false => Report::Done(job, Err(sentence)),
         };
         self.answered(report);
     }
@@ -334,7 +196,7 @@ impl Lab {
 
     /// Delivers the precomputed results of the sample; empty if they could not be loaded.
     pub fn solved(&self, computed: Vec<u8>) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Solved(computed.into())));
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Results(computed.into())));
     }
 
     /// Opens a project.
@@ -342,36 +204,36 @@ impl Lab {
         self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
     }
 
-    fn hear_of_kept(&self, kept: Kept) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Kept(kept)));
+    fn stored(&self, stored: Stored) {
+        self.receive(|inbox| inbox.arrivals.push(Arrival::Stored(stored)));
     }
 
     /// Delivers the project that the browser keeps.
     #[wasm_bindgen(js_name = keptProject)]
     pub fn kept_project(&self, archive: Vec<u8>) {
-        self.hear_of_kept(Kept::Project(archive.into()));
+        self.stored(Stored::Project(archive.into()));
     }
 
     /// The browser keeps a project that is not open, and a sentence why.
     #[wasm_bindgen(js_name = keptAside)]
     pub fn kept_aside(&self, sentence: String) {
-        self.hear_of_kept(Kept::Aside(sentence));
+        self.stored(Stored::Closed(sentence));
     }
 
     /// The project was kept: number of bytes.
     pub fn kept(&self, num_bytes: f64) {
-        self.hear_of_kept(Kept::Done(num_bytes as usize));
+        self.stored(Stored::Written(num_bytes as usize));
     }
 
     /// The project was not kept, with the reason, and whether the previous one still exists.
     #[wasm_bindgen(js_name = notKept)]
     pub fn not_kept(&self, why: String, is_there: bool) {
-        self.hear_of_kept(Kept::Not { why, is_there });
+        self.stored(Stored::Failed { why, is_there });
     }
 
     /// Another page has erased the kept project.
     pub fn forgotten(&self) {
-        self.hear_of_kept(Kept::Forgotten);
+        self.stored(Stored::Erased);
     }
 
     /// Puts a theme on: "light", "dark" or "high-contrast".

@@ -1,6 +1,6 @@
 //! Entry point of a worker.
 
-use crate::tasks::{Told, compute};
+use crate::tasks::{Progress, compute};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -48,10 +48,10 @@ pub fn take_panic() -> Option<String> {
 /// A sentence for the reader.
 #[wasm_bindgen(js_name = compute)]
 pub fn carry_out(request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
-    compute(request, &mut |told| {
-        match told {
-            Told::Share(share, words) => listener.progress(share, words),
-            Told::SoFar(bytes) => listener.so_far(bytes),
+    compute(request, &mut |progress| {
+        match progress {
+            Progress::Share(share, words) => listener.progress(share, words),
+            Progress::Partial(bytes) => listener.so_far(bytes),
         }
         ControlFlow::Continue(())
     })

@@ -1,8 +1,8 @@
 //! Files that cannot be read: the Lab says so in words, and goes on with the others.
 
 use crate::common::{finish, jpeg, png, sentences};
-use epipole_lab::project::{Event, Project};
-use epipole_lab::tasks::Blob;
+use epipole_lab::project::{Blob, Project};
+use epipole_lab::session::Event;
 use image::RgbImage;
 
 /// The beginning of a PNG file of so many pixels.
@@ -42,7 +42,7 @@ fn a_file_that_is_none_leaves_the_others_alone() {
     let huge = promise(100_000, 90_000);
     project.update(Event::Add(vec![("huge.png".to_owned(), huge.into())]));
     finish(&mut project);
-    let words = project.fate_words(&project.document().photos[3]);
+    let words = project.outcome_words(&project.document().photos[3]);
     assert!(
         words.starts_with("cannot be read") && words.contains("9000000000"),
         "{words}"

@@ -1,8 +1,9 @@
 //! Photographs from which no scene can be made: the Lab says which, why, and what would help.
 
 use crate::common::{finish, sentences, solved, steps_between};
-use epipole_lab::project::{Event, Fate, Project, Step};
-use epipole_lab::tasks::Sample;
+use epipole_lab::project::{Outcome, Project, Sample, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::ReconstructionOfAll;
 
 #[test]
 fn a_camera_that_only_turned_is_told_so() {
@@ -34,13 +35,13 @@ fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
         // Small turns look alike by any focal length; that between the first and the last
         // photograph does not.
         for photo in [0, 3].map(|n| &project.document().photos[n]) {
-            let Fate::OnlyTurned(Some(focal_px)) = project.fate(photo) else {
+            let Outcome::OnlyTurned(Some(focal_px)) = project.outcome(photo) else {
                 panic!("{typed_px}: {each:?}");
             };
             // The camera of the sample has 600 px.
             assert!((570..=630).contains(&focal_px), "{typed_px}: {focal_px}");
             let words = format!("if its focal length is near {focal_px} px");
-            assert!(project.fate_words(photo).contains(&words), "{each:?}");
+            assert!(project.outcome_words(photo).contains(&words), "{each:?}");
         }
         assert!(all.contains("only turned"), "{all}");
         project.update(Event::Show(Step::TwoViews));
@@ -81,7 +82,7 @@ fn two_places_in_one_heap_are_told_apart() {
         "{each:?}"
     );
     // Each part holds the photographs of one place.
-    let components = &project.reconstruction().unwrap().components;
+    let components = &project.get(ReconstructionOfAll).unwrap().components;
     for component in components {
         let places: Vec<bool> = component.cameras.iter().map(Option::is_some).collect();
         assert!(places[..3].iter().all(|is| *is == places[0]), "{places:?}");

@@ -8,8 +8,9 @@ use epipole::calibration::{
 };
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::feature::photo_to_gray;
-use epipole_lab::project::{BoardFate, Event, FocalOrigin, Project, Step};
-use epipole_lab::tasks::{Blob, BoardPattern, LensModel, Told, compute};
+use epipole_lab::project::{Blob, BoardPattern, LensModel, Project, Step};
+use epipole_lab::session::{BoardOutcome, Event};
+use epipole_lab::tasks::{BoardOf, CalibrationOfBoards, FocalOrigin, Progress, compute};
 use image::{Rgb, RgbImage};
 use nalgebra::Vector3;
 use std::io::Cursor;
@@ -72,7 +73,7 @@ fn with_boards(files: Vec<Blob>) -> Project {
 #[test]
 fn the_sample_gives_the_camera_that_it_was_rendered_with() {
     let project = calibrated();
-    let found = project.calibration().unwrap();
+    let found = project.get(CalibrationOfBoards).unwrap();
     let truth = [520.0, 521.0, 323.0, 236.0];
     for n in 0..4 {
         let off = (found.camera.k[n] - truth[n]).abs();
@@ -90,7 +91,10 @@ fn the_sample_gives_the_camera_that_it_was_rendered_with() {
     assert_eq!(found.views.iter().flatten().count(), 9);
     assert_eq!(found.warnings, []);
     let last = &project.document().boards[9];
-    assert!(matches!(project.board_fate(last), BoardFate::NotFound(_)));
+    assert!(matches!(
+        project.board_outcome(last),
+        BoardOutcome::NotFound(_)
+    ));
     let words = project.describe();
     for part in [
         "found in 9 of 10 photographs",
@@ -144,12 +148,12 @@ fn files_give_what_the_core_gives_bit_for_bit() {
             // Five views leave eight numbers of a usual lens open.
             Err(error) => {
                 assert_eq!(ours, LensModel::Rational, "{error}");
-                let told = project.calibration_failure().unwrap();
+                let told = project.failure(CalibrationOfBoards).unwrap();
                 assert!(told.starts_with(&error.to_string()), "{told}");
                 continue;
             }
         };
-        let found = project.calibration().unwrap();
+        let found = project.get(CalibrationOfBoards).unwrap();
         let k = direct.camera.intrinsics;
         let center = k.principal_point();
         assert_eq!(found.camera.k, [k.fu_px(), k.fv_px(), center.x, center.y]);
@@ -208,7 +212,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     finish(&mut project);
     project.update(Event::UseCalibration(true));
     finish(&mut project);
-    let camera = project.calibration().unwrap().camera.clone();
+    let camera = project.get(CalibrationOfBoards).unwrap().camera.clone();
     let [fits, other] = &project.document().photos[..] else {
         panic!("two photographs")
     };
@@ -254,7 +258,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     assert_eq!(project.document().camera, None);
     let fits = &project.document().photos[0];
     assert_eq!(project.focal_origin(fits), Some(FocalOrigin::Typed));
-    assert!(project.wanted().is_empty(), "undo is instant");
+    assert!(project.pending().is_empty(), "undo is instant");
 }
 
 /// The lens is fixed to the sensor: if the file has an orientation, the camera is rotated with it,
@@ -335,7 +339,8 @@ fn boards_taken_upright_and_lying_give_one_camera() {
     let (lying, mixed) = (with_boards(lying), with_boards(mixed));
     let words = mixed.describe();
     assert!(words.contains("found in 5 of 5"), "{words}");
-    let cameras = [&lying, &mixed].map(|project| project.calibration().unwrap().camera.clone());
+    let cameras =
+        [&lying, &mixed].map(|project| project.get(CalibrationOfBoards).unwrap().camera.clone());
     assert_eq!(cameras[0], cameras[1]);
     assert_eq!(cameras[0].size, (400, 300));
 }
@@ -351,7 +356,7 @@ fn boards_and_photographs_of_one_name_stay_apart_in_a_saved_project() {
         board.clone(),
     )]));
     let again = reopened(&project);
-    let source = |file: &Blob| epipole_lab::tasks::Source::File(file.clone());
+    let source = |file: &Blob| epipole_lab::project::Source::File(file.clone());
     assert_eq!(again.document().photos[0].source, source(&other));
     assert_eq!(again.document().boards[0].source, source(&board));
     assert_eq!(again.document().boards[0].name, "one.png");
@@ -385,7 +390,7 @@ fn what_gives_no_camera_is_told_with_what_helps() {
         &project,
         &["found in 1 of 1 photograph.", "at least two", "30° to 45°"],
     );
-    assert_eq!(project.calibration_failure(), None);
+    assert_eq!(project.failure(CalibrationOfBoards), None);
     // All parallel to the image plane.
     let far = [0.36, 0.4, 0.45].map(|far_m| photographed(&board, &camera, [0.0, 0.0], far_m));
     let project = with_boards(far.to_vec());
@@ -417,14 +422,17 @@ fn what_gives_no_camera_is_told_with_what_helps() {
             "view-1.png: 480 × 360 pixels, the others 400 × 300",
         ],
     );
-    assert_eq!(project.calibration().unwrap().camera.size, (400, 300));
-    assert!(project.calibration().unwrap().views[0].is_none());
+    assert_eq!(
+        project.get(CalibrationOfBoards).unwrap().camera.size,
+        (400, 300)
+    );
+    assert!(project.get(CalibrationOfBoards).unwrap().views[0].is_none());
     // After the reader excludes it, there is no warning about it.
     let id = project.document().boards[0].id;
     project.update(Event::Exclude(id, true));
     finish(&mut project);
     told(&project, &["view-1.png: left out by you"]);
-    assert_eq!(project.calibration().unwrap().views.len(), 3);
+    assert_eq!(project.get(CalibrationOfBoards).unwrap().views.len(), 3);
 }
 
 #[test]
@@ -450,7 +458,7 @@ fn asymmetric_circles_do_as_well() {
     project.update(Event::Set(settings));
     finish(&mut project);
     let found = project
-        .calibration()
+        .get(CalibrationOfBoards)
         .unwrap_or_else(|| panic!("{}", project.describe()));
     let truth = camera.intrinsics.fu_px();
     assert!(
@@ -465,18 +473,18 @@ fn every_piece_of_it_can_be_stopped() {
     let mut project = calibrated();
     let id = project.document().boards[0].id;
     project.update(Event::Exclude(id, true));
-    let solve = project.wanted()[0].clone();
-    let solve = project.request(&solve).unwrap().to_bytes();
+    let solve = project.pending()[0];
+    let solve = solve.request(&project).unwrap().to_bytes();
     project.update(Event::Exclude(id, false));
     let mut settings = project.document().settings.clone();
     settings.calibration.board.rows = 7;
     project.update(Event::Set(settings));
-    let search = project.wanted()[0].clone();
-    let search = project.request(&search).unwrap().to_bytes();
+    let search = project.pending()[0];
+    let search = search.request(&project).unwrap().to_bytes();
     for request in [solve, search] {
         let mut calls = 0;
-        let result = compute(&request, &mut |told| {
-            let Told::Share(share, words) = told else {
+        let result = compute(&request, &mut |progress| {
+            let Progress::Share(share, words) = progress else {
                 panic!("there is nothing to show so far");
             };
             assert!((0.0..=1.0).contains(&share) && !words.is_empty());
@@ -494,7 +502,7 @@ fn every_piece_of_it_can_be_stopped() {
 fn each_photograph_of_a_board_has_a_small_picture() {
     let project = calibrated();
     for photo in &project.document().boards {
-        let small = &project.board(photo).unwrap().picture.small;
+        let small = &project.get(BoardOf(photo.id)).unwrap().picture.small;
         let pixels = small.width as usize * small.height as usize;
         assert!(pixels > 1000, "{}", photo.name);
         assert_eq!(small.rgb.len(), 3 * pixels);

@@ -1,8 +1,9 @@
 //! Any sequence of actions leaves the project valid, and undo restores everything.
 
-use crate::common::answer;
-use epipole_lab::project::{Anchor, Event, Measure, Project, Settings, Step};
-use epipole_lab::tasks::{Answer, Blob, Request, Sample};
+use crate::common::output;
+use epipole_lab::project::{Anchor, Blob, Measure, Project, Sample, Settings, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::OpenProject;
 use proptest::prelude::*;
 
 fn length() -> impl Strategy<Value = Option<f64>> {
@@ -95,15 +96,15 @@ proptest! {
             prop_assert!(!project.describe().is_empty());
             prop_assert!(!project.describe().contains("NaN"));
             for photo in &document.photos {
-                prop_assert!(!project.fate_words(photo).is_empty());
+                prop_assert!(!project.outcome_words(photo).is_empty());
             }
             for photo in &document.boards {
                 prop_assert!(!project.board_words(photo).is_empty());
             }
             let names: std::collections::BTreeSet<_> = document.boards.iter().map(|p| &p.name).collect();
             prop_assert_eq!(names.len(), document.boards.len());
-            for task in project.wanted() {
-                prop_assert!(project.request(&task).is_some());
+            for pending in project.pending() {
+                prop_assert!(pending.request(&project).is_some());
             }
         }
         let last = project.document().clone();
@@ -126,14 +127,10 @@ proptest! {
         for event in events {
             project.update(event);
         }
-        let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
-            return Err(TestCaseError::fail("it cannot be saved"));
-        };
-        let Ok(Answer::Opened { project: saved, files, .. }) = answer(&Request::Open { archive }) else {
-            return Err(TestCaseError::fail("it cannot be opened"));
-        };
+        let archive = output(project.save_request()).map_err(TestCaseError::fail)?;
+        let opened = output(OpenProject { archive }).map_err(TestCaseError::fail)?;
         let mut again = Project::default();
-        again.update(Event::OpenProject(Box::new(saved), files));
+        again.update(Event::OpenProject(Box::new(opened.project), opened.files));
         let (a, b) = (project.document(), again.document());
         prop_assert_eq!(&a.settings, &b.settings);
         prop_assert_eq!(a.measures.len(), b.measures.len());
@@ -154,8 +151,8 @@ proptest! {
         }
         let mut project = Project::default();
         project.update(Event::OpenSample(Sample::Alone));
-        let task = project.wanted()[0].clone();
-        project.done(task.key, Ok(bytes));
+        let pending = project.pending()[0];
+        project.done(&pending, Ok(bytes));
         prop_assert!(!project.describe().is_empty());
     }
 }

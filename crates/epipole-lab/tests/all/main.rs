@@ -7,9 +7,9 @@ mod common;
 
 mod bad_files;
 mod bad_scenes;
-mod brought;
 mod calibrate;
 mod fuzz;
+mod imported;
 mod page_mirror;
 mod panels;
 mod pictures;

@@ -8,7 +8,7 @@ use crate::common::desk::{Bench, rest};
 use crate::common::raster::open;
 use egui::Rect;
 use egui_kittest::kittest::{NodeT, Queryable};
-use epipole_lab::panels::wear;
+use epipole_lab::app::set_theme;
 use epipole_lab::project::Step;
 use image::RgbImage;
 use std::collections::BTreeSet;
@@ -79,7 +79,7 @@ fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
     let (mut bench, raster) = open(width, height, scale);
     rest(&mut bench);
     for theme in ["light", "dark"] {
-        wear(&bench.ctx, theme);
+        set_theme(&bench.ctx, theme);
         for step in Step::ALL {
             let name = format!("{screen}-{theme}-{}", step.name());
             // One that is out of sight is pressed, too.

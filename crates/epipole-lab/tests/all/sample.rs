@@ -6,14 +6,15 @@ use crate::common::measured::{a_known_length_sets_the_scale, three_points_set_th
 use crate::common::{exported, finish, sentences, solved, steps_between};
 use epipole::camera::{Camera, Intrinsics};
 use epipole::sfm::{Photo, PhotoOptions, SfmOptions, reconstruct_photos};
-use epipole_lab::project::{Event, Fate, Project, RefineFocal};
-use epipole_lab::tasks::{Answer, FeatureKind, Sample};
+use epipole_lab::project::{FeatureKind, Outcome, Project, RefineFocal, Sample};
+use epipole_lab::session::{Event, Pending};
+use epipole_lab::tasks::{AnyQuery, Query, Reconstruct, ReconstructionOfAll, Task};
 use image::RgbImage;
 
 #[test]
 fn the_sample_is_solved_as_the_core_solves_it() {
     let mut project = solved(Sample::Table);
-    let found = project.reconstruction().unwrap();
+    let found = project.get(ReconstructionOfAll).unwrap();
     assert_eq!(found.components.len(), 1);
     let component = &found.components[0];
     assert_eq!(component.num_registered(), 9);
@@ -64,7 +65,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
 
 /// The same reconstruction with its last three photographs in a part of their own.
 fn parts_that_nothing_joins_are_told(project: &mut Project) {
-    let mut found = (**project.reconstruction().unwrap()).clone();
+    let mut found = project.get(ReconstructionOfAll).unwrap().clone();
     let mut second = found.components[0].clone();
     for image in 0..9 {
         match image {
@@ -74,8 +75,9 @@ fn parts_that_nothing_joins_are_told(project: &mut Project) {
     }
     found.components.push(second);
     found.mean_error_px.push(found.mean_error_px[0]);
-    let key = project.key_of_reconstruction().unwrap();
-    project.done(key, Ok(Answer::Reconstruction(found).to_bytes()));
+    let key = ReconstructionOfAll.key(project).unwrap();
+    let query = AnyQuery::Reconstruction(ReconstructionOfAll);
+    project.done(&Pending { key, query }, Ok(Reconstruct::write(&found)));
     let (each, all) = sentences(project);
     let of_part = |each: &[String], part: &str| -> usize {
         let words = format!("belongs to part {part}, which nothing joins");
@@ -144,15 +146,18 @@ fn knobs_recompute_what_follows_and_undo_is_instant(project: &mut Project) {
     the_command_says_every_knob(project);
     for _ in 0..3 {
         project.update(Event::Undo);
-        assert!(project.wanted().is_empty());
+        assert!(project.pending().is_empty());
     }
     let third = project.document().photos[2].id;
     project.update(Event::Exclude(third, true));
     assert_eq!(finish(project), 1, "eight photographs, all matched before");
     assert_eq!(project.component().unwrap().num_registered(), 8);
-    assert_eq!(project.fate(&project.document().photos[2]), Fate::Excluded);
+    assert_eq!(
+        project.outcome(&project.document().photos[2]),
+        Outcome::Excluded
+    );
     project.update(Event::Undo);
-    assert!(project.wanted().is_empty());
+    assert!(project.pending().is_empty());
     assert_eq!(project.component().unwrap().num_registered(), 9);
 }
 

@@ -1,8 +1,8 @@
 //! A project that is saved, and opened again.
 
 use crate::common::{png, reopened};
-use epipole_lab::project::{Event, Project, RefineFocal};
-use epipole_lab::tasks::{Sample, Source};
+use epipole_lab::project::{Project, RefineFocal, Sample, Source};
+use epipole_lab::session::Event;
 
 #[test]
 fn a_saved_project_comes_back() {

@@ -2,8 +2,9 @@
 
 #![cfg(feature = "compute")]
 
-use epipole_lab::project::{About, Event, Project, Step};
-use epipole_lab::tasks::{Blob, Request, Sample, compute};
+use epipole_lab::project::{Blob, Project, Sample, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{AnyQuery, Calibrated, Request, VerifyPair, compute};
 use std::ops::ControlFlow;
 
 /// Computes the request and cancels at once.
@@ -23,33 +24,31 @@ fn every_long_task_stops_when_it_is_told_to() {
     project.update(Event::OpenSample(Sample::Table));
     project.update(Event::Show(Step::Depth));
     let mut kinds = [false; 6];
-    while let Some(task) = project.wanted().first().cloned() {
-        let kind = match task.about {
-            About::Features(_) => Some(0),
-            About::Matches(..) => Some(1),
-            About::Reconstruction => Some(2),
-            About::Depth(..) => Some(3),
-            About::Photograph(_) => Some(4),
-            About::TwoViews(..) => Some(5),
+    while let Some(pending) = project.pending().first().copied() {
+        let kind = match pending.query {
+            AnyQuery::Features(_) => Some(0),
+            AnyQuery::Matches(_) => Some(1),
+            AnyQuery::Reconstruction(_) => Some(2),
+            AnyQuery::Depth(_) => Some(3),
+            AnyQuery::Photograph(_) => Some(4),
+            AnyQuery::TwoViews(_) => Some(5),
             _ => None,
         };
-        let request = project.request(&task).unwrap();
+        let request = pending.request(&project).unwrap();
         if let Some(kind) = kind.filter(|kind| !kinds[*kind]) {
-            assert_eq!(stopped(&request), Err("stopped".to_owned()), "{task:?}");
+            assert_eq!(stopped(&request), Err("stopped".to_owned()), "{pending:?}");
             kinds[kind] = true;
         }
         let result = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()));
-        project.done(task.key, result);
+        project.done(&pending, result);
     }
     assert_eq!(kinds, [true; 6], "each of them was asked for");
     // An archive for which photographs must be read once more.
-    let mut request = project.export_request().unwrap();
-    if let Request::Export { photographs, .. } = &mut request {
-        for photograph in photographs {
-            photograph.used.as_mut().unwrap().rgb = Blob::default();
-        }
+    let mut export = project.export_request().unwrap();
+    for photograph in &mut export.photographs {
+        photograph.used.as_mut().unwrap().rgb = Blob::default();
     }
-    assert_eq!(stopped(&request), Err("stopped".to_owned()));
+    assert_eq!(stopped(&export.into()), Err("stopped".to_owned()));
 }
 
 /// Number of progress callbacks, if the callback of this number cancels.
@@ -79,24 +78,23 @@ fn a_pair_and_a_file_are_asked_about_more_than_once_and_end_at_the_first_no() {
         "file.jpg".to_owned(),
         crate::common::jpeg(&image, 1),
     )]));
-    let task = project.wanted()[0].clone();
-    let file = project.request(&task).unwrap();
+    let file = project.pending()[0].request(&project).unwrap();
     // Matches without agreement take the maximum number of samples.
     let place = |n: u32| {
         let by = |factor: u32| f64::from(n * factor % 397);
         [by(31), by(57), by(101), by(139)]
     };
-    let camera = epipole_lab::tasks::Calibrated {
+    let camera = Calibrated {
         width: 400,
         height: 400,
         k: [500.0, 500.0, 200.0, 200.0],
     };
-    let pair = Request::TwoViews {
+    let pair = Request::from(VerifyPair {
         places: (1..80).map(place).collect(),
         ratios: (1..80).map(|n| n as f32 / 100.0).collect(),
         cameras: [camera; 2],
         options: project.document().settings.pairs,
-    };
+    });
     for (request, at_least) in [(file, 3), (pair, 20)] {
         let (all, whole) = asked(&request, usize::MAX);
         assert!(all >= at_least && whole.is_ok(), "{all}");

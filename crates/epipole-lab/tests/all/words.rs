@@ -3,8 +3,8 @@
 #![cfg(feature = "compute")]
 
 use crate::common::{finish, solved};
-use epipole_lab::project::{Event, Project, Step};
-use epipole_lab::tasks::{Blob, Sample};
+use epipole_lab::project::{Blob, Project, Sample, Step};
+use epipole_lab::session::Event;
 
 /// Text of a step.
 fn said(project: &mut Project, step: Step) -> String {
@@ -21,7 +21,7 @@ fn a_file_that_is_no_photograph_is_said_to_be_none_once() {
         file("empty.jpg", b""),
     ]));
     finish(&mut project);
-    let words = |n: usize| project.fate_words(&project.document().photos[n]);
+    let words = |n: usize| project.outcome_words(&project.document().photos[n]);
     assert_eq!(
         words(0),
         "cannot be read: it is no PNG, JPEG, WebP, TIFF, BMP or PNM file"

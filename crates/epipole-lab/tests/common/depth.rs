@@ -1,12 +1,11 @@
 //! The depth of every pixel of a pair of the sample, against what the photographs were rendered
 //! from.
 
-use super::{answer, exported, finish};
+use super::{exported, finish, output};
 use epipole::camera::{PosedCamera, look_at};
-use epipole_lab::project::{Event, Project, Step};
-use epipole_lab::tasks::{
-    Answer, CameraFound, Dense, DepthMethod, DepthOptions, Photograph, Request,
-};
+use epipole_lab::project::{DepthMethod, DepthOptions, Project, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{CameraFound, Dense, DepthOf, FindDepth, Photograph};
 use epipole_scenes::{Scene, still_life_camera};
 use image::{RgbImage, imageops};
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
@@ -105,7 +104,7 @@ pub(crate) fn every_pixel_has_its_depth(project: &mut Project) {
     assert_eq!(filled.density, 1.0);
     assert_eq!(filled.range_px, [proposed[0], proposed[1] + 7]);
     project.update(Event::Undo);
-    assert!(project.wanted().is_empty());
+    assert!(project.pending().is_empty());
 
     in_the_files(project, [ids[3], ids[4]], &pair);
     sizes_may_differ(project, [3, 4]);
@@ -117,7 +116,7 @@ pub(crate) fn every_pixel_has_its_depth(project: &mut Project) {
 fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
     let component = project.component().unwrap();
     let given = &project.document().photos;
-    let photographs = [first, second].map(|n| (**project.photograph(&given[n]).unwrap()).clone());
+    let photographs = [first, second].map(|n| project.photograph(&given[n]).unwrap().clone());
     let cameras = [first, second].map(|n| component.cameras[n].unwrap());
     let is_seen = |index: usize, track: &[(u32, u32)]| track.iter().any(|t| t.0 as usize == index);
     let shared = component.points.iter().filter(|point| {
@@ -153,16 +152,14 @@ fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
             }
         };
         photographs[changed] = with(&photographs[changed], after);
-        let request = Request::Depth {
+        let task = FindDepth {
             photographs,
             cameras,
             lens: component.lens,
             points: points.clone(),
             options: DepthOptions::default(),
         };
-        let Ok(Answer::Depth(pair)) = answer(&request) else {
-            panic!("there is a depth");
-        };
+        let pair = output(task).unwrap();
         assert_eq!((pair.width, pair.height, pair.factor), (480, 360, 1));
         let off = errors(project, if pair.is_swapped { second } else { first }, &pair);
         let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
@@ -178,8 +175,10 @@ fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
 
 fn depth(project: &Project, first: usize, second: usize) -> Dense {
     let photos = &project.document().photos;
-    let found = project.depth(&photos[first], &photos[second]);
-    (**found.unwrap_or_else(|| panic!("{}", project.describe()))).clone()
+    let found = project.get(DepthOf(photos[first].id, photos[second].id));
+    found
+        .unwrap_or_else(|| panic!("{}", project.describe()))
+        .clone()
 }
 
 fn in_the_files(project: &mut Project, [a, b]: [u32; 2], pair: &Dense) {

@@ -2,7 +2,9 @@
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::{About, App, Arrival, Host, Kept, Report, WorkId, prepare};
+use epipole_lab::app::{App, prepare};
+use epipole_lab::project::Explanation;
+use epipole_lab::session::{Arrival, Host, JobId, Report, Stored};
 use epipole_lab::tasks::{Branch, compute};
 use std::ops::ControlFlow;
 
@@ -15,7 +17,7 @@ pub(crate) struct Desk {
     pub(crate) said: String,
     pub(crate) asked: usize,
     pub(crate) frames: Vec<(u32, u32, u32)>,
-    pub(crate) explained: Vec<About>,
+    pub(crate) explained: Vec<Explanation>,
     pub(crate) address: String,
     pub(crate) kept: Option<Vec<u8>>,
     /// Number of jobs started.
@@ -33,7 +35,7 @@ impl Host for Desk {
         4
     }
 
-    fn start(&mut self, work: WorkId, _branch: Branch, request: Vec<u8>) {
+    fn start(&mut self, work: JobId, _branch: Branch, request: Vec<u8>) {
         self.num_started += 1;
         if self.breaks {
             let sentence = "there is not enough memory".to_owned();
@@ -44,7 +46,7 @@ impl Host for Desk {
         self.reports.push(Report::Done(work, result));
     }
 
-    fn cancel(&mut self, _work: WorkId) {}
+    fn cancel(&mut self, _work: JobId) {}
 
     fn reports(&mut self) -> Vec<Report> {
         std::mem::take(&mut self.reports)
@@ -82,8 +84,8 @@ impl Host for Desk {
         Ok(format!("{name} is saved."))
     }
 
-    fn explain(&mut self, about: About) {
-        self.explained.push(about);
+    fn explain(&mut self, explanation: Explanation) {
+        self.explained.push(explanation);
     }
 
     fn has_book(&self) -> bool {
@@ -99,7 +101,7 @@ impl Host for Desk {
     }
 
     fn keep(&mut self, project: Vec<u8>) {
-        let arrival = Arrival::Kept(Kept::Done(project.len()));
+        let arrival = Arrival::Stored(Stored::Written(project.len()));
         self.arrivals.push(arrival);
         self.kept = Some(project);
     }
@@ -110,7 +112,7 @@ impl Host for Desk {
 
     fn ask_for_kept(&mut self) {
         let kept = self.kept.clone();
-        let arrival = kept.map(|project| Arrival::Kept(Kept::Project(project.into())));
+        let arrival = kept.map(|project| Arrival::Stored(Stored::Project(project.into())));
         self.arrivals.extend(arrival);
     }
 
@@ -129,7 +131,7 @@ pub(crate) fn open<'a>(width: f32, height: f32) -> Bench<'a> {
 /// The same on a host of one's own.
 pub(crate) fn open_with<'a>(desk: Desk, width: f32, height: f32) -> Bench<'a> {
     let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
-        app.go_on();
+        app.advance();
         app.ui(ui);
     };
     let mut bench = Harness::builder()
@@ -150,7 +152,7 @@ pub(crate) fn click(bench: &mut Bench<'_>, name: &str) {
 pub(crate) fn rest(bench: &mut Bench<'_>) {
     for _ in 0..200 {
         bench.step();
-        if !bench.state_mut().go_on() && bench.state().project().wanted().is_empty() {
+        if !bench.state_mut().advance() && bench.state().project().pending().is_empty() {
             break;
         }
     }

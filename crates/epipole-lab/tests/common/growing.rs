@@ -1,7 +1,8 @@
 //! A reconstruction that is watched while it becomes more.
 
-use epipole_lab::project::{Event, Project, Step};
-use epipole_lab::tasks::{Told, compute};
+use epipole_lab::project::{Project, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{Progress, compute};
 use std::ops::ControlFlow;
 
 /// Reconstructs with another seed, and checks the intermediate result after each photograph.
@@ -10,12 +11,13 @@ pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
     settings.sfm.seed = 1;
     project.update(Event::Set(settings));
     project.update(Event::Show(Step::Reconstruction));
-    let wanted = project.wanted();
-    assert_eq!(wanted.len(), 1, "{wanted:?}");
-    let request = project.request(&wanted[0]).unwrap().to_bytes();
+    let pending = project.pending();
+    assert_eq!(pending.len(), 1, "{pending:?}");
+    let pending = pending[0];
+    let request = pending.request(project).unwrap().to_bytes();
     let mut steps = Vec::new();
-    let result = compute(&request, &mut |told| {
-        if let Told::SoFar(bytes) = told {
+    let result = compute(&request, &mut |progress| {
+        if let Progress::Partial(bytes) = progress {
             steps.push(bytes);
         }
         ControlFlow::Continue(())
@@ -23,7 +25,7 @@ pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
     assert!(project.growing().is_none());
     let mut registered = Vec::new();
     for bytes in &steps {
-        project.so_far(wanted[0].key, bytes);
+        project.so_far(&pending, bytes);
         assert!(project.component().is_none());
         let growing = project.growing().unwrap();
         assert!(!growing.points.is_empty());
@@ -36,12 +38,12 @@ pub(crate) fn it_grows_as_one_watches(project: &mut Project) {
         project.describe()
     );
     // Invalid results, and those of other inputs, are not shown.
-    project.so_far(wanted[0].key, b"nothing");
+    project.so_far(&pending, b"nothing");
     assert!(project.growing().is_some());
     project.update(Event::Undo);
     assert!(project.growing().is_none());
     project.update(Event::Redo);
-    project.done(wanted[0].key, result);
+    project.done(&pending, result);
     assert!(project.growing().is_none());
     assert_eq!(project.component().unwrap().num_registered(), 9);
     project.update(Event::Undo);

@@ -2,7 +2,9 @@
 
 use super::depth::true_camera;
 use super::reopened;
-use epipole_lab::project::{Event, Measure, Project, Step};
+use epipole_lab::project::{Measure, Project, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::FeaturesOf;
 
 /// Distance of the middle of two neighboring places around the table, meters: an arc of 8° at 1.38
 /// m, and 0.13 m up.
@@ -79,7 +81,7 @@ pub(crate) fn three_points_set_the_floor(project: &mut Project) {
     let on_table = |point: usize| {
         let (image, keypoint) = component.points[point].track[0];
         let photo = &project.document().photos[image as usize];
-        let feature = &project.features(photo).unwrap().list[keypoint as usize];
+        let feature = &project.get(FeaturesOf(photo.id)).unwrap().list[keypoint as usize];
         let camera = &truth[image as usize];
         let pixel = nalgebra::Point2::new(feature.u, feature.v);
         let from = camera.cam_from_world.inverse() * nalgebra::Point3::origin();

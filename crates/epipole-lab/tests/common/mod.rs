@@ -10,9 +10,9 @@ pub(crate) mod measured;
 #[cfg(feature = "panels")]
 pub(crate) mod raster;
 
-use epipole_lab::project::{Event, Project, Step};
-use epipole_lab::tasks::Blob;
-use epipole_lab::tasks::{Answer, CameraFound, Request, Sample, compute};
+use epipole_lab::project::{Blob, Project, Sample, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{CameraFound, OpenProject, Request, Task, compute};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use std::io::{Cursor, Read};
 use std::ops::ControlFlow;
@@ -20,10 +20,10 @@ use std::ops::ControlFlow;
 /// Computes until nothing is wanted. Returns how many tasks that took.
 pub(crate) fn finish(project: &mut Project) -> usize {
     let mut count = 0;
-    while let Some(task) = project.wanted().first().cloned() {
-        let request = project.request(&task).expect("what is wanted can be asked");
+    while let Some(pending) = project.pending().first().copied() {
+        let request = pending.request(project).expect("its inputs are there");
         let result = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()));
-        project.done(task.key, result);
+        project.done(&pending, result);
         count += 1;
     }
     count
@@ -37,18 +37,15 @@ pub(crate) fn solved(sample: Sample) -> Project {
     project
 }
 
-/// The answer of a request.
-pub(crate) fn answer(request: &Request) -> Result<Answer, String> {
-    let bytes = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()))?;
-    Answer::from_bytes(&bytes)
+/// The output of a task.
+pub(crate) fn output<T: Task + Into<Request>>(task: T) -> Result<T::Output, String> {
+    let bytes = compute(&task.into().to_bytes(), &mut |_| ControlFlow::Continue(()))?;
+    T::read(&bytes)
 }
 
 /// Reads the files of a project's export by their names.
 pub(crate) fn exported(project: &Project) -> impl FnMut(&str) -> Vec<u8> + use<> {
-    let request = project.export_request().expect("there is something");
-    let Ok(Answer::Archive(bytes)) = answer(&request) else {
-        panic!("the export is no archive");
-    };
+    let bytes = output(project.export_request().expect("there is something")).unwrap();
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes.to_vec())).expect("it can be read");
     move |name| {
         let mut content = Vec::new();
@@ -68,21 +65,11 @@ pub(crate) fn steps_between(cameras: &[Option<CameraFound>]) -> Vec<f64> {
 
 /// The project after saving and opening.
 pub(crate) fn reopened(project: &Project) -> Project {
-    let Ok(Answer::Archive(archive)) = answer(&project.save_request()) else {
-        panic!("a project is an archive");
-    };
-    let opened = answer(&Request::Open { archive });
-    let Ok(Answer::Opened {
-        project,
-        files,
-        computed,
-    }) = opened
-    else {
-        panic!("it opens");
-    };
+    let archive = output(project.save_request()).unwrap();
+    let opened = output(OpenProject { archive }).unwrap();
     let mut again = Project::default();
-    again.update(Event::OpenProject(Box::new(project), files));
-    again.bring(computed);
+    again.update(Event::OpenProject(Box::new(opened.project), opened.files));
+    again.import(opened.computed);
     again
 }
 
@@ -118,7 +105,7 @@ pub(crate) fn sentences(project: &mut Project) -> (Vec<String>, String) {
     let photos = &project.document().photos;
     let words = photos
         .iter()
-        .map(|photo| project.fate_words(photo))
+        .map(|photo| project.outcome_words(photo))
         .collect();
     (words, project.describe())
 }

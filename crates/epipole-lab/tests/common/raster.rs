@@ -5,7 +5,7 @@ use super::desk::{Bench, Desk};
 use egui::epaint::{ImageData, Mesh, Primitive, TextureId, Vertex};
 use egui::{Color32, ColorImage, Pos2, Rect, TextureFilter, TextureOptions, TexturesDelta};
 use egui_kittest::TestRenderer;
-use epipole_lab::panels::{App, prepare};
+use epipole_lab::app::{App, prepare};
 use image::{Rgb, RgbImage};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -44,7 +44,7 @@ impl TestRenderer for Raster {
 pub(crate) fn open<'a>(width: f32, height: f32, scale: f32) -> (Bench<'a>, Raster) {
     let raster = Raster::default();
     let frame = |ui: &mut egui::Ui, app: &mut App<Desk>| {
-        app.go_on();
+        app.advance();
         app.ui(ui);
     };
     let bench = egui_kittest::Harness::builder()

@@ -1,72 +1,66 @@
 //! The board, the camera that it gives with its uncertainty, and the error of each photograph.
 
-use crate::panels::app::Memory;
-use crate::panels::host::Wish;
-use crate::panels::knobs::{self, Turned};
-use crate::panels::look;
-use crate::project::{BoardFate, Event, Given, MAX_MARKS, Project, SQUARES_M, Settings, Step};
-use crate::tasks::{BoardPattern, Calibration, LensModel};
+use crate::panels::screen::{Action, Screen};
+use crate::panels::widgets::controls::{self, Change};
+use crate::panels::widgets::look;
+use crate::project::{BoardPattern, Given, LensModel, MAX_MARKS, SQUARES_M, Step};
+use crate::session::{BoardOutcome, Event};
+use crate::tasks::{Calibration, CalibrationOfBoards};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
 use epipole_canvas::theme::Role;
 
 /// The board, the camera, each photograph.
-pub(in crate::panels) fn knobs(
-    project: &Project,
-    memory: &mut Memory,
-    ui: &mut Ui,
-    events: &mut Vec<Event>,
-) -> Option<Wish> {
-    let mut wish = None;
+pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut Ui) {
+    let project = screen.project;
     ui.horizontal_wrapped(|ui| {
         if ui.button("Open the sample").clicked() {
-            events.push(Event::OpenBoards);
+            screen.send(Event::OpenBoards);
         }
         if ui.button("Take photographs…").clicked() {
-            wish = Some(Wish::TakePhotographs);
+            screen.actions.push(Action::TakePhotographs);
         }
         let any = !project.document().boards.is_empty();
         let remove = egui::Button::new("Remove all");
         if ui.add_enabled(any, remove).clicked() {
-            events.push(Event::ClearBoards);
+            screen.send(Event::ClearBoards);
         }
     });
-    board(project, memory, ui, events);
+    board(screen, ui);
     ui.separator();
     let used = project.use_words();
     if !used.is_empty() {
         ui.label(used.trim());
         if ui.button("Stop using it").clicked() {
-            events.push(Event::UseCalibration(false));
+            screen.send(Event::UseCalibration(false));
         }
     }
-    match project.calibration() {
-        Some(found) => camera(project, memory, found, ui, events, &mut wish),
+    match project.get(CalibrationOfBoards) {
+        Some(found) => camera(screen, found, all_marks, ui),
         None => drop(ui.label(project.calibrate_status())),
     }
     let current = project.document().board(project.view().board);
     if let Some(given) = current {
         ui.separator();
-        one(project, ui, given, events);
+        one(screen, ui, given);
     }
     ui.separator();
     ui.weak("The same on the command line:");
     ui.label(egui::RichText::new(project.calibrate_command()).small());
-    knobs::book(ui, Step::Calibrate);
-    wish
+    controls::book(ui, Step::Calibrate);
 }
 
 /// Which board, and which lens.
-fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<Event>) {
-    knobs::edit(project, memory, events, |settings: &mut Settings| {
+fn board(screen: &mut Screen<'_>, ui: &mut Ui) {
+    controls::edit(screen, |settings| {
         let options = &mut settings.calibration;
-        let mut turned = Turned::No;
+        let mut change = Change::No;
         ui.horizontal_wrapped(|ui| {
             for (pattern, name) in [
                 (BoardPattern::Chessboard, "chessboard"),
                 (BoardPattern::Circles, "asymmetric circles"),
             ] {
                 let radio = ui.radio_value(&mut options.board.pattern, pattern, name);
-                turned = turned.max(radio.changed().into());
+                change = change.max(radio.changed().into());
             }
         });
         let (marks, side) = match options.board.pattern {
@@ -81,7 +75,7 @@ fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<E
                 ("rows", &mut options.board.rows),
             ] {
                 let field = DragValue::new(value).range(2..=MAX_MARKS);
-                turned = turned.max(number(ui, name, field));
+                change = change.max(number(ui, name, field));
             }
         });
         let mut side_mm = 1e3 * options.square_m;
@@ -91,11 +85,11 @@ fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<E
             .speed(0.1)
             .max_decimals(3);
         let moved = ui.horizontal(|ui| number(ui, side, field)).inner;
-        if moved != Turned::No {
+        if moved != Change::No {
             // As a reader types it: 25 mm are 0.025 m, and no digit more.
             options.square_m = (side_mm * 1e6).round() / 1e9;
         }
-        turned = turned.max(moved);
+        change = change.max(moved);
         ui.weak("Lens:");
         ui.horizontal_wrapped(|ui| {
             for (lens, name) in [
@@ -104,70 +98,59 @@ fn board(project: &Project, memory: &mut Memory, ui: &mut Ui, events: &mut Vec<E
                 (LensModel::Fisheye, "fisheye"),
             ] {
                 let radio = ui.radio_value(&mut options.lens, lens, name);
-                turned = turned.max(radio.changed().into());
+                change = change.max(radio.changed().into());
             }
         });
-        turned
+        change
     });
 }
 
-fn number(ui: &mut Ui, name: &str, field: DragValue<'_>) -> Turned {
+fn number(ui: &mut Ui, name: &str, field: DragValue<'_>) -> Change {
     let label = ui.label(name);
     let response = ui
         .add(field.update_while_editing(false))
         .labelled_by(label.id);
-    match (
-        response.dragged(),
-        response.drag_stopped() || response.changed(),
-    ) {
-        (true, _) => Turned::Held,
-        (false, done) => done.into(),
-    }
+    controls::change_of(&response)
 }
 
 /// The camera that came of it.
-fn camera(
-    project: &Project,
-    memory: &mut Memory,
-    found: &Calibration,
-    ui: &mut Ui,
-    events: &mut Vec<Event>,
-    wish: &mut Option<Wish>,
-) {
+fn camera(screen: &mut Screen<'_>, found: &Calibration, all_marks: &mut bool, ui: &mut Ui) {
+    let project = screen.project;
     ui.horizontal_wrapped(|ui| {
         let is_used = project.document().camera.as_ref() == Some(&found.camera);
         let button = egui::Button::new("Use for my photographs");
         if ui.add_enabled(!is_used, button).clicked() {
-            events.push(Event::UseCalibration(true));
+            screen.send(Event::UseCalibration(true));
         }
         if ui.button("Save camera.json").clicked() {
-            *wish = Some(Wish::SaveCamera);
+            screen.actions.push(Action::SaveCamera);
         }
     });
-    knobs::row(ui, "error", format!("{:.3} px", found.rms_px));
-    knobs::row(
+    controls::row(ui, "error", format!("{:.3} px", found.rms_px));
+    controls::row(
         ui,
         "coverage",
         format!("{:.0} % of the image", 100.0 * found.coverage),
     );
-    ui.checkbox(&mut memory.board.all_marks, "Show marks of all photographs");
+    ui.checkbox(all_marks, "Show marks of all photographs");
     for warning in project.calibration_warnings() {
         ui.colored_label(look::color(ui, Role::Outlier), format!("{warning}."));
     }
     let sure = |value: f64, deviation: f64| format!("{value:.2} ± {deviation:.2} px");
     let rows = ["fu", "fv", "cu", "cv"];
     for (n, name) in rows.into_iter().enumerate() {
-        knobs::row(ui, name, sure(found.camera.k[n], found.std_dev_k[n]));
+        controls::row(ui, name, sure(found.camera.k[n], found.std_dev_k[n]));
     }
     let numbers = (found.camera.coefficients.iter()).zip(&found.std_dev_lens);
     for (name, (value, deviation)) in found.camera.lens.coefficients().iter().zip(numbers) {
-        knobs::row(ui, name, format!("{value:.5} ± {deviation:.5}"));
+        controls::row(ui, name, format!("{value:.5} ± {deviation:.5}"));
     }
-    errors(project, found, ui, events);
+    errors(screen, found, ui);
 }
 
 /// The error of each photograph as a bar; a click looks at it.
-fn errors(project: &Project, found: &Calibration, ui: &mut Ui, events: &mut Vec<Event>) {
+fn errors(screen: &mut Screen<'_>, found: &Calibration, ui: &mut Ui) {
+    let project = screen.project;
     let errors = found.views.iter().flatten().map(|view| view.rms_px);
     let most = errors.fold(f64::MIN_POSITIVE, f64::max);
     ui.weak("Error by photograph");
@@ -197,17 +180,18 @@ fn errors(project: &Project, found: &Calibration, ui: &mut Ui, events: &mut Vec<
                 .rect_stroke(rect, 2.0, stroke, egui::StrokeKind::Inside);
         }
         if response.clicked() {
-            events.push(Event::Look(given.id));
+            screen.send(Event::Look(given.id));
         }
     }
 }
 
 /// The photograph that is looked at.
-fn one(project: &Project, ui: &mut Ui, given: &Given, events: &mut Vec<Event>) {
+fn one(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
+    let project = screen.project;
     ui.strong(&given.name);
     let words = project.board_words(given);
-    match project.board_fate(given) {
-        BoardFate::Found(_) | BoardFate::Open => ui.label(words),
+    match project.board_outcome(given) {
+        BoardOutcome::Found(_) | BoardOutcome::Pending => ui.label(words),
         _ => ui.colored_label(look::color(ui, Role::Outlier), words),
     };
     ui.horizontal_wrapped(|ui| {
@@ -216,10 +200,10 @@ fn one(project: &Project, ui: &mut Ui, given: &Given, events: &mut Vec<Event>) {
             .checkbox(&mut takes_part, "Use this photograph")
             .changed()
         {
-            events.push(Event::Exclude(given.id, !takes_part));
+            screen.send(Event::Exclude(given.id, !takes_part));
         }
         if ui.button("Remove").clicked() {
-            events.push(Event::Remove(given.id));
+            screen.send(Event::Remove(given.id));
         }
     });
 }

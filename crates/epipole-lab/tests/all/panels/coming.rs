@@ -2,7 +2,8 @@
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::Arrival;
+use epipole_lab::project::Sample;
+use epipole_lab::session::Arrival;
 
 #[test]
 fn a_video_gives_its_sharpest_frames() {
@@ -24,7 +25,7 @@ fn a_video_gives_its_sharpest_frames() {
     bring(&mut bench, Arrival::Video(3));
     bring(&mut bench, Arrival::Video(4));
     assert_eq!(bench.state_mut().host().frames, [(3, 0, 3)]);
-    let picture = |blur: f32| -> epipole_lab::tasks::Blob {
+    let picture = |blur: f32| -> epipole_lab::project::Blob {
         let sharp = image::RgbImage::from_fn(60, 40, |u, v| {
             image::Rgb([if (u / 7 + v / 5) % 2 == 0 { 20 } else { 230 }; 3])
         });
@@ -53,7 +54,7 @@ fn a_video_gives_its_sharpest_frames() {
     let photos = &bench.state().project().document().photos;
     let names: Vec<&str> = photos.iter().map(|photo| photo.name.as_str()).collect();
     assert_eq!(names, ["walk-01.jpg", "walk-03.jpg"]);
-    let source = epipole_lab::tasks::Source::File(sharp);
+    let source = epipole_lab::project::Source::File(sharp);
     assert!(photos.iter().all(|photo| photo.source == source));
     let said = bench.state_mut().host().said.clone();
     assert!(
@@ -97,7 +98,6 @@ fn what_broke_down_is_told_and_tried_again() {
 
 #[test]
 fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
-    use epipole_lab::tasks::Sample;
     let computed = crate::common::solved(Sample::Table)
         .light_computed()
         .to_bytes();
@@ -113,7 +113,7 @@ fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
         );
         assert_eq!(bench.state_mut().host().num_started, 0, "it waits");
         assert!(bench.get_all_by_label("Reconstructing.").next().is_some());
-        let arrival = Arrival::Solved(bytes.into());
+        let arrival = Arrival::Results(bytes.into());
         bench.state_mut().host().arrivals.push(arrival);
         rest(&mut bench);
         bench.get_by_label("9 of 9");

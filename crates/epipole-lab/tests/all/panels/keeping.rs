@@ -2,8 +2,8 @@
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::{Arrival, Host, Kept};
 use epipole_lab::project::Step;
+use epipole_lab::session::{Arrival, Host, Stored};
 
 #[test]
 fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
@@ -83,7 +83,11 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
     let mut bench = open(1280.0, 720.0);
     let said = |bench: &mut Bench<'_>| bench.state_mut().host().said.clone();
     let hear = |bench: &mut Bench<'_>, kept| {
-        bench.state_mut().host().arrivals.push(Arrival::Kept(kept));
+        bench
+            .state_mut()
+            .host()
+            .arrivals
+            .push(Arrival::Stored(kept));
         rest(bench);
         bench.run_steps(40);
     };
@@ -92,7 +96,7 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
     bench.run_steps(40);
     hear(
         &mut bench,
-        Kept::Not {
+        Stored::Failed {
             why: "there is no room for 3.0 MB.".to_owned(),
             is_there: true,
         },
@@ -118,14 +122,14 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
     rest(&mut bench);
     let words = said(&mut bench);
     assert!(words.contains("is open again"), "{words}");
-    hear(&mut bench, Kept::Project(vec![1_u8, 2, 3].into()));
+    hear(&mut bench, Stored::Project(vec![1_u8, 2, 3].into()));
     let words = said(&mut bench);
     assert!(
         words.contains("does not open: this file is no project of the Lab"),
         "{words}"
     );
     assert_eq!(bench.state().project().document().photos.len(), 9);
-    hear(&mut bench, Kept::Forgotten);
+    hear(&mut bench, Stored::Erased);
     let words = said(&mut bench);
     assert!(words.contains("Another page of the Lab"), "{words}");
     click(&mut bench, "Project");

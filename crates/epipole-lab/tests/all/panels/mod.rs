@@ -8,8 +8,8 @@ mod menus;
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::panels::Arrival;
 use epipole_lab::project::Step;
+use epipole_lab::session::Arrival;
 
 #[test]
 fn the_line_from_the_sample_to_a_file() {
@@ -34,13 +34,13 @@ fn the_line_from_the_sample_to_a_file() {
     click(&mut bench, "SIFT");
     for _ in 0..200 {
         bench.step();
-        if bench.state().project().wanted().is_empty() {
+        if bench.state().project().pending().is_empty() {
             break;
         }
     }
     click(&mut bench, "Undo");
     assert!(
-        bench.state().project().wanted().is_empty(),
+        bench.state().project().pending().is_empty(),
         "undo is instant"
     );
 
@@ -86,7 +86,7 @@ fn a_board_gives_a_camera_and_its_file() {
     click(&mut bench, "fisheye");
     rest(&mut bench);
     let lens = |bench: &Bench<'_>| bench.state().project().document().settings.calibration.lens;
-    assert_eq!(lens(&bench), epipole_lab::tasks::LensModel::Fisheye);
+    assert_eq!(lens(&bench), epipole_lab::project::LensModel::Fisheye);
     click(&mut bench, "Undo");
     bench.get_by_label_contains("board-3.png: 54 marks").click();
     bench.run_steps(3);
@@ -213,7 +213,7 @@ fn a_link_opens_a_step_and_every_step_is_explained() {
         click(&mut bench, step.title());
         click(&mut bench, "What is this?");
         let explained = bench.state_mut().host().explained.pop();
-        assert_eq!(explained, Some(step.about()));
+        assert_eq!(explained, Some(step.explanation()));
     }
 }
 

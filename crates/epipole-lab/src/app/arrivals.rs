@@ -1,0 +1,114 @@
+//! Handling of arrivals: photographs (of a board during that step), projects, videos, links.
+
+use super::App;
+use crate::project::{Blob, Computed, Step};
+use crate::session::{Arrival, Event, FileJob, Host, Stored};
+use crate::tasks::{ChooseFrame, OpenProject};
+
+impl<H: Host> App<H> {
+    pub(super) fn take(&mut self, arrival: Arrival) {
+        match arrival {
+            Arrival::Photographs(files) => self.add_photographs(files),
+            Arrival::Project(archive) => self.run(FileJob::Open, OpenProject { archive }),
+            Arrival::Link(parameters) => {
+                let problems = self.project.open_link(&parameters);
+                if !problems.is_empty() {
+                    self.news = Some(problems.join(" "));
+                }
+            }
+            Arrival::Video(video) => {
+                let num_parts = self.project.document().settings.num_frames;
+                self.videos.add(video, num_parts, &mut self.host);
+            }
+            Arrival::Frames(video, name, frames) => {
+                if let Some(part) = self.videos.part_of(video) {
+                    let task = ChooseFrame { name, part, frames };
+                    self.run(FileJob::Frames(video), task);
+                }
+            }
+            Arrival::NoFrames(video, sentence) => {
+                self.videos.give_up(video, &mut self.host);
+                self.news = Some(sentence);
+            }
+            Arrival::Stored(stored) => self.take_stored(stored),
+            Arrival::Results(bytes) => {
+                self.waits_for_sample = false;
+                self.project.import(Computed::from_bytes(&bytes));
+            }
+            Arrival::News(sentence) => self.news = Some(sentence),
+        }
+    }
+
+    /// Adds photographs, which replace a sample.
+    pub(super) fn add_photographs(&mut self, files: Vec<(String, Blob)>) {
+        let document = self.project.document();
+        if self.project.view().step == Step::Calibrate {
+            if document.has_sample_boards() {
+                self.project.update(Event::ClearBoards);
+            }
+            self.project.update(Event::AddBoards(files));
+            return;
+        }
+        // One change: one step back.
+        self.project.update(match document.is_sample() {
+            true => Event::Begin(files),
+            false => Event::Add(files),
+        });
+        self.project.update(Event::Show(Step::Photographs));
+    }
+
+    fn take_stored(&mut self, stored: Stored) {
+        match stored {
+            Stored::Project(archive) => {
+                self.storage.close();
+                self.run(FileJob::Restore, OpenProject { archive });
+            }
+            Stored::Closed(sentence) => {
+                self.storage.close();
+                self.news = Some(sentence);
+            }
+            Stored::Written(num_bytes) => {
+                if self.storage.end() {
+                    let room = megabytes(num_bytes);
+                    self.news = Some(format!(
+                        "This browser keeps the project, {room}, and every change to it. Nothing is uploaded."
+                    ));
+                }
+            }
+            Stored::Failed { why, is_there } => self.not_stored(&why, is_there),
+            Stored::Erased => {
+                self.storage.turn_off();
+                self.news = Some("Another page of the Lab removed the kept project from this browser. It is still open here.".to_owned());
+            }
+        }
+    }
+
+    pub(super) fn not_stored(&mut self, why: &str, is_there: bool) {
+        self.storage.turn_off();
+        let before = match is_there {
+            true => {
+                self.storage.close();
+                " The project kept before is still there."
+            }
+            false => "",
+        };
+        self.news = Some(format!(
+            "The project is not kept in this browser: {why} Save it as a file from the Project menu.{before}"
+        ));
+    }
+
+    /// Erases the stored project.
+    pub(super) fn erase_stored(&mut self) {
+        self.storage.turn_off();
+        self.host.forget();
+        self.news = Some("The project is no longer kept in this browser.".to_owned());
+    }
+}
+
+/// Bytes in words.
+pub(super) fn megabytes(bytes: usize) -> String {
+    match bytes {
+        0..100_000 => "less than 0.1 MB".to_owned(),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}

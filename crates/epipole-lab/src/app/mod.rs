@@ -1,0 +1,307 @@
+//! The app: a bar, the steps, and the picture and controls of the current step.
+
+use crate::panels::{self, Action, Panel, Screen, Views};
+use crate::project::{Project, Sample, Step};
+use crate::session::{Arrival, Event, FileJob, Host, Jobs, Storage, Videos};
+use crate::tasks::{Request, WritePicture};
+mod arrivals;
+mod bar;
+mod files;
+mod steps;
+
+use crate::panels::widgets::{controls, look};
+use egui::{CentralPanel, Panel as Area, ScrollArea, Ui};
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// Width in points below which steps and controls are stacked.
+const NARROW: f32 = 760.0;
+
+/// The Lab on a screen.
+pub struct App<H> {
+    project: Project,
+    host: H,
+    jobs: Jobs,
+    /// Videos that frames are taken from.
+    videos: Videos,
+    /// Project in the storage of the browser.
+    storage: Storage,
+    /// Queue of arrivals.
+    arrivals: VecDeque<Arrival>,
+    /// Whether the results of the sample are still to arrive.
+    waits_for_sample: bool,
+    /// Message about the last file.
+    news: Option<String>,
+    panels: [(Step, Box<dyn Panel>); 9],
+    views: Views,
+    /// Step in the middle of the row of steps.
+    centered_step: Option<Step>,
+    /// Description last announced.
+    description: String,
+    /// Link last set.
+    link: String,
+    /// Revision and news at the last announcement.
+    announced: Option<(u64, Option<String>)>,
+}
+
+/// Sets font, sizes and colors of a context, before its first frame.
+pub fn prepare(context: &egui::Context) {
+    look::set(context);
+}
+
+/// Applies a theme: "light", "dark", "high-contrast", or that of the system for any other name.
+pub fn set_theme(context: &egui::Context, theme: &str) {
+    look::set_theme(context, theme);
+}
+
+impl<H: Host> App<H> {
+    /// Opens the sample, with its reconstruction shown as soon as it is computed.
+    pub fn new(host: H) -> Self {
+        let mut project = Project::default();
+        project.update(Event::OpenSample(Sample::Table));
+        project.update(Event::Show(Step::Reconstruction));
+        project.clear_history();
+        Self {
+            project,
+            jobs: Jobs::default(),
+            videos: Videos::default(),
+            storage: Storage::default(),
+            arrivals: VecDeque::new(),
+            waits_for_sample: host.brings_sample(),
+            host,
+            news: None,
+            panels: panels::all(),
+            views: Views::default(),
+            centered_step: None,
+            description: String::new(),
+            link: String::new(),
+            announced: None,
+        }
+    }
+
+    /// The open project.
+    pub fn project(&self) -> &Project {
+        &self.project
+    }
+
+    /// The environment.
+    pub fn host(&mut self) -> &mut H {
+        &mut self.host
+    }
+
+    /// Does the work between two frames. True while something is running.
+    pub fn advance(&mut self) -> bool {
+        self.arrivals.extend(self.host.arrivals());
+        // Arrivals after a project wait until it is open.
+        while !self.jobs.is_opening()
+            && let Some(arrival) = self.arrivals.pop_front()
+        {
+            self.take(arrival);
+        }
+        self.run_jobs();
+        let now = (self.project.revision(), self.news.clone());
+        if self.announced.as_ref() != Some(&now) {
+            self.announced = Some(now);
+            self.announce();
+        }
+        !self.jobs.is_empty() || self.is_waiting()
+    }
+
+    fn run_jobs(&mut self) {
+        while let Some((job, result)) = self.jobs.receive(&mut self.project, &mut self.host) {
+            self.finish(job, result);
+        }
+        let is_sample = self.project.document().is_sample();
+        // Another project, or precomputed results, are about to arrive.
+        let is_held = self.jobs.is_opening() || (self.waits_for_sample && is_sample);
+        self.jobs.schedule(&self.project, &mut self.host, is_held);
+    }
+
+    /// Passes description and link to the environment, if they have changed.
+    fn announce(&mut self) {
+        let mut description = self.project.describe();
+        if let Some(news) = &self.news {
+            description = format!("{description} {news}");
+        }
+        if description != self.description {
+            self.host.say(&description);
+            self.description = description;
+        }
+        let link = self.project.link();
+        if link != self.link {
+            self.host.address(&link);
+            self.link = link;
+        }
+    }
+
+    /// Whether work is left that [`App::advance`] should do soon.
+    pub fn is_waiting(&self) -> bool {
+        self.jobs.is_waiting()
+    }
+
+    /// Draws a frame. Requires [`prepare`] before the first one.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        let mut actions = Vec::new();
+        keys(ui, &mut actions);
+        let narrow = ui.available_width() < NARROW;
+        Area::top("bar").show(ui, |ui| self.bar(narrow, ui, &mut actions));
+        if narrow {
+            Area::top("steps in a row").show(ui, |ui| {
+                steps::row(&self.project, &mut self.centered_step, ui, &mut actions);
+            });
+            let height = ui.available_height();
+            Area::bottom("knobs below")
+                .exact_size(0.42 * height)
+                .show(ui, |ui| self.controls(ui, &mut actions));
+        } else {
+            Area::left("steps")
+                .exact_size(168.0)
+                .resizable(false)
+                .show(ui, |ui| {
+                    ui.add_space(6.0);
+                    steps::column(&self.project, ui, &mut actions);
+                });
+            Area::right("knobs")
+                .exact_size(316.0)
+                .resizable(false)
+                .show(ui, |ui| self.controls(ui, &mut actions));
+        }
+        CentralPanel::default().show(ui, |ui| self.picture(ui, &mut actions));
+        if !actions.is_empty() || self.is_waiting() {
+            // The effects of the actions start, and show, with the next frame.
+            ui.ctx().request_repaint();
+        }
+        for action in actions {
+            self.act(action);
+        }
+        if self.project.is_paused() {
+            // Stopping takes effect before the next frame.
+            self.run_jobs();
+        }
+        self.store(ui);
+    }
+
+    fn picture(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let step = self.project.view().step;
+        if self.project.document().photos.is_empty() && step != Step::Calibrate {
+            let words =
+                "Add photographs of one thing, taken from different places, or open a sample.";
+            return controls::instead(ui, words);
+        }
+        self.show(actions, |panel, screen| panel.picture(screen, ui));
+    }
+
+    fn controls(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let step = self.project.view().step;
+        ScrollArea::vertical()
+            .id_salt(step)
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                // Nothing lies under the bar that scrolls.
+                ui.set_max_width(ui.available_width() - 10.0);
+                ui.add_space(6.0);
+                ui.horizontal_wrapped(|ui| {
+                    ui.heading(step.title());
+                    if self.host.has_book() && ui.button("What is this?").clicked() {
+                        self.host.explain(step.explanation());
+                    }
+                });
+                self.show(actions, |panel, screen| panel.controls(screen, ui));
+            });
+    }
+
+    /// Shows the panel of the current step.
+    fn show(
+        &mut self,
+        actions: &mut Vec<Action>,
+        draw: impl FnOnce(&mut dyn Panel, &mut Screen<'_>),
+    ) {
+        let current = self.project.view().step;
+        let mut screen = Screen {
+            project: &self.project,
+            views: &mut self.views,
+            actions,
+        };
+        if let Some((_, panel)) = self.panels.iter_mut().find(|(step, _)| *step == current) {
+            draw(&mut **panel, &mut screen);
+        }
+    }
+
+    fn act(&mut self, action: Action) {
+        match action {
+            Action::Send(event) => {
+                if matches!(event, Event::OpenSample(_)) {
+                    self.panels = panels::all();
+                    self.views = Views::default();
+                    self.centered_step = None;
+                }
+                self.project.update(event);
+            }
+            Action::TakePhotographs => {
+                if !self.host.ask_for_camera() {
+                    self.news = Some("Only the Lab in a browser can take photographs.".to_owned());
+                }
+            }
+            Action::SaveReconstruction => {
+                if let Some(request) = self.project.export_request() {
+                    self.run(FileJob::SaveReconstruction, request);
+                }
+            }
+            Action::SaveView => {
+                if let Some((width, rgba)) = self.views.cloud.pixels() {
+                    self.run(FileJob::SaveView, WritePicture { width, rgba });
+                }
+            }
+            Action::SaveCamera => {
+                if let Some(text) = self.project.camera_json() {
+                    let saved = self.host.save("camera.json", text.into_bytes());
+                    let (Ok(sentence) | Err(sentence)) = saved;
+                    self.news = Some(sentence);
+                }
+            }
+        }
+    }
+
+    /// Starts a file job, unless one of its kind is running.
+    fn run(&mut self, job: FileJob, task: impl Into<Request>) {
+        if !self.jobs.runs(job) {
+            self.news = None;
+            self.storage.is_restored = false;
+            self.jobs.start_file(job, &task.into(), &mut self.host);
+        }
+    }
+
+    /// Stores the open project in the browser after a pause in the changes.
+    fn store(&mut self, ui: &Ui) {
+        if !self.storage.is_open() {
+            return;
+        }
+        let (key, now_s) = (self.project.saved_key(), ui.input(|input| input.time));
+        match self.storage.wait_s(key, now_s) {
+            None => {}
+            Some(wait_s) if wait_s > 0.0 => ui
+                .ctx()
+                .request_repaint_after(Duration::from_secs_f64(wait_s)),
+            Some(_) if self.jobs.runs(FileJob::Store) || self.jobs.runs(FileJob::Open) => {}
+            Some(_) => {
+                self.storage.begin(key);
+                let request = self.project.keep_request().into();
+                self.jobs
+                    .start_file(FileJob::Store, &request, &mut self.host);
+            }
+        }
+    }
+}
+
+/// Undo and redo by keys.
+fn keys(ui: &Ui, actions: &mut Vec<Action>) {
+    let typing = ui.ctx().egui_wants_keyboard_input();
+    ui.input(|input| {
+        if input.modifiers.command && !typing && input.key_pressed(egui::Key::Z) {
+            actions.push(Action::Send(match input.modifiers.shift {
+                true => Event::Redo,
+                false => Event::Undo,
+            }));
+        }
+    });
+}

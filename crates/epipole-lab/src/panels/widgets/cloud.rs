@@ -1,0 +1,344 @@
+//! Cameras and points in 3D: rotation, panning and zoom by mouse, touch and keys.
+
+use super::look;
+use super::marks::{add_dense, frustum, rays, standing};
+use super::steer::{frame, steer};
+use crate::project::{Blob, Key, Project};
+use crate::session::Floor;
+use crate::tasks::{Component, Query, ReconstructionOfAll};
+use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
+use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
+use epipole_canvas::theme::{Role, Theme};
+use std::time::Duration;
+
+/// Meaning of a point's color.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Coloring {
+    /// The photographs.
+    #[default]
+    Photographs,
+    /// Its reprojection error.
+    Error,
+    /// In how many photographs it is seen.
+    Track,
+}
+
+/// Inputs of the current scene; a change rebuilds it.
+#[derive(Clone, PartialEq)]
+struct Made {
+    key: Key,
+    component: usize,
+    coloring: Coloring,
+    theme: Theme,
+    /// Number of photographs shown in their frusta.
+    photographs: usize,
+    /// Number of cameras so far, during a reconstruction.
+    growing: Option<usize>,
+    dense: Vec<Key>,
+    floor: Option<Floor>,
+}
+
+/// Inputs of the last frame; a change redraws it.
+#[derive(Clone, PartialEq)]
+struct Drawn {
+    orbit: Orbit,
+    size: (usize, usize),
+    point: Option<usize>,
+    coarse: bool,
+}
+
+/// View state of a reconstruction.
+pub(crate) struct CloudView {
+    pub(crate) coloring: Coloring,
+    /// Whether frusta carry their photographs.
+    pub(crate) photographs: bool,
+    /// The point that was clicked.
+    pub(crate) point: Option<usize>,
+    made: Option<Made>,
+    orbit: Option<Orbit>,
+    scene: Scene,
+    num_fixed_lines: usize,
+    frame: Frame,
+    texture: Option<TextureHandle>,
+    /// Until when it counts as moving, seconds.
+    moves_until: f64,
+    drawn: Option<Drawn>,
+}
+
+impl Default for CloudView {
+    fn default() -> Self {
+        Self {
+            coloring: Coloring::default(),
+            photographs: true,
+            point: None,
+            made: None,
+            orbit: None,
+            scene: Scene::default(),
+            num_fixed_lines: 0,
+            frame: Frame::default(),
+            texture: None,
+            moves_until: 0.0,
+            drawn: None,
+        }
+    }
+}
+
+/// Maximum numbers of points and of pixels in a frame during motion: it must be ready for the next
+/// refresh of the screen.
+const MAX_MOVING: usize = 100_000;
+const MAX_MOVING_PIXELS: usize = 200_000;
+
+/// Time without change after which motion counts as ended, seconds: a dragging hand pauses between
+/// frames now and then, and each pause would draw all points.
+const REST_S: f64 = 0.15;
+
+/// Divisor of the frame's width and height during motion.
+fn coarseness((width, height): (usize, usize)) -> usize {
+    let over = (width * height) as f64 / MAX_MOVING_PIXELS as f64;
+    (libm::ceil(libm::sqrt(over)) as usize).clamp(1, 4)
+}
+
+/// The side of a point on the screen: the fewer there are, the larger.
+fn size_of(num_points: usize) -> f64 {
+    match num_points {
+        0..10_000 => 3.0,
+        10_000..100_000 => 2.5,
+        _ => 2.0,
+    }
+}
+
+impl CloudView {
+    /// Shows the part that is looked at. Returns the point that was clicked, if one was.
+    pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
+        let shown = project.component().or(project.growing());
+        let (Some(component), Some(key)) = (shown, ReconstructionOfAll.key(project)) else {
+            return None;
+        };
+        self.make(project, component, key, look::theme(ui));
+        let id = ui.make_persistent_id("space");
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        let words = format!(
+            "Space with {} points and {} cameras. Drag or arrow keys turn it, Shift moves it, \
+             plus and minus enlarge it.",
+            component.points.len(),
+            component.num_registered()
+        );
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
+        let pixels = ui.ctx().pixels_per_point();
+        let size = (
+            (rect.width() * pixels).max(1.0) as usize,
+            (rect.height() * pixels).max(1.0) as usize,
+        );
+        let mut orbit = self.orbit?;
+        let now = ui.input(|input| input.time);
+        if steer(&mut orbit, ui, &response, size, pixels) {
+            self.moves_until = now + REST_S;
+        }
+        let rest = (self.scene.points.len() > MAX_MOVING).then_some(self.moves_until - now);
+        let coarse = rest.filter(|rest| *rest > 0.0);
+        if let Some(rest) = coarse {
+            let rest = Duration::from_secs_f64(rest);
+            ui.ctx().request_repaint_after(rest);
+        }
+        self.orbit = Some(orbit);
+        self.draw(project, ui, orbit, size, coarse.is_some());
+        if let Some(texture) = &self.texture {
+            let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter_at(rect)
+                .image(texture.id(), rect, whole, egui::Color32::WHITE);
+        }
+        if response.has_focus() {
+            let stroke = egui::Stroke::new(2.0, look::color(ui, Role::Best));
+            let inner = rect.shrink(1.0);
+            ui.painter()
+                .rect_stroke(inner, 0.0, stroke, egui::StrokeKind::Inside);
+        }
+        if !response.clicked() {
+            return None;
+        }
+        let at = (response.interact_pointer_pos()? - rect.min) / rect.size();
+        let (width, height) = self.frame.size();
+        let [u, v] = [at.x * width as f32, at.y * height as f32].map(f64::from);
+        let found = self.frame.pick(u, v, 6);
+        // Dense points come from a single pair and have no details to show.
+        let found = found.filter(|point| *point < component.points.len());
+        self.point = found;
+        found
+    }
+
+    /// Position of a point on the screen.
+    pub(crate) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
+        let (width, height) = self.frame.size();
+        let place = self.scene.points.get(point)?.0;
+        let ([u, v], _) = self.orbit?.project(place, (width, height))?;
+        let share = Vec2::new(u as f32 / width as f32, v as f32 / height as f32);
+        Some(rect.min + share * rect.size())
+    }
+
+    /// Pixels of the last frame: width, and red, green, blue, opacity, row by row.
+    pub(crate) fn pixels(&self) -> Option<(u32, Blob)> {
+        let (width, height) = self.frame.size();
+        let rgba = self.frame.rgba();
+        let is_drawn = self.drawn.is_some() && rgba.len() == 4 * width * height;
+        is_drawn.then(|| (width as u32, rgba.to_vec().into()))
+    }
+
+    /// Looks at everything again.
+    pub(crate) fn look_at_all(&mut self) {
+        self.made = None;
+        self.orbit = None;
+    }
+
+    fn make(&mut self, project: &Project, component: &Component, key: Key, theme: Theme) {
+        let made = Made {
+            key,
+            component: project.view().component,
+            coloring: self.coloring,
+            theme,
+            photographs: match self.photographs {
+                true => (project.taking_part().into_iter())
+                    .filter(|photo| project.shown(photo).is_some())
+                    .count(),
+                false => 0,
+            },
+            growing: (project.component().is_none()).then(|| component.num_registered()),
+            dense: project.dense_pairs().iter().map(|(key, ..)| *key).collect(),
+            floor: project.floor(),
+        };
+        if self.made.as_ref() == Some(&made) {
+            return;
+        }
+        let same_place = self.made.as_ref().is_some_and(|before| {
+            (before.key, before.component, before.growing)
+                == (made.key, made.component, made.growing)
+                && before.floor == made.floor
+        });
+        // While it grows it is seen from the same side.
+        let side = (self.made.as_ref())
+            .filter(|before| before.growing.is_some() && before.key == made.key)
+            .and(self.orbit);
+        self.scene.points.clear();
+        self.scene
+            .points
+            .extend(component.points.iter().map(|point| {
+                let color = match self.coloring {
+                    Coloring::Photographs => point.color,
+                    Coloring::Error => theme.scale(point.error_px / 2.0),
+                    Coloring::Track => theme.scale(point.track.len() as f64 / 8.0),
+                };
+                (point.position.map(|x| x as f32), color)
+            }));
+        add_dense(&mut self.scene.points, project);
+        let mut sum = nalgebra::Vector3::zeros();
+        for camera in component.cameras.iter().flatten() {
+            let [_, _, cu, cv] = camera.intrinsics;
+            let down = camera.ray([cu, cv + 1000.0]) - camera.ray([cu, cv]);
+            sum += down.normalize();
+        }
+        if let Some(floor) = made.floor {
+            sum = -floor.up;
+        }
+        if !same_place || self.orbit.is_none() {
+            let mut orbit = Orbit::around(&self.scene, sum.into());
+            frame(&mut orbit, component, side);
+            self.orbit = Some(orbit);
+            self.point = None;
+        }
+        let reach = self.orbit.map_or(1.0, |orbit| orbit.distance) * 0.06;
+        let color = theme.color(Role::Series(1));
+        self.scene.lines.clear();
+        self.scene.pictures.clear();
+        for (photo, camera) in project.taking_part().iter().zip(&component.cameras) {
+            if let (Some(camera), Some(size)) = (camera, project.camera(photo)) {
+                frustum(
+                    &mut self.scene.lines,
+                    camera,
+                    (size.width, size.height),
+                    reach,
+                    color,
+                );
+                if self.photographs
+                    && let Some(pixels) = project.shown(photo)
+                {
+                    let size = (size.width, size.height);
+                    let picture = standing(camera, size, reach, &pixels.small);
+                    self.scene.pictures.push(picture);
+                }
+            }
+        }
+        self.num_fixed_lines = self.scene.lines.len();
+        self.made = Some(made);
+        self.drawn = None;
+    }
+
+    fn draw(
+        &mut self,
+        project: &Project,
+        ui: &Ui,
+        orbit: Orbit,
+        size: (usize, usize),
+        coarse: bool,
+    ) {
+        let now = Drawn {
+            orbit,
+            size,
+            point: self.point,
+            coarse,
+        };
+        if self.drawn.as_ref() == Some(&now) {
+            return;
+        }
+        self.drawn = Some(now);
+        self.scene.lines.truncate(self.num_fixed_lines);
+        if let (Some(component), Some(point)) = (project.component(), self.point) {
+            rays(
+                &mut self.scene.lines,
+                component,
+                point,
+                look::theme(ui).color(Role::Grip),
+            );
+        }
+        let every = match coarse {
+            true => self.scene.points.len().div_ceil(MAX_MOVING),
+            false => 1,
+        };
+        let by = if coarse { coarseness(size) } else { 1 };
+        let size = ((size.0 / by).max(1), (size.1 / by).max(1));
+        let point_px =
+            size_of(self.scene.points.len()) * f64::from(ui.ctx().pixels_per_point()) / by as f64;
+        let look = Look {
+            point_px,
+            every,
+            background: look::theme(ui).color(Role::Surface),
+        };
+        self.frame.draw(&self.scene, &orbit, size, &look);
+        let image = ColorImage::from_rgba_premultiplied([size.0, size.1], self.frame.rgba());
+        match &mut self.texture {
+            Some(texture) => texture.set(image, TextureOptions::NEAREST),
+            None => {
+                let texture = ui
+                    .ctx()
+                    .load_texture("space", image, TextureOptions::NEAREST);
+                self.texture = Some(texture);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_that_moves_has_few_pixels_on_any_screen() {
+        assert_eq!(coarseness((390, 330)), 1);
+        assert_eq!(coarseness((790, 620)), 2);
+        for size in [(790, 620), (1560, 1300), (0, 0)] {
+            let by = coarseness(size);
+            assert!(
+                (size.0 / by) * (size.1 / by) <= MAX_MOVING_PIXELS,
+                "{size:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Marks besides the points: cameras, the rays of one point, and its observations.
+
+use crate::project::Project;
+use crate::tasks::{CameraFound, Component, FeaturesOf, Thumbnail};
+use epipole_canvas::cloud::{Line, Picture};
+use std::sync::Arc;
+
+/// The edges of a camera's view, so far out.
+pub(crate) fn frustum(
+    lines: &mut Vec<Line>,
+    camera: &CameraFound,
+    (width, height): (u32, u32),
+    reach: f64,
+    color: [u8; 3],
+) {
+    let center = camera.center();
+    let (right, bottom) = (f64::from(width) - 0.5, f64::from(height) - 0.5);
+    let corners = [[-0.5, -0.5], [right, -0.5], [right, bottom], [-0.5, bottom]];
+    let corner = |pixel| plain(&(center + camera.ray(pixel) * reach));
+    let corners = corners.map(corner);
+    for n in 0..4 {
+        let to = corners[n];
+        lines.push(Line {
+            from: plain(&center),
+            to,
+            color,
+        });
+        lines.push(Line {
+            from: corners[(n + 1) % 4],
+            to,
+            color,
+        });
+    }
+}
+
+/// The pixels of a photograph where its camera's frustum ends.
+pub(crate) fn standing(
+    camera: &CameraFound,
+    (width, height): (u32, u32),
+    reach: f64,
+    small: &Thumbnail,
+) -> Picture {
+    let place = |pixel| camera.center() + camera.ray(pixel) * reach;
+    let corner = place([-0.5, -0.5]);
+    let side = |pixel| (place(pixel) - corner).map(|x| x as f32).into();
+    Picture {
+        corner: plain(&corner),
+        right: side([f64::from(width) - 0.5, -0.5]),
+        down: side([-0.5, f64::from(height) - 0.5]),
+        size: (small.width as usize, small.height as usize),
+        rgb: Arc::clone(&small.rgb.0),
+    }
+}
+
+fn plain(place: &nalgebra::Point3<f64>) -> [f32; 3] {
+    [place.x as f32, place.y as f32, place.z as f32]
+}
+
+/// From a point to all cameras that see it.
+pub(crate) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, color: [u8; 3]) {
+    let Some(point) = component.points.get(point) else {
+        return;
+    };
+    for (image, _) in &point.track {
+        if let Some(Some(camera)) = component.cameras.get(*image as usize) {
+            lines.push(Line {
+                from: plain(&camera.center()),
+                to: point.position.map(|x| x as f32),
+                color,
+            });
+        }
+    }
+}
+
+/// Observations of a point: photograph, keypoint, and reprojection error in pixels.
+pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
+    let (Some(component), photos) = (project.component(), project.taking_part()) else {
+        return Vec::new();
+    };
+    let Some(point) = component.points.get(point) else {
+        return Vec::new();
+    };
+    let sight = |&(image, keypoint): &(u32, u32)| {
+        let photo = photos.get(image as usize)?;
+        let features = project.get(FeaturesOf(photo.id))?;
+        let seen = features.list.get(keypoint as usize)?;
+        let camera = component.cameras.get(image as usize)?.as_ref()?;
+        let [u, v] = camera.project(point.position, &component.lens)?;
+        let error_px = libm::hypot(u - seen.u, v - seen.v);
+        Some((photo.name.clone(), [seen.u, seen.v], error_px))
+    };
+    point.track.iter().filter_map(sight).collect()
+}
+
+/// Maximum number of points shown from the dense depth of all pairs.
+const MAX_DENSE: usize = 1_000_000;
+
+/// Adds the points of every pixel after those that photographs share.
+pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
+    let pairs = project.dense_pairs();
+    let all: f64 = (pairs.iter())
+        .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
+        .sum();
+    let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
+    // At once: growing step by step would leave half as much again behind.
+    points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
+    for (.., pair) in pairs {
+        let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
+        points.extend(pair.points(every).map(plain));
+    }
+}

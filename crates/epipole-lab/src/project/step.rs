@@ -1,0 +1,106 @@
+//! The steps of the Lab, and what explains each in the book.
+
+/// The steps, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Step {
+    /// The photographs.
+    Photographs,
+    /// Their camera, from photographs of a board.
+    Calibrate,
+    /// Their features.
+    Features,
+    /// All pairs.
+    Matches,
+    /// One pair.
+    TwoViews,
+    /// Cameras and points.
+    Reconstruction,
+    /// Every pixel of one pair.
+    Depth,
+    /// Lengths.
+    Measure,
+    /// Files.
+    Export,
+}
+
+impl Step {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Photographs,
+        Self::Calibrate,
+        Self::Features,
+        Self::Matches,
+        Self::TwoViews,
+        Self::Reconstruction,
+        Self::Depth,
+        Self::Measure,
+        Self::Export,
+    ];
+
+    /// Its name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Photographs => "Photographs",
+            Self::Calibrate => "Calibrate",
+            Self::Features => "Features",
+            Self::Matches => "Matches",
+            Self::TwoViews => "Two views",
+            Self::Reconstruction => "Reconstruction",
+            Self::Depth => "Depth",
+            Self::Measure => "Measure",
+            Self::Export => "Export",
+        }
+    }
+
+    /// Name in an address.
+    pub fn name(self) -> String {
+        self.title().to_lowercase().replace(' ', "-")
+    }
+
+    /// The figure that explains the step.
+    pub fn explanation(self) -> Explanation {
+        let (figure, page, title) = match self {
+            Self::Photographs => (
+                "same-picture",
+                "rays.html",
+                "One photo gives directions, not distances",
+            ),
+            Self::Calibrate => (
+                "epipolar-plane",
+                "rays.html",
+                "One photo gives directions, not distances",
+            ),
+            Self::Features => (
+                "sift-descriptor",
+                "matching.html",
+                "A fingerprint for each corner",
+            ),
+            Self::Matches => (
+                "ratio-test",
+                "matching.html",
+                "A fingerprint for each corner",
+            ),
+            Self::TwoViews => ("epipolar-click", "epipolar.html", "One point, one line"),
+            Self::Reconstruction => ("bundle-adjustment", "sfm.html", "Structure from motion"),
+            Self::Depth => ("disparity-map", "stereo.html", "Two eyes in a row"),
+            Self::Measure => ("scale-ambiguity", "triangulation.html", "Cash in"),
+            Self::Export => ("two-view-sfm", "connections.html", "Where this leads"),
+        };
+        Explanation {
+            figure,
+            page,
+            title,
+        }
+    }
+}
+
+/// The figure that explains a step, and where the book has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Explanation {
+    /// The figure's name.
+    pub figure: &'static str,
+    /// The chapter's page, from the folder of the book.
+    pub page: &'static str,
+    /// The chapter's title.
+    pub title: &'static str,
+}

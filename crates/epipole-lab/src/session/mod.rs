@@ -1,0 +1,41 @@
+//! The session: changes of the project, outputs that are missing, running jobs, and the environment
+//! that they need.
+//!
+//! A project changes only by [`Project::update`] and [`Project::done`]. [`Project::pending`] lists
+//! the outputs to compute, and [`Pending::request`] gives a worker the task of each.
+//!
+//! [`Project::update`]: crate::project::Project::update
+//! [`Project::done`]: crate::project::Project::done
+//! [`Project::pending`]: crate::project::Project::pending
+
+mod boards;
+mod event;
+#[cfg(feature = "panels")]
+mod host;
+mod import;
+#[cfg(feature = "panels")]
+mod jobs;
+mod link;
+mod pixels;
+mod queue;
+mod report;
+mod saving;
+#[cfg(feature = "panels")]
+mod storage;
+mod update;
+#[cfg(feature = "panels")]
+mod videos;
+
+pub use event::Event;
+#[cfg(feature = "panels")]
+pub use host::{Arrival, Host, JobId, Report, Stored};
+#[cfg(feature = "panels")]
+pub(crate) use jobs::{FileJob, Jobs};
+pub use queue::Pending;
+#[cfg(feature = "panels")]
+pub(crate) use report::count;
+pub use report::{BoardOutcome, Floor, Length, Scale};
+#[cfg(feature = "panels")]
+pub(crate) use storage::Storage;
+#[cfg(feature = "panels")]
+pub(crate) use videos::Videos;

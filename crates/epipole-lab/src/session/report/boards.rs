@@ -1,0 +1,70 @@
+//! The camera calibrated from photographs of a board: its inputs, the outcome of each photograph,
+//! and the photographs that it applies to.
+
+use crate::project::{Given, Key, Project, Source};
+use crate::tasks::BoardOf;
+
+/// Outcome for a photograph of a board.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum BoardOutcome {
+    /// It is not known yet.
+    Pending,
+    /// The reader left it out.
+    Excluded,
+    /// It cannot be read.
+    Unreadable(String),
+    /// The board was not found, and why.
+    NotFound(String),
+    /// It is of this size, and most others are of another one.
+    OtherSize((u32, u32), (u32, u32)),
+    /// Number of marks found.
+    Found(usize),
+}
+
+impl Project {
+    /// Key of a board's image, for caches.
+    pub fn key_of_board(&self, photo: &Given) -> Key {
+        // Another board is looked for in the same pixels.
+        Key::of(&("picture of a board", photo.content.0))
+    }
+
+    /// Outcome for a photograph of a board.
+    pub fn board_outcome(&self, photo: &Given) -> BoardOutcome {
+        if photo.excluded {
+            return BoardOutcome::Excluded;
+        }
+        if let Some(why) = self.failure(BoardOf(photo.id)) {
+            return BoardOutcome::Unreadable(why.to_owned());
+        }
+        let Some(found) = self.get(BoardOf(photo.id)) else {
+            return BoardOutcome::Pending;
+        };
+        if found.marks.is_empty() {
+            let mut why = found.problem.clone().unwrap_or_default();
+            if let Some((columns, rows)) = found.other_grid {
+                why.push_str(&format!(
+                    ". Take it again with all of the board in sight; or, if the board has {columns} × {rows} marks, say so"
+                ));
+            }
+            return BoardOutcome::NotFound(why);
+        }
+        match self.size_of_boards() {
+            Some(size) if size != found.picture.full_size => {
+                BoardOutcome::OtherSize(found.picture.full_size, size)
+            }
+            _ => BoardOutcome::Found(found.num_seen()),
+        }
+    }
+
+    /// The files among the photographs that have this size as the sensor gave them, as far as they
+    /// were read.
+    pub fn of_size(&self, size: (u32, u32)) -> Vec<&Given> {
+        let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
+        let fits = |photo: &&Given| {
+            self.shown(photo)
+                .is_some_and(|pixels| pixels.sensor_size == size)
+        };
+        let photos = self.document.photos.iter();
+        photos.filter(is_file).filter(fits).collect()
+    }
+}

@@ -1,0 +1,54 @@
+//! Contents of the zip file of a reconstruction.
+
+use crate::project::{Given, Outcome, Project};
+use crate::tasks::{Export, Packed, ReconstructionOfAll};
+impl Project {
+    /// Whether there is a reconstruction to save, and all of its photographs.
+    pub fn can_export(&self) -> bool {
+        let mut photos = self.taking_part().into_iter();
+        self.component().is_some() && photos.all(|photo| self.shown(photo).is_some())
+    }
+
+    /// The task that writes the zip file of the current component; `None` without a reconstruction.
+    pub fn export_request(&self) -> Option<Export> {
+        let found = self.get(ReconstructionOfAll)?;
+        found.components.get(self.view.component)?;
+        let pack = |photo: &&Given| {
+            Some(Packed {
+                name: photo.name.clone(),
+                source: photo.source.clone(),
+                used: Some(self.shown(photo)?.clone()),
+            })
+        };
+        Some(Export {
+            images: self.image_points()?,
+            photographs: (self.taking_part().iter())
+                .map(pack)
+                .collect::<Option<_>>()?,
+            found: found.clone(),
+            component: self.view.component as u32,
+            meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
+            focal_refined: self.sfm_options().refine_focal,
+            left_out: (self.taking_part().iter())
+                .filter(|photo| !matches!(self.outcome(photo), Outcome::Registered(_)))
+                .map(|photo| (photo.name.clone(), self.outcome_words(photo)))
+                .collect(),
+            recipe: self.recipe()?,
+            max_pixels: self.max_pixels(),
+            camera: self.document.camera.clone(),
+            dense: (self.dense_pairs().into_iter())
+                .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
+                .collect(),
+        })
+    }
+}
+
+/// A pair's name in files: those of both photographs without their endings.
+fn pair_name(first: &Given, second: &Given) -> String {
+    let stem = |name: &str| {
+        name.rsplit_once('.')
+            .map_or(name, |(stem, _)| stem)
+            .to_owned()
+    };
+    format!("{}_{}", stem(&first.name), stem(&second.name))
+}

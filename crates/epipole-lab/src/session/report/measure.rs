@@ -1,0 +1,149 @@
+//! Lengths between points, how sure they are, and the scale that a known one sets.
+
+use crate::project::{Anchor, Measure, Project};
+use crate::tasks::{CameraFound, Component};
+use nalgebra::{Matrix2x3, Matrix3, Point3, Vector3};
+
+/// A length, one standard deviation beside it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Length {
+    /// The length.
+    pub value: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+}
+
+/// Metric scale of the reconstruction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Meters in a unit.
+    pub meters_per_unit: f64,
+    /// Its standard deviation, as a share.
+    pub relative_sigma: f64,
+    /// Which measure sets it.
+    pub measure: usize,
+}
+
+impl Project {
+    /// The point that an anchor holds on to, in the part that is looked at.
+    pub fn anchored(&self, anchor: &Anchor) -> Option<usize> {
+        let image = self.place(anchor.photo)? as u32;
+        let points = &self.component()?.points;
+        let sees = |track: &[(u32, u32)]| track.contains(&(image, anchor.keypoint));
+        points.iter().position(|point| sees(&point.track))
+    }
+
+    /// An anchor for a point of the part that is looked at.
+    pub fn anchor_of(&self, point: usize) -> Option<Anchor> {
+        let (image, keypoint) = *self.component()?.points.get(point)?.track.first()?;
+        let photo = self.taking_part().get(image as usize)?.id;
+        Some(Anchor { photo, keypoint })
+    }
+
+    /// The length of a measure in units of the reconstruction; `None` if a point is gone.
+    pub fn length_in_units(&self, measure: &Measure) -> Option<Length> {
+        let component = self.component()?;
+        let ends = [
+            self.anchored(&measure.ends[0])?,
+            self.anchored(&measure.ends[1])?,
+        ];
+        if ends[0] == ends[1] {
+            return None;
+        }
+        let noise_px = noise_px(component);
+        let positions = ends.map(|end| Vector3::from(component.points[end].position));
+        let between = positions[1] - positions[0];
+        let value = between.norm();
+        if !(value > 0.0 && value.is_finite()) {
+            return None;
+        }
+        let along = between / value;
+        let mut variance = 0.0;
+        for end in ends {
+            variance += along.dot(&(covariance(component, end, noise_px)? * along));
+        }
+        Some(Length {
+            value,
+            sigma: libm::sqrt(variance.max(0.0)),
+        })
+    }
+
+    /// The scale that the first measure of known length sets.
+    pub fn scale(&self) -> Option<Scale> {
+        let mut measures = self.document.measures.iter().enumerate();
+        measures.find_map(|(index, measure)| {
+            let (meters, units) = (measure.length_m?, self.length_in_units(measure)?);
+            Some(Scale {
+                meters_per_unit: meters / units.value,
+                relative_sigma: units.sigma / units.value,
+                measure: index,
+            })
+        })
+    }
+
+    /// The length of a measure in meters, as the scale has it; exact for the one that sets it.
+    pub fn length_in_meters(&self, index: usize) -> Option<Length> {
+        let scale = self.scale()?;
+        let measure = self.document.measures.get(index)?;
+        let units = self.length_in_units(measure)?;
+        let value = units.value * scale.meters_per_unit;
+        if index == scale.measure {
+            return Some(Length { value, sigma: 0.0 });
+        }
+        let own = units.sigma / units.value;
+        let share_sq = own * own + scale.relative_sigma * scale.relative_sigma;
+        Some(Length {
+            value,
+            sigma: value * libm::sqrt(share_sq),
+        })
+    }
+}
+
+/// The standard deviation of a keypoint in each direction, from all reprojection errors: two
+/// numbers an observation, less three a point and six a camera.
+fn noise_px(component: &Component) -> f64 {
+    let (mut sum_sq, mut count) = (0.0, 0.0);
+    for point in &component.points {
+        let seen = point.track.len() as f64;
+        sum_sq += point.error_px * point.error_px * seen;
+        count += 2.0 * seen - 3.0;
+    }
+    let freedom = count - 6.0 * component.num_registered() as f64;
+    libm::sqrt(sum_sq / freedom.max(1.0))
+}
+
+/// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
+fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matrix3<f64>> {
+    let point = component.points.get(point)?;
+    let position = Point3::from(point.position);
+    let mut information = Matrix3::zeros();
+    for (image, _) in &point.track {
+        let camera = component.cameras.get(*image as usize)?.as_ref()?;
+        let jacobian = jacobian(camera, &position)?;
+        information += jacobian.transpose() * jacobian;
+    }
+    let covariance = information.try_inverse()? * (noise_px * noise_px);
+    covariance
+        .iter()
+        .all(|v| v.is_finite())
+        .then_some(covariance)
+}
+
+/// Derivative of the pixel by the point, without lens distortion.
+fn jacobian(camera: &CameraFound, position: &Point3<f64>) -> Option<Matrix2x3<f64>> {
+    let (rotation, in_cam) = camera.transform(position);
+    if in_cam.z <= 0.0 {
+        return None;
+    }
+    let [fu, fv, ..] = camera.intrinsics;
+    let inverse = 1.0 / in_cam.z;
+    let by_place = Matrix2x3::new(
+        fu * inverse,
+        0.0,
+        -fu * in_cam.x * inverse * inverse,
+        0.0,
+        fv * inverse,
+        -fv * in_cam.y * inverse * inverse,
+    );
+    Some(by_place * rotation)
+}

@@ -1,0 +1,18 @@
+//! Facts about the project, and its description in words: outcomes of photographs, measures,
+//! recipes.
+
+mod boards;
+mod calibration_words;
+mod export;
+mod floor;
+mod measure;
+mod outcome;
+mod recipe;
+mod reconstruction_words;
+mod words;
+
+pub use boards::BoardOutcome;
+pub use floor::Floor;
+pub use measure::{Length, Scale};
+#[cfg(feature = "panels")]
+pub(crate) use words::count;

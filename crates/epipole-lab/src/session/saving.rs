@@ -1,0 +1,169 @@
+//! Conversion between a project and its saved form.
+
+use crate::project::{
+    Anchor, Blob, Computed, Document, Given, Key, LensCamera, Measure, PhotoId, Project, Saved,
+    SavedPhoto, Source, VERSION,
+};
+use crate::tasks::{Packed, SaveProject};
+
+/// The folder of files of boards.
+const BOARDS: &str = "boards/";
+
+fn saved_photo(photo: &Given) -> SavedPhoto {
+    SavedPhoto {
+        name: photo.name.clone(),
+        rendered: match photo.source {
+            Source::File(_) => None,
+            Source::Rendered(sample, index) => Some((sample, index)),
+        },
+        excluded: photo.excluded,
+        focal_px: photo.focal_px,
+    }
+}
+
+/// The measure with the photographs of its ends renumbered.
+fn renumbered(measure: &Measure, number: impl Fn(PhotoId) -> Option<PhotoId>) -> Option<Measure> {
+    Some(Measure {
+        ends: all_renumbered(measure.ends, number)?,
+        length_m: measure.length_m,
+    })
+}
+
+fn all_renumbered<const N: usize>(
+    mut ends: [Anchor; N],
+    number: impl Fn(PhotoId) -> Option<PhotoId>,
+) -> Option<[Anchor; N]> {
+    for end in &mut ends {
+        end.photo = number(end.photo)?;
+    }
+    Some(ends)
+}
+
+impl Project {
+    /// The saved form, without photographs.
+    fn saved(&self) -> Saved {
+        let photos = &self.document.photos;
+        let place = |id: PhotoId| {
+            let place = photos.iter().position(|photo| photo.id == id)?;
+            Some(place as u32)
+        };
+        let measures = self.document.measures.iter();
+        Saved {
+            version: VERSION,
+            settings: self.document.settings.clone(),
+            photos: photos.iter().map(saved_photo).collect(),
+            measures: measures.filter_map(|m| renumbered(m, place)).collect(),
+            floor: (self.document.floor).and_then(|ends| all_renumbered(ends, place)),
+            dense: (self.document.dense.iter())
+                .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
+                .collect(),
+            boards: self.document.boards.iter().map(saved_photo).collect(),
+            camera: self.document.camera.clone(),
+        }
+    }
+
+    /// Hash of the saved form: equal projects have equal keys.
+    pub fn saved_key(&self) -> Key {
+        let contents = self.given_photos().map(|photo| photo.content.0);
+        Key::of(&(self.saved(), contents.collect::<Vec<_>>()))
+    }
+
+    /// Bytes of all its files.
+    pub fn num_file_bytes(&self) -> usize {
+        let bytes = |photo: &Given| match &photo.source {
+            Source::File(bytes) => bytes.len(),
+            Source::Rendered(..) => 0,
+        };
+        self.given_photos().map(bytes).sum()
+    }
+
+    /// All photographs, then those of boards.
+    fn given_photos(&self) -> impl Iterator<Item = &Given> {
+        self.document.photos.iter().chain(&self.document.boards)
+    }
+
+    /// The task that writes a zip file. [`Event::OpenProject`](super::Event::OpenProject) restores
+    /// the project from it, and [`Project::import`] its results.
+    pub fn save_request(&self) -> SaveProject {
+        self.save_request_with(self.computed())
+    }
+
+    /// The same without results, which are computed once more: small, and written at once.
+    pub fn keep_request(&self) -> SaveProject {
+        self.save_request_with(Computed::default())
+    }
+
+    fn save_request_with(&self, computed: Computed) -> SaveProject {
+        let photos = &self.document.photos;
+        let packed = |photo: &Given, folder: &str| Packed {
+            name: format!("{folder}{}", photo.name),
+            source: photo.source.clone(),
+            used: None,
+        };
+        let boards = self.document.boards.iter();
+        SaveProject {
+            photographs: (photos.iter().map(|photo| packed(photo, "")))
+                .chain(boards.map(|photo| packed(photo, BOARDS)))
+                .collect(),
+            project: self.saved(),
+            computed,
+        }
+    }
+
+    /// The document of a saved project, without photographs whose file is missing.
+    pub(super) fn restored(&mut self, saved: Saved, files: Vec<(String, Blob)>) -> Document {
+        let mut document = Document {
+            settings: saved.settings.checked(),
+            ..Document::default()
+        };
+        let mut numbers = Vec::new();
+        for photo in saved.photos {
+            let given = self.restored_photo(&document.photos, photo, &files, "");
+            numbers.push(given.as_ref().map(|given| given.id));
+            document.photos.extend(given);
+        }
+        for photo in saved.boards {
+            let given = self.restored_photo(&document.boards, photo, &files, BOARDS);
+            document.boards.extend(given);
+        }
+        document.camera = saved.camera.filter(LensCamera::is_finite);
+        let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
+        let measures = saved.measures.iter();
+        document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
+        document.floor = saved.floor.and_then(|ends| all_renumbered(ends, number));
+        for (a, b) in saved.dense {
+            if let (Some(a), Some(b)) = (number(a), number(b))
+                && a != b
+                && !document.is_dense((a, b))
+            {
+                document.dense.push((a, b));
+            }
+        }
+        document
+    }
+
+    /// A photograph of a list, with a new number; `None` if its file is missing.
+    fn restored_photo(
+        &mut self,
+        list: &[Given],
+        photo: SavedPhoto,
+        files: &[(String, Blob)],
+        folder: &str,
+    ) -> Option<Given> {
+        let source = match photo.rendered {
+            Some((sample, index)) => Source::Rendered(sample, index),
+            None => {
+                let is_its = |name: &str| name.strip_prefix(folder) == Some(&photo.name);
+                let file = files.iter().find(|(name, _)| is_its(name))?;
+                Source::File(file.1.clone())
+            }
+        };
+        let given = self.given(list, &photo.name, source);
+        self.next_id = given.id;
+        Some(Given {
+            excluded: photo.excluded,
+            focal_px: photo.focal_px.filter(|f| f.is_finite() && *f > 0.0),
+            ..given
+        })
+    }
+}

@@ -1,0 +1,11 @@
+//! The zip file of a reconstruction: COLMAP's text model, PLY, JSON, photographs and depth.
+
+mod contents;
+#[cfg(feature = "files")]
+mod depth;
+#[cfg(feature = "files")]
+mod model;
+#[cfg(feature = "files")]
+mod summary;
+
+pub use contents::{Export, Recipe};

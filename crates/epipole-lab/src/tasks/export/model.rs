@@ -1,0 +1,178 @@
+//! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
+
+use super::contents::Export;
+use super::{depth, summary};
+use crate::project::{Blob, Source};
+use crate::tasks::archive::Archive;
+use crate::tasks::camera_found::CameraFound;
+use crate::tasks::photograph::{Photograph, ReadPhotograph};
+use crate::tasks::project_file::Packed;
+use crate::tasks::reconstruction::{Component, ImagePoints, PointFound};
+use crate::tasks::task::{Monitor, Run};
+use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
+use epipole_io::model::Model;
+use image::codecs::jpeg::JpegEncoder;
+use image::{DynamicImage, ImageFormat};
+use nalgebra::Point3;
+use std::collections::BTreeSet;
+use std::io::Cursor;
+
+impl Run for Export {
+    fn run(self, monitor: Monitor<'_>) -> Result<Blob, String> {
+        let export = &self;
+        // Reads the pixels of a photograph that came without.
+        let mut read = |source: &Source| {
+            let task = ReadPhotograph {
+                source: source.clone(),
+                max_pixels: export.max_pixels,
+                camera: export.camera.clone(),
+            };
+            task.run(&mut *monitor)
+        };
+        let found = (export.found.components)
+            .get(export.component as usize)
+            .ok_or("there is no reconstruction to export")?;
+        check_indices(export)?;
+        let mut archive = Archive::new();
+        let mut images = export
+            .images
+            .iter()
+            .map(ImagePoints::sfm_image)
+            .collect::<Vec<_>>();
+        let mut written = BTreeSet::new();
+        for (photograph, image) in export.photographs.iter().zip(&mut images) {
+            let (name, bytes) = picture(photograph, &mut read)?;
+            if !written.insert(name.clone()) {
+                return Err(format!("two photographs are called {name}"));
+            }
+            archive.add(&format!("images/{name}"), &bytes)?;
+            image.name = name;
+        }
+        let mut model = core_reconstruction(found, &export.images)?;
+        if let Some(meters) = export.meters_per_unit {
+            scale(&mut model, meters);
+        }
+        let files = Model::from_reconstruction(&model, &images);
+        for file in files.to_colmap_text().map_err(|error| error.to_string())? {
+            archive.add(&format!("sparse/0/{}", file.name), &file.bytes)?;
+        }
+        archive.add("points.ply", &files.to_ply())?;
+        depth::add(&mut archive, export)?;
+        let json = summary::json(export, &images, &model);
+        archive.add("reconstruction.json", json.as_bytes())?;
+        archive.add("reconstruct.rs", export.recipe.program.as_bytes())?;
+        if let Some(camera) = &export.recipe.camera_json {
+            archive.add("camera.json", camera.as_bytes())?;
+        }
+        archive.add("README.txt", summary::readme(export).as_bytes())?;
+        Ok(archive.finish()?.into())
+    }
+}
+
+/// A component as the core has it.
+///
+/// * `images`: those that it was made of
+///
+/// # Errors
+/// A message for invalid numbers.
+fn core_reconstruction(
+    component: &Component,
+    images: &[ImagePoints],
+) -> Result<Reconstruction, String> {
+    let camera = |(camera, image): (&Option<CameraFound>, &ImagePoints)| {
+        let size = (image.camera.width, image.camera.height);
+        // One lens took them all.
+        let camera = (camera.as_ref()).map(|camera| camera.posed(size, component.lens));
+        camera.transpose()
+    };
+    let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
+    let point = |point: &PointFound| ScenePoint {
+        position: Point3::from(point.position),
+        color: point.color,
+        track: point.track.iter().map(element).collect(),
+        error_px: point.error_px,
+    };
+    Ok(Reconstruction {
+        cameras: component
+            .cameras
+            .iter()
+            .zip(images)
+            .map(camera)
+            .collect::<Result<_, _>>()?,
+        points: component.points.iter().map(point).collect(),
+        is_placed: false,
+    })
+}
+
+/// Invalid indices in tracks are a bug of the caller.
+fn check_indices(export: &Export) -> Result<(), String> {
+    let is_there = |&(image, keypoint): &(u32, u32)| {
+        (export.images.get(image as usize))
+            .is_some_and(|image| (keypoint as usize) < image.points.len())
+    };
+    let mut components = export.found.components.iter();
+    let whole = components.all(|component| {
+        let mut points = component.points.iter();
+        component.cameras.len() == export.images.len()
+            && points.all(|point| point.track.iter().all(is_there))
+    });
+    match whole && export.photographs.len() == export.images.len() {
+        true => Ok(()),
+        false => Err("the reconstruction and its photographs do not belong together".to_owned()),
+    }
+}
+
+/// Multiplies all lengths.
+fn scale(model: &mut Reconstruction, factor: f64) {
+    for point in &mut model.points {
+        point.position.coords *= factor;
+    }
+    for camera in model.cameras.iter_mut().flatten() {
+        camera.cam_from_world.translation.vector *= factor;
+    }
+}
+
+/// The file of a photograph as it was reconstructed, and its name.
+fn picture(
+    photograph: &Packed,
+    read: &mut dyn FnMut(&Source) -> Result<Photograph, String>,
+) -> Result<(String, Vec<u8>), String> {
+    let used = photograph.used.as_ref();
+    let used = used.ok_or_else(|| format!("{} has no pixels", photograph.name))?;
+    if let (Source::File(bytes), true) = (&photograph.source, used.as_given) {
+        return Ok((photograph.name.clone(), bytes.to_vec()));
+    }
+    let once_more;
+    let used = match used.has_pixels() {
+        true => used,
+        false => {
+            once_more = read(&photograph.source)?;
+            &once_more
+        }
+    };
+    match &photograph.source {
+        Source::File(_) => Ok((renamed(&photograph.name, "jpg"), jpeg(used)?)),
+        Source::Rendered(..) => Ok((photograph.name.clone(), png(used)?)),
+    }
+}
+
+fn renamed(name: &str, extension: &str) -> String {
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    format!("{stem}.{extension}")
+}
+
+fn jpeg(photograph: &Photograph) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    JpegEncoder::new_with_quality(&mut bytes, 95)
+        .encode_image(&photograph.to_image()?)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+fn png(photograph: &Photograph) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    DynamicImage::from(photograph.to_image()?)
+        .write_to(&mut bytes, ImageFormat::Png)
+        .map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}
