@@ -29,6 +29,8 @@ mod picture;
 mod project_file;
 mod radial_lens;
 mod reconstruction;
+#[cfg(feature = "vision")]
+mod reconstruction_run;
 #[cfg(feature = "files")]
 mod rendered;
 mod task;

@@ -1,0 +1,146 @@
+//! Code that finds cameras and points, photograph by photograph.
+
+use super::camera_found::CameraFound;
+use super::convert::sentence;
+use super::photograph::Calibrated;
+use super::reconstruction::{
+    Component, ImagePoints, PairOf, PointFound, Reconstruct, Reconstructed, UnregisteredReason,
+};
+use super::task::{Monitor, Progress, Run, Task};
+use epipole::camera::{Camera, Lens, PosedCamera};
+use epipole::feature::Match;
+use epipole::progress::Status;
+use epipole::sfm::{
+    IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
+    WhyUnregistered as Why, why_unregistered,
+};
+
+impl Run for Reconstruct {
+    /// Reconstructs just as `epipole sfm` does, with an intermediate output after each photograph.
+    fn run(self, monitor: Monitor<'_>) -> Result<Reconstructed, String> {
+        let Self {
+            images,
+            pairs,
+            options,
+        } = self;
+        let plain = |pair: &PairOf| PairMatches {
+            image1: pair.first as usize,
+            image2: pair.second as usize,
+            matches: (pair.matches.iter())
+                .map(|&(first, second)| Match::new(first as usize, second as usize))
+                .collect(),
+        };
+        let input = SfmInput {
+            images: images.iter().map(ImagePoints::sfm_image).collect(),
+            cameras: (images.iter())
+                .map(|image| {
+                    let Calibrated { width, height, .. } = image.camera;
+                    Ok(Camera::pinhole(image.camera.intrinsics()?, width, height))
+                })
+                .collect::<Result<_, String>>()?,
+            pairs: pairs.iter().map(plain).collect(),
+        };
+        let how = epipole::sfm::SfmOptions::default()
+            .with_min_num_inliers(options.min_num_inliers as usize)
+            .with_refine_focal(options.refine_focal)
+            .with_refine_distortion(options.refine_distortion)
+            .with_seed(options.seed);
+        let mut share = 0.0;
+        let mut run = IncrementalReconstruction::new(&input, &how, &mut |status: Status| {
+            share = status.share;
+            monitor(Progress::Share(share, status.stage.words()))
+        })
+        .map_err(sentence)?;
+        let mut words = String::new();
+        loop {
+            // Within a step there is nothing new to say, only to ask.
+            let step = run.step(&mut |status: Status| {
+                share = status.share;
+                monitor(Progress::Share(share, &words))
+            });
+            words = match step.map_err(sentence)? {
+                None => break,
+                Some(SfmStep::Started { num_points, .. }) => {
+                    format!("started with two, {num_points} points")
+                }
+                Some(SfmStep::Registered {
+                    num_registered,
+                    num_points,
+                    ..
+                }) => format!("{num_registered} photographs, {num_points} points"),
+                Some(_) => continue,
+            };
+            let so_far = run.current().unwrap_or_default();
+            let partial = Reconstructed {
+                mean_error_px: vec![so_far.mean_reprojection_px(&input.images)],
+                components: vec![component(&so_far)],
+                ..Reconstructed::default()
+            };
+            if monitor(Progress::Share(share, &words)).is_break()
+                || monitor(Progress::Partial(Self::write(&partial))).is_break()
+            {
+                return Err("stopped".to_owned());
+            }
+        }
+        let found = run.finish();
+        let mut watch =
+            |_: Status| monitor(Progress::Share(share, "finding the reasons of the rest"));
+        let why = why_unregistered(&input, &how, &found, &mut watch).map_err(sentence)?;
+        let mut reasons = vec![None; images.len()];
+        for (image, why) in found.unregistered.iter().zip(&why) {
+            reasons[*image] = Some(reason(why));
+        }
+        let mean_error_px = (found.components.iter())
+            .map(|component| component.mean_reprojection_px(&input.images))
+            .collect();
+        Ok(Reconstructed {
+            components: found.components.iter().map(component).collect(),
+            costs: found.steps.iter().filter_map(SfmStep::cost).collect(),
+            mean_error_px,
+            reasons,
+        })
+    }
+}
+
+fn reason(why: &Why) -> UnregisteredReason {
+    match *why {
+        Why::FewFeatures { num_keypoints, .. } => {
+            UnregisteredReason::FewFeatures(num_keypoints as u32)
+        }
+        Why::FewMatches { .. } | Why::NoMotion => UnregisteredReason::NoOverlap,
+        Why::NoBaseline => UnregisteredReason::NoBaseline,
+        Why::FewPoints { visible, .. } => UnregisteredReason::FewPoints(visible as u32),
+        Why::NoPose { visible } => UnregisteredReason::NoPose(visible as u32),
+        // Nothing ends a task early but cancellation, so `NotTried` does not occur.
+        _ => UnregisteredReason::NoStart,
+    }
+}
+
+fn component(found: &Reconstruction) -> Component {
+    let camera = |camera: &PosedCamera| {
+        let (k, center) = (
+            camera.camera.intrinsics,
+            camera.camera.intrinsics.principal_point(),
+        );
+        CameraFound {
+            intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],
+            rotation: camera.cam_from_world.rotation.coords.into(),
+            translation: camera.cam_from_world.translation.vector.into(),
+        }
+    };
+    let point = |point: &ScenePoint| PointFound {
+        position: point.position.coords.into(),
+        color: point.color,
+        track: point.track.iter().map(|e| (e.image, e.keypoint)).collect(),
+        error_px: point.error_px,
+    };
+    // One lens took them all.
+    let lens = (found.cameras.iter().flatten().next()).map_or(Lens::NONE, |c| c.camera.lens);
+    Component {
+        cameras: (found.cameras.iter())
+            .map(|c| c.as_ref().map(camera))
+            .collect(),
+        lens,
+        points: found.points.iter().map(point).collect(),
+    }
+}
