@@ -1,6 +1,6 @@
 //! Layout of a board on paper.
 
-use super::Paper;
+use super::paper::Paper;
 use crate::failure::Failure;
 use epipole::calibration::Board;
 
