@@ -124,14 +124,6 @@ impl FixedProblem<9> for Problem<'_> {
     }
 }
 
-/// A corner that was fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FittedCrossing {
-    pub(super) place: Point2<f64>,
-    /// Standard deviation of the Gaussian that blurs the edges.
-    pub(super) blur_px: f64,
-}
-
 /// The corner near a place, from the pixels of a disk around it; `None` if these show no corner.
 ///
 /// * `edges`: roughly the directions of the two edges
@@ -143,7 +135,7 @@ pub(super) fn fit_crossing(
     near: &Point2<f64>,
     edges: [Vector2<f64>; 2],
     radius_px: f64,
-) -> Option<FittedCrossing> {
+) -> Option<Point2<f64>> {
     let (width, height) = (i64::from(image.width()), i64::from(image.height()));
     let (u0, v0) = (near.x.round(), near.y.round());
     let reach = radius_px.ceil() as i64;
@@ -188,10 +180,7 @@ pub(super) fn fit_crossing(
         && sine >= LEAST_SINE
         && crossing.contrast.abs() >= LEAST_CONTRAST
         && mean_sq <= 0.1 * crossing.contrast * crossing.contrast;
-    is_corner.then(|| FittedCrossing {
-        place: near + crossing.place,
-        blur_px: crossing.blur_px,
-    })
+    is_corner.then(|| near + crossing.place)
 }
 
 /// The directions of a chessboard's edges in a mark, from the marks beside it.
@@ -276,7 +265,7 @@ mod tests {
             };
             let near = truth + Vector2::new(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
             let found = fit_crossing(&image, &near, angles.map(direction), 9.0).unwrap();
-            sum_sq += (found.place - truth).norm_squared();
+            sum_sq += (found - truth).norm_squared();
             count += 1.0;
         }
         let rms_px = libm::sqrt(sum_sq / count);

@@ -12,8 +12,6 @@ const DISKS_PX: (f64, f64) = (3.0, 15.0);
 /// is in the disk.
 const AGREEMENT: f64 = 0.05;
 const LEAST_AGREEMENT_PX: f64 = 0.5;
-/// Distance to which an edge spreads, standard deviations of the blur.
-const SPREAD: f64 = 1.5;
 
 /// Parts of the image that a refinement uses, as shares of the distance to the nearest mark.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +22,6 @@ pub(super) struct Reach {
     disk: f64,
     /// Maximum distance from the start.
     stay: f64,
-    /// Distance to the nearest edge that is not one of the two.
-    clear: f64,
 }
 
 /// Nothing but four squares around each mark: the disk stays within them.
@@ -33,7 +29,6 @@ pub(super) const CLEAR_SQUARES: Reach = Reach {
     window: 0.3,
     disk: 0.45,
     stay: 0.25,
-    clear: f64::INFINITY,
 };
 
 impl Reach {
@@ -46,7 +41,6 @@ impl Reach {
             window: (0.7 * disk).min(CLEAR_SQUARES.window),
             disk,
             stay: clear.min(CLEAR_SQUARES.stay),
-            clear,
         }
     }
 
@@ -78,15 +72,7 @@ pub(super) fn refine_mark(
     // A corner that the edges do not confirm may be the rim of a hand.
     Ok(by_gradients.and_then(|start| {
         let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
-        let fit = |radius_px: f64| {
-            fit_crossing(image, &start, edges, radius_px)
-                .filter(|fitted| (fitted.place - start).norm() <= agreement_px)
-        };
-        let radius_px = reach.disk_px(spacing);
-        let fitted = fit(radius_px)?;
-        // Blur spreads what is beside the four squares into the disk.
-        let clear_px = (reach.clear * spacing - SPREAD * fitted.blur_px).max(DISKS_PX.0);
-        let smaller = (clear_px < radius_px).then(|| fit(clear_px)).flatten();
-        Some(smaller.unwrap_or(fitted).place)
+        fit_crossing(image, &start, edges, reach.disk_px(spacing))
+            .filter(|place| (place - start).norm() <= agreement_px)
     }))
 }

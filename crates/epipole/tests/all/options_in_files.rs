@@ -1,6 +1,6 @@
 //! Options are read from files and written to them.
 
-use epipole::calibration::CalibrationOptions;
+use epipole::calibration::{CalibrationOptions, MarkerOptions};
 use epipole::feature::{
     FeatureOptions, GoodFeaturesOptions, MatchOptions, OrbOptions, RefineOptions, SiftOptions,
     StructureTensorOptions, TrackOptions,
@@ -36,6 +36,7 @@ fn every_kind_of_options_goes_through_a_file() {
     check::<LeastMedianOptions>();
     check::<LmOptions>();
     check::<LocalizeOptions>();
+    check::<MarkerOptions>();
     check::<MatchOptions>();
     check::<OdometryOptions>();
     check::<OrbOptions>();

@@ -1,19 +1,19 @@
 //! Layout of a board on paper.
 
-use super::Paper;
+use super::paper::Paper;
 use crate::failure::Failure;
 use epipole::calibration::Board;
 
 /// Free margin of the paper, which printers cannot reach.
-const MARGIN_MM: f64 = 10.0;
+const MARGIN_MM: f64 = 6.0;
 /// Height of a line of the caption.
-const LINE_MM: f64 = 4.0;
+const LINE_MM: f64 = 3.5;
 /// Height of the ruler with its numbers.
-const RULER_MM: f64 = 8.0;
+const RULER_MM: f64 = 6.5;
 /// Gap between board and caption.
-const GAP_MM: f64 = 5.0;
+const GAP_MM: f64 = 4.0;
 /// Size of the text.
-const TEXT_MM: f64 = 2.8;
+const TEXT_MM: f64 = 2.6;
 /// Width of a letter as a share of the text's size, at most on average.
 const LETTER: f64 = 0.56;
 /// Longest ruler.
@@ -101,11 +101,11 @@ impl Page {
             });
         }
         let steps = (width.min(RULER_LENGTH_MM) / 10.0).floor();
-        let y = top + LINE_MM * caption.len() as f64 + 1.0;
+        let y = top + LINE_MM * caption.len() as f64 + 0.5;
         // Ticks begin where the ruler begins and end where it ends.
         self.rectangles.push([MARGIN_MM, y, 10.0 * steps, THIN_MM]);
         for step in 0..=steps as u32 {
-            let height = if step % 5 == 0 { 3.0 } else { 2.0 };
+            let height = if step % 5 == 0 { 2.5 } else { 1.5 };
             let share = f64::from(step) / steps.max(1.0);
             let x = MARGIN_MM + 10.0 * f64::from(step) - THIN_MM * share;
             self.rectangles.push([x, y + THIN_MM, THIN_MM, height]);
@@ -113,7 +113,7 @@ impl Page {
         for (step, unit) in [(0.0, ""), (steps, " mm")] {
             self.texts.push(Text {
                 x: MARGIN_MM + 10.0 * step,
-                y: y + 3.0 + TEXT_MM,
+                y: y + 2.5 + TEXT_MM,
                 size: TEXT_MM,
                 text: format!("{:.0}{unit}", 10.0 * step),
             });

@@ -28,8 +28,8 @@ const REACH: f64 = 0.8;
 pub struct Marker {
     /// Its number in the dictionary.
     pub id: usize,
-    /// Corners of its black border, clockwise from the one that is upper left in the upright marker,
-    /// pixels.
+    /// Corners of its black border, pixels: clockwise from the one that is upper left in an upright
+    /// marker.
     pub corners: [Point2<f64>; 4],
     /// Number of bits that differ from the dictionary's.
     pub hamming: u32,
