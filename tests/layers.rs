@@ -79,6 +79,8 @@ const MODULES_OF_IO: &[&str] = &[
     "error",
     "bytes",
     "text",
+    "table",
+    "matches",
     "tree",
     "rotation",
     "colmap",

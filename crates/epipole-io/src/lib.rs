@@ -19,8 +19,10 @@ mod damage;
 mod error;
 #[cfg(test)]
 mod fuzz;
+pub mod matches;
 pub mod model;
 mod rotation;
+mod table;
 mod text;
 pub mod trajectory;
 mod tree;
