@@ -68,6 +68,11 @@ impl PairArguments {
         self.camera.is_given()
     }
 
+    /// Whether only a focal length is given.
+    pub(crate) fn has_focal_only(&self) -> bool {
+        self.camera.focal_px.is_some()
+    }
+
     /// Refuses intrinsics of the second camera alone, which nothing could be done with.
     ///
     /// # Errors
