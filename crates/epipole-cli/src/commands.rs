@@ -12,6 +12,7 @@ mod inspect;
 mod manual;
 mod matching;
 mod odometry;
+mod pnp;
 mod posegraph;
 mod rectify;
 pub(crate) mod sfm;
@@ -31,6 +32,7 @@ pub(crate) enum Command {
     Match(matching::Arguments),
     Fit(fit::Arguments),
     TwoView(two_view::Arguments),
+    Pnp(pnp::Arguments),
     Rectify(rectify::Arguments),
     Stereo(stereo::Arguments),
     Sfm(sfm::Arguments),
@@ -54,6 +56,7 @@ impl Command {
             Self::Match(arguments) => matching::run(&arguments, context),
             Self::Fit(arguments) => fit::run(&arguments, context),
             Self::TwoView(arguments) => two_view::run(&arguments, context),
+            Self::Pnp(arguments) => pnp::run(&arguments, context),
             Self::Rectify(arguments) => rectify::run(&arguments, context),
             Self::Stereo(arguments) => stereo::run(&arguments, context),
             Self::Sfm(arguments) => sfm::run(&arguments, context),

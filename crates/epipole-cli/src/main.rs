@@ -28,6 +28,7 @@ mod reading;
 mod refinement;
 mod report;
 mod robust;
+mod short_help;
 mod turn;
 
 use clap::{CommandFactory, FromArgMatches, Parser};

@@ -19,6 +19,7 @@ mod odometry;
 mod optimize;
 mod pairs;
 mod photos;
+mod pnp;
 mod positions;
 mod rig;
 mod sfm;
