@@ -17,6 +17,7 @@ mod posegraph;
 mod rectify;
 pub(crate) mod sfm;
 mod stereo;
+mod triangulate;
 mod two_view;
 mod undistort;
 
@@ -33,6 +34,7 @@ pub(crate) enum Command {
     Fit(fit::Arguments),
     TwoView(two_view::Arguments),
     Pnp(pnp::Arguments),
+    Triangulate(triangulate::Arguments),
     Rectify(rectify::Arguments),
     Stereo(stereo::Arguments),
     Sfm(sfm::Arguments),
@@ -57,6 +59,7 @@ impl Command {
             Self::Fit(arguments) => fit::run(&arguments, context),
             Self::TwoView(arguments) => two_view::run(&arguments, context),
             Self::Pnp(arguments) => pnp::run(&arguments, context),
+            Self::Triangulate(arguments) => triangulate::run(&arguments, context),
             Self::Rectify(arguments) => rectify::run(&arguments, context),
             Self::Stereo(arguments) => stereo::run(&arguments, context),
             Self::Sfm(arguments) => sfm::run(&arguments, context),

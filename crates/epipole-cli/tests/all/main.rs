@@ -23,3 +23,4 @@ mod pnp;
 mod positions;
 mod rig;
 mod sfm;
+mod triangulate;
