@@ -18,7 +18,8 @@ pub(crate) struct CameraArguments {
 }
 
 impl CameraArguments {
-    fn is_given(&self) -> bool {
+    /// Whether there are any.
+    pub(crate) fn is_given(&self) -> bool {
         self.k.is_some() || self.focal_px.is_some()
     }
 

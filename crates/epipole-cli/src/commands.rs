@@ -9,6 +9,7 @@ mod figure;
 mod fit;
 mod frames;
 mod inspect;
+mod localize;
 mod manual;
 mod matching;
 mod odometry;
@@ -38,6 +39,7 @@ pub(crate) enum Command {
     Rectify(rectify::Arguments),
     Stereo(stereo::Arguments),
     Sfm(sfm::Arguments),
+    Localize(localize::Arguments),
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
@@ -63,6 +65,7 @@ impl Command {
             Self::Rectify(arguments) => rectify::run(&arguments, context),
             Self::Stereo(arguments) => stereo::run(&arguments, context),
             Self::Sfm(arguments) => sfm::run(&arguments, context),
+            Self::Localize(arguments) => localize::run(&arguments, context),
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),

@@ -139,7 +139,7 @@ fn split_name(path: &Path) -> (&Path, Option<&str>) {
 }
 
 /// Width and height of a photograph as stored, if its header can be read.
-fn sensor_size(photo: &Path) -> Option<(u32, u32)> {
+pub(crate) fn sensor_size(photo: &Path) -> Option<(u32, u32)> {
     let reader = image::ImageReader::open(photo).ok()?;
     reader.with_guessed_format().ok()?.into_dimensions().ok()
 }

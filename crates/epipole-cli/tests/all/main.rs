@@ -13,6 +13,7 @@ mod field;
 mod geometry;
 mod known_camera;
 mod lenses;
+mod localize;
 mod matches;
 mod models;
 mod odometry;
