@@ -58,6 +58,7 @@ const MODULES: &[&str] = &[
     "stereo",
     "calibration",
     "sfm",
+    "stitch",
     "synthetic",
 ];
 
