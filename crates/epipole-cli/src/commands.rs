@@ -18,6 +18,7 @@ mod posegraph;
 mod rectify;
 pub(crate) mod sfm;
 mod stereo;
+mod stitch;
 mod triangulate;
 mod two_view;
 mod undistort;
@@ -44,6 +45,7 @@ pub(crate) enum Command {
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
     Compare(compare::Arguments),
+    Stitch(stitch::Arguments),
     Calibrate(calibrate::Arguments),
     Undistort(undistort::Arguments),
     Frames(frames::Arguments),
@@ -70,6 +72,7 @@ impl Command {
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),
             Self::Compare(arguments) => compare::run(&arguments, context),
+            Self::Stitch(arguments) => stitch::run(&arguments, context),
             Self::Calibrate(arguments) => calibrate::run(&arguments, context),
             Self::Undistort(arguments) => undistort::run(&arguments, context),
             Self::Frames(arguments) => frames::run(&arguments, context),

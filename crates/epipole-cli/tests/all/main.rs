@@ -24,4 +24,5 @@ mod pnp;
 mod positions;
 mod rig;
 mod sfm;
+mod stitch;
 mod triangulate;
