@@ -6,9 +6,10 @@ use std::fmt::Write as _;
 
 /// Reads matches of two images: `u1 v1 u2 v2` a line, pixels.
 ///
-/// Numbers may stand between commas, semicolons, tabs or spaces, in quotes or brackets; with decimal
-/// commas between semicolons or tabs. `#` begins a comment. A first line of names, `u1 v1 u2 v2` or
-/// `x1 y1 x2 y2`, allows any order; without one, columns behind the fourth are ignored.
+/// Numbers may stand between commas, semicolons, tabs or spaces, in quotes or brackets; decimal
+/// commas are read between semicolons or tabs. `#` begins a comment. A first line of names,
+/// `u1 v1 u2 v2` or `x1 y1 x2 y2`, allows any order; without one, columns behind the fourth are
+/// ignored.
 ///
 /// Returns the pixels in the first image and those in the second.
 ///

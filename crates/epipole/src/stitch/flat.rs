@@ -7,8 +7,8 @@ use crate::Result;
 use nalgebra::{Matrix3, Vector3};
 
 /// The places of photos of one plane, or from one place, by homographies from one to the next. The
-/// frame is that of the photo in the middle: a direction (x, y, 1) is its pixel s (x, y), where s is
-/// [`Panorama::scale_px`], and the surface must be [`Surface::Plane`](super::Surface).
+/// frame is that of the photo in the middle: a direction (x, y, 1) is its pixel s (x, y) for a
+/// scale s of [`Panorama::scale_px`], and the surface must be [`Surface::Plane`](super::Surface).
 ///
 /// * `num_images`: number of photos
 /// * `overlaps`: pairs of photos; photos that they do not join to the largest set have no place

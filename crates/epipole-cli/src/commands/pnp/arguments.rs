@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     /// Camera file of `epipole calibrate`, OpenCV, COLMAP and others (FILE#NAME: one of several).
     #[arg(long, value_name = "FILE")]
     camera: Option<PathBuf>,
-    /// Focal length in pixels, with the principal point of --center or --size; "unknown" to find it.
+    /// Focal length in pixels, with the principal point of --center or --size; or "unknown".
     #[arg(long, value_name = "F|unknown", value_parser = focal)]
     focal_px: Option<Focal>,
     /// Size of the image, whose middle is the principal point unless --k gives it.

@@ -114,6 +114,14 @@ pub(super) fn with_camera(
         let report = arguments.robust.watched(context, |options, monitor| {
             estimate_absolute_pose(points, pixels, camera, options, monitor)
         })?;
+        if report.num_inliers < MIN_POINTS {
+            let (count, all) = (report.num_inliers, points.len());
+            let message = format!("no pose fits more than {count} of {all} points");
+            return Err(Failure::new("no-consensus", message));
+        }
+        if report.could_be_chance() {
+            context.warn(ADVICE);
+        }
         (report.inliers, report.max_error_px)
     };
     let kept = |n: &usize| inliers[*n];
@@ -225,6 +233,9 @@ pub(super) fn with_focal(
         estimate_absolute_pose_and_focal(points, pixels, center, options, monitor)
     })?;
     let pose = report.model;
+    if report.could_be_chance() {
+        context.warn(ADVICE);
+    }
     if !pose.tells_focal() {
         context.warn(
             "these points hardly tell the focal length: their depths differ too little, or their plane faces the camera",

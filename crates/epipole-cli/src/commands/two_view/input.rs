@@ -13,7 +13,7 @@ pub(super) struct Input {
     /// Photos of no pixels where only matches are given.
     pub(super) photos: [Photo; 2],
     pub(super) pixels: [Vec<Point2<f64>>; 2],
-    /// Where features were looked for.
+    /// `None` for matches of a file.
     pub(super) nums_keypoints: Option<[usize; 2]>,
 }
 
