@@ -58,6 +58,7 @@ const MODULES: &[&str] = &[
     "stereo",
     "calibration",
     "sfm",
+    "stitch",
     "synthetic",
 ];
 
@@ -79,6 +80,8 @@ const MODULES_OF_IO: &[&str] = &[
     "error",
     "bytes",
     "text",
+    "table",
+    "matches",
     "tree",
     "tokens",
     "rotation",

@@ -18,7 +18,8 @@ pub(crate) struct CameraArguments {
 }
 
 impl CameraArguments {
-    fn is_given(&self) -> bool {
+    /// Whether there are any.
+    pub(crate) fn is_given(&self) -> bool {
         self.k.is_some() || self.focal_px.is_some()
     }
 
@@ -66,6 +67,11 @@ impl PairArguments {
     /// Whether there are any.
     pub(crate) fn is_given(&self) -> bool {
         self.camera.is_given()
+    }
+
+    /// Whether only a focal length is given.
+    pub(crate) fn has_focal_only(&self) -> bool {
+        self.camera.focal_px.is_some()
     }
 
     /// Refuses intrinsics of the second camera alone, which nothing could be done with.

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 /// Prints one text and a line end on standard output.
@@ -54,6 +54,22 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
         Some(rest) => rest.to_owned(),
         None => text,
     })
+}
+
+/// Reads a file, or standard input where the path is `-`.
+///
+/// # Errors
+/// A sentence naming the file.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    if path == Path::new("-") {
+        let mut bytes = Vec::new();
+        let read = io::stdin().lock().read_to_end(&mut bytes);
+        return match read {
+            Ok(_) => Ok(bytes),
+            Err(error) => Err(unreadable(Path::new("standard input"), &error)),
+        };
+    }
+    fs::read(path).map_err(|error| unreadable(path, &error))
 }
 
 /// Error for a file that cannot be read.

@@ -78,6 +78,19 @@ impl CameraFile {
         self.camera_file.is_some()
     }
 
+    /// Reads the camera where there are no photos.
+    ///
+    /// # Errors
+    /// As [`lens::read`].
+    pub(crate) fn alone(&self, context: &Context) -> Result<Option<Camera>, Failure> {
+        let Some(file) = &self.camera_file else {
+            return Ok(None);
+        };
+        let camera = lens::read(file, None)?;
+        tell_of_unseen(&camera, context)?;
+        Ok(Some(camera))
+    }
+
     /// Reads two photographs, which keep what the lens did.
     ///
     /// # Errors

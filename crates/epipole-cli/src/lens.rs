@@ -140,6 +140,6 @@ fn split_name(path: &Path) -> (&Path, Option<&str>) {
 }
 
 /// Width and height of a photograph as stored, if its header can be read.
-fn size_of(photo: &Path) -> Option<(u32, u32)> {
+pub(crate) fn size_of(photo: &Path) -> Option<(u32, u32)> {
     sensor_size(&std::fs::read(photo).ok()?).ok()
 }

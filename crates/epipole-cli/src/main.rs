@@ -17,6 +17,7 @@ mod interrupt;
 mod known_camera;
 mod lens;
 mod listing;
+mod match_file;
 mod matrices;
 mod model;
 mod output_folder;
@@ -28,7 +29,6 @@ mod reading;
 mod refinement;
 mod report;
 mod robust;
-mod rows;
 mod short_help;
 mod turn;
 

@@ -1,7 +1,7 @@
 //! Numbers on the command line and in results: intrinsics, matrices, motions.
 
 use epipole::camera::{Intrinsics, RigidTransform};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point2, Vector3};
 use serde::Serialize;
 
 /// The entries of a matrix, row by row.
@@ -39,6 +39,15 @@ pub(crate) fn intrinsics(text: &str) -> Result<Intrinsics, String> {
             Intrinsics::new(*fu, *fv, *cu, *cv).map_err(|error| error.to_string())
         }
         _ => Err("it must be four numbers: fx,fy,cx,cy".to_owned()),
+    }
+}
+
+/// Reads `u,v`.
+pub(crate) fn pixel(text: &str) -> Result<Point2<f64>, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok([u, v]) if u.abs().max(v.abs()) <= *FAR.end() => Ok(Point2::new(*u, *v)),
+        _ => Err("it must be two numbers of pixels: u,v".to_owned()),
     }
 }
 

@@ -95,6 +95,23 @@ impl Photo {
         Ok(photo)
     }
 
+    /// A photo of which only the camera is known, if that, in place of one that is not at hand.
+    pub(crate) fn without_pixels(camera: Option<&Camera>) -> Self {
+        Self {
+            color: RgbImage::new(0, 0),
+            focal_px: None,
+            place: None,
+            k: camera.map(|camera| camera.intrinsics),
+            lens: camera.map(|camera| KeptLens {
+                lens: camera.lens,
+                quarters: 0,
+            }),
+            full_size: (0, 0),
+            sensor_size: (0, 0),
+            is_as_stored: true,
+        }
+    }
+
     /// The camera of the photograph, given its intrinsics.
     pub(crate) fn camera(&self, intrinsics: Intrinsics) -> Camera {
         let (width, height) = self.color.dimensions();

@@ -16,6 +16,7 @@ pub mod disparity;
 mod error;
 #[cfg(test)]
 mod fuzz;
+pub mod matches;
 pub mod model;
 #[cfg(feature = "photos")]
 pub mod photo;
@@ -23,6 +24,7 @@ pub mod pose_graph;
 mod rotation;
 #[cfg(test)]
 mod shared;
+mod table;
 mod text;
 mod tokens;
 pub mod trajectory;

@@ -4,6 +4,9 @@ use crate::{Error, Result};
 
 /// The text of a file, without a byte order mark. Line ends may be `\n` or `\r\n`.
 pub(crate) fn decode(bytes: &[u8]) -> Result<&str> {
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err(Error::malformed("the text is UTF-16: save it as UTF-8"));
+    }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         Error::malformed(format!(
             "not text: byte {} is not UTF-8",

@@ -19,6 +19,7 @@
 //! | [`stereo`] | rectification, dense disparity, depth, point clouds |
 //! | [`calibration`] | boards in photographs, intrinsics and distortion from them, rigs, undistortion |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`stitch`] | panoramas: rotations of photos, projection, blending |
 //! | `synthetic` | seeded worlds with ground truth: points, cameras, noise, outliers (feature `synthetic`) |
 //!
 //! # Conventions
@@ -46,6 +47,7 @@ pub mod progress;
 pub mod robust;
 pub mod sfm;
 pub mod stereo;
+pub mod stitch;
 #[cfg(any(test, feature = "synthetic"))]
 pub mod synthetic;
 pub mod triangulation;

@@ -27,6 +27,8 @@ pub enum Stage {
     Calibration,
     /// The parameters of a least-squares problem are refined.
     Refinement,
+    /// Photos are blended into one picture.
+    Blending,
 }
 
 impl Stage {
@@ -48,6 +50,7 @@ impl Stage {
             Self::DenseMatching => "matching along the rows",
             Self::Calibration => "fitting the lens",
             Self::Refinement => "refining",
+            Self::Blending => "blending",
         }
     }
 }

@@ -2,11 +2,10 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::files;
+use crate::match_file;
 use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
-use crate::rows;
 use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -38,9 +37,9 @@ enum Model {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole fit --model fundamental matches.txt --max-error-px 1\n\n\
-    A file of matches has one a line, u1 v1 u2 v2; further columns are ignored, # begins a comment. A first line\n\
-    may name the columns: u1 v1 u2 v2 or x1 y1 x2 y2, of points u v or x y. Numbers may stand between commas,\n\
-    semicolons, tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
+    A file of matches, as epipole match writes it, has one a line, u1 v1 u2 v2; further columns are ignored, # begins\n\
+    a comment. A first line may name the columns: u1 v1 u2 v2 or x1 y1 x2 y2, of points u v or x y. Numbers may\n\
+    stand between commas, semicolons, tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
     JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
     num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
     for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
@@ -57,7 +56,7 @@ pub(crate) struct Arguments {
     /// Model to fit.
     #[arg(long, value_enum)]
     model: Model,
-    /// A text file with one match a line.
+    /// A text file with one match a line; - for standard input.
     matches: PathBuf,
     /// Intrinsics of the first camera, for the essential matrix.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
@@ -100,17 +99,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             "--k, --k2 and --gravity are for --model essential only: the other models need none",
         ));
     }
-    let columns = if arguments.model == Model::Line { 2 } else { 4 };
-    let text = files::read_text(&arguments.matches)?;
-    let rows = rows::parse(&text, &arguments.matches, columns)?;
-    let at = |row: &Vec<f64>, column: usize| Point2::new(row[column], row[column + 1]);
-    let pixels1: Vec<Point2<f64>> = rows.iter().map(|row| at(row, 0)).collect();
-    let pixels2: Vec<Point2<f64>> = match columns {
-        2 => Vec::new(),
-        _ => rows.iter().map(|row| at(row, 2)).collect(),
+    let [pixels1, pixels2] = match arguments.model {
+        Model::Line => [match_file::points(&arguments.matches)?, Vec::new()],
+        _ => match_file::matches(&arguments.matches)?,
     };
     let found = fit(arguments, context, &pixels1, &pixels2)
-        .map_err(|failure| with_left_out(failure, arguments.model, &rows))?;
+        .map_err(|failure| with_left_out(failure, arguments.model, [&pixels1, &pixels2]))?;
     let inlier_errors: Vec<f64> = found
         .errors_px
         .iter()
@@ -170,14 +164,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 /// Too few are left where the core left rows out, which then is what to look into.
-fn with_left_out(failure: Failure, model: Model, rows: &[Vec<f64>]) -> Failure {
-    let farthest_px = if model == Model::Line {
-        f64::MAX
-    } else {
-        FARTHEST_PX
+fn with_left_out(failure: Failure, model: Model, pixels: [&[Point2<f64>]; 2]) -> Failure {
+    let farthest_px = match model {
+        Model::Line => f64::MAX,
+        _ => FARTHEST_PX,
     };
-    let is_far = |row: &&Vec<f64>| row.iter().any(|x| x.abs() > farthest_px);
-    match rows.iter().filter(is_far).count() {
+    let is_far = |list: &[Point2<f64>], index: usize| {
+        list.get(index)
+            .is_some_and(|pixel| pixel.coords.amax() > farthest_px)
+    };
+    let rows = 0..pixels[0].len();
+    let far = rows.filter(|&index| pixels.iter().any(|list| is_far(list, index)));
+    match far.count() {
         num_far @ 1.. if failure.kind == "too-few" => Failure {
             message: format!("{failure}; rows left out for being beyond 10⁹ pixels: {num_far}"),
             ..failure

@@ -3,19 +3,21 @@
 use crate::camera::{self, CameraArguments};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::features::{FeatureArguments, MatchArguments, rows};
+use crate::features::{FeatureArguments, MatchArguments, matched_pixels, rows};
 use crate::known_camera::CameraFile;
 use crate::photo::Size;
 use crate::reading::SizeArguments;
 use crate::report::Report;
-use crate::{files, picture};
+use crate::{files, match_file, picture};
 use clap::Args;
 use std::path::PathBuf;
 
 /// Match the features of two photographs.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole match left.jpg right.jpg --ratio 0.8 --mutual --png matches.png\n\n\
+    after_help = "Example: epipole match left.jpg right.jpg -o matches.txt --png matches.png\n\n\
+    The file of matches has one a line, the least ambiguous first: u1 v1 u2 v2 distance ratio. epipole fit, two-view\n\
+    and triangulate read it.\n\n\
     JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad,\n\
     response] each), matches ([place in keypoints1, place in keypoints2, distance, ratio] each); with --camera\n\
     rays1 and rays2: for each keypoint the direction that it is seen in, x to the right, y down and z ahead, of length\n\
@@ -26,6 +28,9 @@ pub(crate) struct Arguments {
     first: PathBuf,
     /// The second photograph.
     second: PathBuf,
+    /// Write the matches; with commas if the name ends in .csv.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Write both photographs with lines between the matches.
     #[arg(long, value_name = "FILE.png")]
     png: Option<PathBuf>,
@@ -45,6 +50,13 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run(&found1, &found2)?;
+    if let Some(path) = &arguments.output {
+        let mut sorted = matches.clone();
+        sorted.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        let [pixels1, pixels2] = matched_pixels(&sorted, &found1, &found2);
+        let tests: Vec<[f32; 2]> = sorted.iter().map(|m| [m.distance, m.ratio]).collect();
+        match_file::write(path, [&pixels1, &pixels2], &tests)?;
+    }
     if let Some(path) = &arguments.png {
         let mut both = picture::side_by_side(&photos[0].color, &photos[1].color);
         let offset = f64::from(photos[0].color.width());

@@ -3,15 +3,16 @@
 mod arguments;
 mod errors;
 mod focal;
+mod input;
 mod search;
 
 pub(crate) use self::arguments::Arguments;
 
 use self::arguments::Model;
+use self::input::Input;
 use self::search::estimate;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::features::matched_pixels;
 use crate::matrices::{Motion, row_major};
 use crate::report::Report;
 use crate::robust::threshold_words;
@@ -24,12 +25,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
              homography, or what epipole undistort makes of the photographs",
         ));
     }
-    let paths = [&*arguments.first, &*arguments.second];
-    let photos = arguments.known.read(paths, arguments.size, context)?;
-    let found1 = arguments.features.detect(&photos[0], context)?;
-    let found2 = arguments.features.detect(&photos[1], context)?;
-    let matches = arguments.matching.run_best_first(&found1, &found2)?;
-    let [pixels1, pixels2] = matched_pixels(&matches, &found1, &found2);
+    let Input {
+        photos,
+        pixels: [pixels1, pixels2],
+        nums_keypoints,
+    } = Input::read(arguments, context)?;
     if arguments.model == Model::Fundamental && arguments.camera.is_given() {
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
@@ -49,9 +49,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .zip(&found.inliers)
         .map(|((a, b), is_inlier)| (a.x, a.y, b.x, b.y, u8::from(*is_inlier)))
         .collect();
-    let counts = [found1.keypoints.len(), found2.keypoints.len()];
-    Ok(Report::default()
-        .row("keypoints", format!("{} and {}", counts[0], counts[1]))
+    let mut report = Report::default();
+    if let Some([first, second]) = nums_keypoints {
+        report = report.row("keypoints", format!("{first} and {second}"));
+    }
+    Ok(report
         .row("matches", rows.len())
         .row("model", found.kind)
         .row("inliers", num_inliers)
@@ -70,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
                 false => "pixels",
             },
         )
-        .field("num_keypoints", counts)
+        .field("num_keypoints", nums_keypoints)
         .field("num_matches", rows.len())
         .field("num_inliers", num_inliers)
         .field("matches", rows)

@@ -1,8 +1,8 @@
-//! JSON of `epipole calibrate`.
+//! JSON of `epipole calibrate` and `epipole pnp`.
 //!
-//! `image` (width and height), `k` (fx, fy, cx, cy), `distortion` (model and coefficients), and of
-//! a rig `right`, the same of the right camera, and `stereo.right_from_left`. Pixel centers are at
-//! integers. Other keys are left to the calibration.
+//! `image` (width and height), `k` (fx, fy, cx, cy), `distortion` (model and coefficients),
+//! `cam_from_world` where the pose is known, and of a rig `right`, the same of the right camera,
+//! and `stereo.right_from_left`. Pixel centers are at integers. Other keys are not read.
 
 use super::named::Cameras;
 use super::parts::matrix_rotation;
@@ -46,13 +46,17 @@ pub(super) fn is_it(root: &Field) -> bool {
 
 pub(super) fn read(root: &Field) -> Result<Cameras> {
     let left = camera(root)?;
-    match root.get("right") {
-        None => Ok(Cameras::of(left)),
-        Some(right) => Ok(Cameras::of_rig(
-            [left, camera(&right)?],
-            right_from_left(root)?,
-        )),
-    }
+    let Some(right) = root.get("right") else {
+        let mut cameras = Cameras::of(left);
+        if let Some(pose) = root.get("cam_from_world") {
+            cameras.cameras[0].cam_from_world = Some(motion(Some(&pose), "cam_from_world")?);
+        }
+        return Ok(cameras);
+    };
+    let stereo = root.get("stereo");
+    let right_from_left = stereo.and_then(|stereo| stereo.get("right_from_left"));
+    let right_from_left = motion(right_from_left.as_ref(), "stereo.right_from_left")?;
+    Ok(Cameras::of_rig([left, camera(&right)?], right_from_left))
 }
 
 fn camera(field: &Field) -> Result<Camera> {
@@ -76,15 +80,13 @@ fn camera(field: &Field) -> Result<Camera> {
     })
 }
 
-fn right_from_left(root: &Field) -> Result<RigidTransform> {
-    let motion = root
-        .get("stereo")
-        .and_then(|stereo| stereo.get("right_from_left"));
+/// Rotation and translation.
+///
+/// * `place`: keys that lead to the motion
+fn motion(motion: Option<&Field>, place: &str) -> Result<RigidTransform> {
     let part = |name: &str, expected: &str| {
-        let part = motion.as_ref().and_then(|motion| motion.get(name));
-        part.ok_or_else(|| {
-            Error::malformed(format!("stereo.right_from_left.{name} is not {expected}"))
-        })
+        let part = motion.and_then(|motion| motion.get(name));
+        part.ok_or_else(|| Error::malformed(format!("{place}.{name} is not {expected}")))
     };
     let rotation = part("rotation", "nine numbers of a rotation")?;
     let translation = part("translation", "three numbers of meters")?;
@@ -102,21 +104,29 @@ fn right_from_left(root: &Field) -> Result<RigidTransform> {
     ))
 }
 
+fn motion_fields(motion: &RigidTransform) -> Value {
+    let rotation = motion.rotation.to_rotation_matrix();
+    let rotation: Vec<f64> = rotation.matrix().transpose().iter().copied().collect();
+    let translation: [f64; 3] = motion.translation.vector.into();
+    json!({ "rotation": rotation, "translation": translation })
+}
+
 /// One camera, or a rig of two.
 pub(super) fn write(cameras: &Cameras) -> Result<String> {
     let fields = |camera| camera_fields(camera).map(|(name, value)| (name.to_owned(), value));
     let whole = match (&cameras.cameras[..], &cameras.right_from_left) {
-        ([one], _) => Map::from_iter(fields(&one.camera)),
+        ([one], _) => {
+            let pose = one.cam_from_world.as_ref().map(motion_fields);
+            let pose = pose.map(|pose| ("cam_from_world".to_owned(), pose));
+            Map::from_iter(fields(&one.camera).into_iter().chain(pose))
+        }
         ([left, right], Some(motion)) => {
             let mut whole = Map::from_iter(fields(&left.camera));
             let right = Map::from_iter(fields(&right.camera));
             whole.insert("right".to_owned(), Value::Object(right));
-            let rotation = motion.rotation.to_rotation_matrix();
-            let rotation: Vec<f64> = rotation.matrix().transpose().iter().copied().collect();
-            let translation: [f64; 3] = motion.translation.vector.into();
             whole.insert(
                 "stereo".to_owned(),
-                json!({ "right_from_left": { "rotation": rotation, "translation": translation } }),
+                json!({ "right_from_left": motion_fields(motion) }),
             );
             whole
         }

@@ -9,6 +9,8 @@ pub struct NamedCamera {
     pub name: String,
     /// Size, intrinsics and lens, pixel centers at integers.
     pub camera: Camera,
+    /// Pose, of a format that has one: `x_in_cam = cam_from_world * x_in_world`.
+    pub cam_from_world: Option<RigidTransform>,
 }
 
 /// Content of a file of cameras.
@@ -54,6 +56,7 @@ impl NamedCamera {
         Self {
             name: name.into(),
             camera,
+            cam_from_world: None,
         }
     }
 }

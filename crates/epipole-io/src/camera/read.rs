@@ -33,9 +33,6 @@ const MAX_KEYS: usize = 8;
 /// # Ok(()) }
 /// ```
 pub fn read_cameras(bytes: &[u8], size: Option<(u32, u32)>) -> Result<(CameraFormat, Cameras)> {
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(Error::malformed("the text is UTF-16: save it as UTF-8"));
-    }
     let (format, cameras) = if colmap::is_binary(bytes) {
         (CameraFormat::Colmap, colmap::read_binary(bytes)?)
     } else {

@@ -1,7 +1,8 @@
-//! Cameras and trajectories.
+//! Cameras, trajectories, matches and points.
 
 use crate::camera::{CameraFormat, read_cameras};
 use crate::damage::{config, damage_bytes, some_damage};
+use crate::matches::{read_matches, read_points, read_points_with_pixels};
 use crate::trajectory::read_trajectory;
 use proptest::prelude::*;
 
@@ -44,6 +45,12 @@ const TRAJECTORIES: [&str; 3] = [
     "# t tx ty tz qx qy qz qw\n1305031102.175304 1.5 0 -2e-3 0 0 0 1\n1305031102.2 1 2 3 0.1 0.2 0.3 0.9\n",
     "1 0 0 0.5 0 1 0 1e-3 0 0 1 2\n0 -1 0 0.5 1 0 0 1e-3 0 0 1 2\n",
     "#timestamp,x,y,z,w,x,y,z\r\n1403636580838555648,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n1403636580838555649,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n",
+];
+
+const MATCHES: [&str; 3] = [
+    "# u1 v1 u2 v2\n1 2 3 4\n1e2, -2.5, 3 , 4 # and more\n\n10 20 30.25 40 7\n",
+    "id;u;v;x;y;z\n7;1,5;2;3;4;5\r\n8;1;2;3;4;-5e-1\n9;\"1\";'2';3;4;5\n",
+    "[1 2] [3 4] 5.5\n[[10, 20], [30, 40]] 5D+01\n(1, 2) (3, 4) 7\n",
 ];
 
 /// COLMAP's binary file of one `SIMPLE_PINHOLE` camera.
@@ -96,6 +103,28 @@ fn check_trajectory(bytes: &[u8]) {
     }
 }
 
+fn check_matches(bytes: &[u8]) {
+    let are_told = |error: &crate::Error| !error.to_string().is_empty();
+    match read_matches(bytes) {
+        Ok([first, second]) => {
+            assert_eq!(first.len(), second.len());
+            let mut all = first.iter().chain(&second);
+            assert!(all.all(|p| !p.x.is_nan() && !p.y.is_nan()));
+        }
+        Err(error) => assert!(are_told(&error)),
+    }
+    match read_points_with_pixels(bytes) {
+        Ok((pixels, points)) => {
+            assert_eq!(pixels.len(), points.len());
+            assert!(points.iter().all(|p| !p.iter().any(|x| x.is_nan())));
+        }
+        Err(error) => assert!(are_told(&error)),
+    }
+    if let Err(error) = read_points(bytes) {
+        assert!(are_told(&error));
+    }
+}
+
 #[test]
 fn the_files_to_damage_are_right() {
     for (format, text) in CAMERAS {
@@ -107,6 +136,11 @@ fn the_files_to_damage_are_right() {
         cameras.cameras[0].camera.intrinsics.principal_point().x,
         319.5
     );
+    for n in [0, 2] {
+        assert_eq!(read_matches(MATCHES[n].as_bytes()).unwrap()[0].len(), 3);
+    }
+    let (pixels, _) = read_points_with_pixels(MATCHES[1].as_bytes()).unwrap();
+    assert_eq!(pixels.len(), 3);
     for text in TRAJECTORIES {
         assert_eq!(
             read_trajectory(text.as_bytes())
@@ -157,6 +191,7 @@ fn long_files_take_no_quadratic_time() {
             let text = format!("{before}{}", pattern.repeat((1 << 19) / pattern.len()));
             check_cameras(text.as_bytes());
             check_trajectory(text.as_bytes());
+            check_matches(text.as_bytes());
         }
     }
 }
@@ -180,14 +215,21 @@ proptest! {
     }
 
     #[test]
+    fn damaged_matches(which in 0..MATCHES.len(), changes in some_damage()) {
+        check_matches(&damage_bytes(MATCHES[which].as_bytes(), &changes));
+    }
+
+    #[test]
     fn random_bytes(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
         check_cameras(&bytes);
         check_trajectory(&bytes);
+        check_matches(&bytes);
     }
 
     #[test]
     fn random_signs(text in "[\\[\\]{}:,\\-?&*!|>'\"%@`#<>/= \n\t0-9a-eK.]{0,200}") {
         check_cameras(text.as_bytes());
         check_trajectory(text.as_bytes());
+        check_matches(text.as_bytes());
     }
 }

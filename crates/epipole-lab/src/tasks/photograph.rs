@@ -330,8 +330,8 @@ fn file(
 ) -> Result<Photograph, String> {
     use super::convert::{core_lens_camera, unreadable};
     use epipole::calibration::{Keep, Undistortion};
-    use epipole_io::photo::{PrepareOptions, prepare_photo};
     use epipole::camera::Intrinsics;
+    use epipole_io::photo::{PrepareOptions, prepare_photo};
     let flat = |camera: &LensCamera| {
         Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
             .map_err(|error| format!("its lens cannot be undone: {error}"))

@@ -19,6 +19,7 @@ pub use degeneracy::{Degeneracy, find_degeneracy, find_unmoved};
 pub use explaining_turn::ExplainingTurn;
 pub use options::{PHOTO_MAX_ERROR_PX, TwoViewOptions};
 pub use report::{Configuration, TwoViewModel, TwoViewReport};
+pub(crate) use rotation::align_rays;
 pub use rotation::{RotationEstimator, estimate_rotation};
 pub(crate) use through_lenses::find_plane_through_lenses;
 pub use turn::find_explaining_turn;

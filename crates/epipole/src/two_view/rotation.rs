@@ -89,7 +89,7 @@ impl RotationEstimator {
 
 /// The rotation that aligns the first ray of each pair, of length 1, with the second best. `None`
 /// if they leave it open.
-pub(super) fn align_rays<'a>(
+pub(crate) fn align_rays<'a>(
     pairs: impl Iterator<Item = &'a [Vector3<f64>; 2]>,
 ) -> Option<Matrix3<f64>> {
     let mut sum = Matrix3::zeros();

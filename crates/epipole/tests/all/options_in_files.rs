@@ -12,6 +12,7 @@ use epipole::sfm::{
     TwoViewReconstructionOptions,
 };
 use epipole::stereo::{RectifyOptions, StereoBm, StereoSgm};
+use epipole::stitch::{OverlapOptions, RenderOptions};
 use epipole::two_view::TwoViewOptions;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
@@ -40,10 +41,12 @@ fn every_kind_of_options_goes_through_a_file() {
     check::<MatchOptions>();
     check::<OdometryOptions>();
     check::<OrbOptions>();
+    check::<OverlapOptions>();
     check::<PhotoOptions>();
     check::<RansacOptions>();
     check::<RectifyOptions>();
     check::<RefineOptions>();
+    check::<RenderOptions>();
     check::<SfmOptions>();
     check::<SiftOptions>();
     check::<StereoBm>();

@@ -37,11 +37,13 @@ pub(super) enum Model {
     the matches, if they tell it, or else taken to be 1.2 times the longer side.\n\n\
     A match can miss an epipolar line in one dimension, a plane or a turn in two. So, when auto finds\n\
     one of these, its inliers have a Sampson error of H of up to 1.25 times --max-error-px.\n\n\
+    --matches reads what epipole match -o or another matcher wrote: u1 v1 u2 v2 a line. Without photos, intrinsics\n\
+    are those of --k or --camera.\n\n\
     With --camera E and H are of rays, x2ᵀ E x1 = 0 and x2 ∝ H x1, and there is no F. Errors stay those of the\n\
     photographs: of H in image 2, where those of an auto search may be 1.25 √2 times --max-error-px.\n\n\
     JSON: model_kind (fundamental, essential or homography), model (9 numbers row by row),\n\
     model_of (pixels; rays with --camera; of an E always rays),\n\
-    num_keypoints (of both photographs), num_matches, num_inliers, matches ([u1, v1, u2, v2, 1 for an\n\
+    num_keypoints (of both photographs; null with --matches), num_matches, num_inliers, matches ([u1, v1, u2, v2, 1 for an\n\
     inlier or 0] each), cam2_from_cam1 (rotation and translation of length 1, or 0 if the camera only\n\
     turned; null if unknown), other_cam2_from_cam1 (of a plane: another motion that fits as well, or\n\
     null), focals_px (with --model essential the focal lengths of both photographs, else null),\n\
@@ -51,9 +53,22 @@ pub(super) enum Model {
 )]
 pub(crate) struct Arguments {
     /// The first photograph.
-    pub(super) first: PathBuf,
+    #[arg(
+        value_name = "FIRST",
+        required_unless_present = "matches",
+        requires = "second"
+    )]
+    pub(super) first: Option<PathBuf>,
     /// The second photograph.
-    pub(super) second: PathBuf,
+    #[arg(
+        value_name = "SECOND",
+        required_unless_present = "matches",
+        requires = "first"
+    )]
+    pub(super) second: Option<PathBuf>,
+    /// Take the matches of a file instead of features; the photos may then be left out.
+    #[arg(long, value_name = "FILE")]
+    pub(super) matches: Option<PathBuf>,
     /// Which model to look for.
     #[arg(long, value_enum, default_value = "auto")]
     pub(super) model: Model,

@@ -328,13 +328,13 @@ fn warn_of_turn(
     if found.configuration != "planar" {
         return Ok(());
     }
-    let (intrinsics, _) = arguments.camera.or_guess(photos)?;
     let options = arguments.options(context).within(found.max_error_px);
     let inliers = &found.inliers;
     let unmoved = left_open_by_homography(pixels1, pixels2, inliers, &options.ransac)?;
+    let can_guess = arguments.first.is_some() || arguments.camera.is_given();
     let sentence = match unmoved {
-        None => {
-            let [k1, k2] = intrinsics;
+        None if can_guess => {
+            let ([k1, k2], _) = arguments.camera.or_guess(photos)?;
             let cameras = [photos[0].camera(k1), photos[1].camera(k2)];
             turn::sentence_of_other_focal(pixels1, pixels2, cameras.each_ref(), inliers, &options)?
         }

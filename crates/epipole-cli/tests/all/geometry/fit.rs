@@ -172,12 +172,12 @@ fn files_of_matches_that_say_nothing_are_refused() {
         (
             "homography",
             "1 2 3 4\n\n5 6 7\n".to_owned(),
-            ":3: here should be 4 numbers, not \"5 6 7\"",
+            "line 3: here should be 4 numbers, not \"5 6 7\"",
         ),
         (
             "homography",
             format!("{good}1 nan 2 3"),
-            ":5: here should be 4 numbers",
+            "line 5: here should be 4 numbers",
         ),
         (
             "fundamental",

@@ -136,7 +136,7 @@ fn a_byte_order_mark_is_no_part_of_a_row() {
     // Anywhere else it is.
     let file = folder.write("matches.txt", &format!("{rows}\u{feff}1 2 3 4"));
     let arguments = ["fit", "--model", "similarity", path(&file)];
-    fails(&folder, &arguments, 1, ":4: here should be 4 numbers");
+    fails(&folder, &arguments, 1, "line 4: here should be 4 numbers");
 }
 
 /// The output gives the reason for the end and the required number of samples, with a warning if

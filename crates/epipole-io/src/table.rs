@@ -1,60 +1,51 @@
-//! Files with a row of numbers in each line, as text editors, spreadsheets and programs write them.
+//! Text files with a row of numbers in each line, as text editors, spreadsheets and programs write
+//! them.
 
-use crate::failure::Failure;
-use std::path::Path;
-
-/// Names of columns in a header, in lower case: of points, of matches.
-const NAMES: [&[&str]; 4] = [
-    &["u", "v"],
-    &["x", "y"],
-    &["u1", "v1", "u2", "v2"],
-    &["x1", "y1", "x2", "y2"],
-];
+use crate::text::{decode, lines};
+use crate::{Error, Result};
 
 /// Rows from which a first column that counts them is no chance.
 const MIN_COUNTED: usize = 3;
 
 /// The rows of a text: numbers between commas, semicolons, tabs or spaces, in quotes or brackets,
-/// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. What follows a `#` is a
-/// comment. A first line of names says which columns these are, otherwise they are the first ones.
+/// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. The rest of a line
+/// after `#` is a comment. A first line of names orders the columns; otherwise they are the first
+/// ones.
 ///
-/// * `path`: file that is named in errors
-/// * `columns`: numbers of a row, 2 for points or 4 for matches; further ones are ignored
+/// * `names`: possible names of the columns in a header, in lower case; further columns are ignored
 ///
 /// # Errors
-/// A sentence that names the line with fewer numbers, NaN, or a decimal comma that could be
-/// something else; one about a first column that counts the rows. Infinities stay: robust searches
-/// leave them out and say so.
-pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f64>>, Failure> {
+/// [`Error::Malformed`] with the line that has fewer numbers, NaN, or a decimal comma that could
+/// be something else; also for a first column that counts the rows. Infinities stay.
+pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<Vec<[f64; N]>> {
     let mut rows = Vec::new();
-    let mut header: Option<Header> = None;
+    let mut header: Option<Header<N>> = None;
     // The first numbers of rows with more than are needed.
     let mut counted = Vec::new();
     let mut is_first = true;
-    for (index, line) in text.lines().enumerate() {
-        let line = line.split('#').next().unwrap_or("").trim();
-        if line.is_empty() {
-            continue;
-        }
-        let malformed = |why: String| {
-            let place = format!("{}:{}", path.display(), index + 1);
-            Failure::new("malformed", format!("{place}: {why}"))
-        };
-        let fields = fields(line, columns).map_err(malformed)?;
+    for (number, line) in lines(decode(bytes)?) {
+        let fields = fields(line, N).map_err(|error| error.on_line(number))?;
         if std::mem::take(&mut is_first) && is_header(&fields) {
-            header = Some(Header::read(&fields, columns).map_err(malformed)?);
+            let read = Header::read(&fields, names);
+            header = Some(read.map_err(|error| error.on_line(number))?);
             continue;
         }
         let row = match &header {
-            Some(header) => header.pick(&fields).map_err(malformed)?,
-            None => fields.iter().take(columns).collect(),
+            Some(header) => (header.pick(&fields)).map_err(|error| error.on_line(number))?,
+            None => fields.iter().take(N).collect(),
         };
-        let numbers: Vec<f64> = row.iter().map_while(|field| number(field)).collect();
-        if numbers.len() < columns || numbers.iter().any(|number| number.is_nan()) {
-            let why = format!("here should be {columns} numbers, not \"{line}\"");
-            return Err(malformed(why));
-        }
-        if header.is_none() && fields.len() > columns {
+        let numbers: Vec<f64> = row.iter().map_while(|field| self::number(field)).collect();
+        let whole = <[f64; N]>::try_from(numbers);
+        let numbers = (whole.ok())
+            .filter(|numbers| !numbers.iter().any(|number| number.is_nan()))
+            .ok_or_else(|| {
+                let expected = match &header {
+                    Some(_) => format!("{N} numbers, {}", expected(names)),
+                    None => format!("{N} numbers"),
+                };
+                Error::at(number, format!("here should be {expected}, not \"{line}\""))
+            })?;
+        if header.is_none() && fields.len() > N {
             counted.push(numbers[0]);
         }
         rows.push(numbers);
@@ -62,11 +53,10 @@ pub(crate) fn parse(text: &str, path: &Path, columns: usize) -> Result<Vec<Vec<f
     let counts = |from: f64| (counted.iter().zip(0..)).all(|(&n, at)| n == from + f64::from(at));
     let is_counted = counted.len() >= MIN_COUNTED && counted.len() == rows.len();
     if is_counted && (counts(0.0) || counts(1.0)) {
-        let message = format!(
+        return Err(Error::malformed(format!(
             "the first column counts the rows, so it is no coordinate: remove it, or name the columns in a first line, {}",
-            expected(columns)
-        );
-        return Err(Failure::new("malformed", message).about(path));
+            expected(names)
+        )));
     }
     Ok(rows)
 }
@@ -80,7 +70,7 @@ struct Field {
 }
 
 /// Splits a line at semicolons, or else tabs, or else commas, or else spaces.
-fn fields(line: &str, columns: usize) -> Result<Vec<Field>, String> {
+fn fields(line: &str, columns: usize) -> Result<Vec<Field>> {
     // A tab among spaces and commas is one of the spaces.
     let is_table = line.matches('\t').count() + 1 >= columns;
     let separator = [';', '\t', ',']
@@ -94,9 +84,9 @@ fn fields(line: &str, columns: usize) -> Result<Vec<Field>, String> {
                 .is_some_and(|(a, b)| digits(a.trim_start_matches(['-', '+'])) && digits(b))
         };
         if let Some(word) = words.iter().find(is_decimal) {
-            return Err(format!(
+            return Err(Error::malformed(format!(
                 "decimal comma in \"{word}\": write a point, or separate the numbers by semicolons"
-            ));
+            )));
         }
     }
     let mut fields = Vec::new();
@@ -181,50 +171,48 @@ fn is_header(fields: &[Field]) -> bool {
 }
 
 /// Names of the columns that are expected, in words.
-fn expected(columns: usize) -> String {
-    let known = NAMES.iter().filter(|names| names.len() == columns);
-    let known: Vec<String> = known.map(|names| names.join(" ")).collect();
+fn expected<const N: usize>(names: &[[&str; N]]) -> String {
+    let known: Vec<String> = names.iter().map(|names| names.join(" ")).collect();
     known.join(" or ")
 }
 
 /// Places of the numbers in a row.
-struct Header {
-    places: Vec<usize>,
+struct Header<const N: usize> {
+    places: [usize; N],
     num_fields: usize,
 }
 
-impl Header {
-    fn read(fields: &[Field], columns: usize) -> Result<Self, String> {
+impl<const N: usize> Header<N> {
+    fn read(fields: &[Field], known: &[[&str; N]]) -> Result<Self> {
         let names: Vec<String> = fields
             .iter()
             .map(|field| field.text.to_lowercase())
             .collect();
-        let find = |wanted: &[&str]| -> Option<Vec<usize>> {
+        let find = |wanted: &[&str; N]| -> Option<[usize; N]> {
             let place = |name: &&str| names.iter().position(|other| other == name);
-            wanted.iter().map(place).collect()
+            let places: Option<Vec<usize>> = wanted.iter().map(place).collect();
+            places?.try_into().ok()
         };
-        // Matches have points, too.
-        let known = NAMES.iter().filter(|names| names.len() >= columns);
-        match known.map(|names| &names[..columns]).find_map(find) {
+        match known.iter().find_map(find) {
             Some(places) => Ok(Self {
                 places,
                 num_fields: fields.len(),
             }),
-            None => Err(format!(
+            None => Err(Error::malformed(format!(
                 "the first line names no columns {}, but {}",
-                expected(columns),
+                expected(known),
                 names.join(" ")
-            )),
+            ))),
         }
     }
 
-    fn pick<'a>(&self, fields: &'a [Field]) -> Result<Vec<&'a Field>, String> {
+    fn pick<'a>(&self, fields: &'a [Field]) -> Result<Vec<&'a Field>> {
         if fields.len() > self.num_fields {
-            return Err(format!(
+            return Err(Error::malformed(format!(
                 "the first line names {} columns, but here are {}",
                 self.num_fields,
                 fields.len()
-            ));
+            )));
         }
         Ok(self
             .places
@@ -236,17 +224,17 @@ impl Header {
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test may fail")]
-
     use super::*;
 
-    fn read(text: &str) -> Result<Vec<Vec<f64>>, Failure> {
-        parse(text, Path::new("file"), 4)
+    const MATCHES: [[&str; 4]; 2] = [["u1", "v1", "u2", "v2"], ["x1", "y1", "x2", "y2"]];
+
+    fn read(text: &str) -> Result<Vec<[f64; 4]>> {
+        super::read(text.as_bytes(), &MATCHES)
     }
 
     #[test]
     fn numbers_are_read_however_they_are_separated() {
-        let expected = [[1.5, -2.0, 300.0, 4.25], [5.0, 6.0, 7.0, 8.5]].map(|row| row.to_vec());
+        let expected = [[1.5, -2.0, 300.0, 4.25], [5.0, 6.0, 7.0, 8.5]];
         for text in [
             "1.5 -2 300 4.25\n5 6 7 8.5",
             "1.5,-2,300,4.25\r\n5, 6 , 7,8.5,\r\n",
@@ -267,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_header_names_the_columns() {
-        let expected = [vec![1.0, 2.0, 3.0, 4.0]];
+        let expected = [[1.0, 2.0, 3.0, 4.0]];
         for text in [
             "u1,v1,u2,v2\n1,2,3,4",
             "X2;Y2;id;X1;Y1\n3;4;a b;1;2",
@@ -276,8 +264,8 @@ mod tests {
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text}");
         }
-        let points = parse("id,x,y\n7,1,2", Path::new("file"), 2).unwrap();
-        assert_eq!(points, [vec![1.0, 2.0]]);
+        let points = super::read("id,x,y\n7,1,2".as_bytes(), &[["x", "y"]]).unwrap();
+        assert_eq!(points, [[1.0, 2.0]]);
     }
 
     #[test]
@@ -286,22 +274,22 @@ mod tests {
         for (text, why) in [
             (
                 "1 2 3 4\n1,5 2,5 3,5 4,5",
-                "file:2: decimal comma in \"1,5\"",
+                "line 2: decimal comma in \"1,5\"",
             ),
-            ("1.234,5;2;3;4", "file:1: here should be 4 numbers"),
+            ("1.234,5;2;3;4", "line 1: here should be 4 numbers"),
             (
                 "a,b,c,d\n1,2,3,4",
                 "names no columns u1 v1 u2 v2 or x1 y1 x2 y2, but a b c d",
             ),
             (
                 "u1,v1,u2,v2\n0,1,2,3,4",
-                "file:2: the first line names 4 columns, but here are 5",
+                "line 2: the first line names 4 columns, but here are 5",
             ),
-            ("1,2,,4,5", "file:1: here should be 4 numbers"),
+            ("1,2,,4,5", "line 1: here should be 4 numbers"),
             (&ten, "the first column counts the rows"),
-            ("1 2 3 4\nu1 v1 u2 v2", "file:2: here should be 4 numbers"),
+            ("1 2 3 4\nu1 v1 u2 v2", "line 2: here should be 4 numbers"),
         ] {
-            let told = read(text).unwrap_err().message;
+            let told = read(text).unwrap_err().to_string();
             assert!(told.contains(why), "{text}: {told}");
         }
         // Just the columns that are needed may count.

@@ -1,0 +1,127 @@
+//! New photos of `epipole localize`.
+
+use super::arguments::Arguments;
+use super::known::Known;
+use crate::camera::sentence;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::known_camera::tell_of_unseen;
+use crate::lens;
+use crate::listing::Listed;
+use crate::photo::Photo;
+use crate::progress::Progress;
+use epipole::Error;
+use epipole::camera::{Camera, RigidTransform};
+use epipole::sfm::{LocalizeOptions, PhotoFeatures, SfmImage};
+use nalgebra::Point3;
+
+/// A photo with its camera and features.
+pub(super) struct NewPhoto {
+    pub(super) name: String,
+    pub(super) camera: Camera,
+    features: PhotoFeatures,
+}
+
+/// A pose in the model.
+pub(super) struct Localized {
+    pub(super) cam_from_world: RigidTransform,
+    pub(super) num_inliers: usize,
+    pub(super) num_matches: usize,
+}
+
+impl Localized {
+    pub(super) fn center(&self) -> [f64; 3] {
+        let center = self
+            .cam_from_world
+            .inverse_transform_point(&Point3::origin());
+        [center.x, center.y, center.z]
+    }
+}
+
+impl NewPhoto {
+    /// Reads a photo and finds its features.
+    ///
+    /// * `cameras`: of the model, one of which may be the photo's
+    ///
+    /// # Errors
+    /// A sentence that names the file.
+    pub(super) fn read(
+        arguments: &Arguments,
+        listed: &Listed,
+        cameras: &[Camera],
+        context: &Context,
+    ) -> Result<Self, Failure> {
+        let path = &listed.path;
+        let own = match &arguments.camera_file {
+            Some(file) => {
+                let camera = lens::read(file, Some(path))?;
+                tell_of_unseen(&camera, context)?;
+                Some(camera)
+            }
+            None if arguments.camera.is_given() => None,
+            None => {
+                let size = lens::size_of(path);
+                let fits = |camera: &&Camera| size == Some((camera.width, camera.height));
+                cameras.iter().find(fits).copied()
+            }
+        };
+        let photo = match &own {
+            Some(camera) => Photo::by_camera(path, arguments.size, camera, context)?,
+            None => Photo::prepared(path, arguments.size, None, context)?,
+        };
+        if arguments.camera_file.is_some() && photo.lens.is_none() {
+            let message = "the camera of --camera was calibrated for another size";
+            return Err(Failure::new("size-mismatch", message).about(path));
+        }
+        let (k, guess) = arguments.camera.or_guess(&photo)?;
+        if let Some(sentence) = sentence(guess.as_slice()) {
+            context.warn(&format!("{}: {sentence}", listed.name));
+        }
+        let found = arguments.features.detect(&photo, context)?;
+        Ok(Self {
+            name: listed.name.clone(),
+            camera: photo.camera(k),
+            features: PhotoFeatures {
+                image: SfmImage {
+                    keypoints: found.keypoints.iter().map(|k| k.point()).collect(),
+                    ..SfmImage::default()
+                },
+                descriptors: found.descriptors,
+                keypoints: Vec::new(),
+            },
+        })
+    }
+
+    /// The pose in a model, or the reason why there is none.
+    ///
+    /// # Errors
+    /// If Ctrl-C ends it.
+    pub(super) fn localize(
+        &self,
+        arguments: &Arguments,
+        known: &Known,
+        context: &Context,
+    ) -> Result<Result<Localized, String>, Failure> {
+        let options = LocalizeOptions::default()
+            .with_matching(arguments.matching.options())
+            .with_ransac(arguments.robust.options(context))
+            .with_min_num_inliers(arguments.min_inliers);
+        let progress = Progress::new(context, "localization");
+        let found = known.reconstruction.localize(
+            &known.features,
+            &self.features,
+            &self.camera,
+            &options,
+            &mut |status| progress.show(status),
+        );
+        match found {
+            Ok(found) => Ok(Ok(Localized {
+                cam_from_world: found.cam_from_world,
+                num_inliers: found.inliers.len(),
+                num_matches: found.num_matches,
+            })),
+            Err(Error::Canceled) => Err(Error::Canceled.into()),
+            Err(error) => Ok(Err(error.to_string())),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Points that determine no pose, and units that do not fit.
+
+use super::arguments::View;
+use crate::context::Context;
+use crate::failure::Failure;
+use nalgebra::{Point2, Point3, Vector3};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Fewest points of a pose that is unique.
+pub(super) const MIN_POINTS: usize = 4;
+
+/// Points nearer to a line than this share of its length are on it.
+const FLAT: f64 = 1e-6;
+
+/// Pixels within ± this are shares of an image or rays.
+const SHARES: f64 = 2.0;
+
+/// A pixel this many times as far as the principal point is beyond the image.
+const BEYOND: f64 = 3.0;
+
+/// Sentence for four points without a focal length.
+pub(super) const NO_FOCAL: &str = "no focal length fits these points: three of them lie on one line, in the world or in \
+    the image, their plane faces the camera, or a pixel belongs to another point";
+
+/// Refuses points that leave the pose open.
+///
+/// # Errors
+/// A sentence that says why.
+pub(super) fn check(pixels: &[Point2<f64>], points: &[Point3<f64>]) -> Result<(), Failure> {
+    let distinct = |keys: &mut dyn Iterator<Item = Vec<u64>>| keys.collect::<BTreeSet<_>>().len();
+    // −0 equals 0.
+    let key = |numbers: &[f64]| numbers.iter().map(|x| (x + 0.0).to_bits()).collect();
+    let num_points = distinct(&mut points.iter().map(|x| key(x.coords.as_slice())));
+    let num_pixels = distinct(&mut pixels.iter().map(|x| key(x.coords.as_slice())));
+    let rows = points.len();
+    let too_few = |message: String| Err(Failure::new("too-few", message));
+    if rows < MIN_POINTS {
+        return too_few(format!(
+            "there are {rows} points, and a pose needs {MIN_POINTS}: three have up to four poses"
+        ));
+    }
+    if num_points < MIN_POINTS {
+        return too_few(format!(
+            "only {num_points} of the {rows} points are different, and a pose needs {MIN_POINTS}"
+        ));
+    }
+    if num_pixels < MIN_POINTS {
+        return too_few(format!(
+            "the {rows} points are seen at only {num_pixels} different pixels, and a pose needs {MIN_POINTS}"
+        ));
+    }
+    if are_on_a_line(points) {
+        let message =
+            "all points lie on one line: a turn about it moves no pixel, so the pose is open";
+        return Err(Failure::new("degenerate", message));
+    }
+    Ok(())
+}
+
+fn are_on_a_line(points: &[Point3<f64>]) -> bool {
+    let farthest = |from: &Point3<f64>| -> Vector3<f64> {
+        let sides = points.iter().map(|x| x - from);
+        sides
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()))
+            .unwrap_or_default()
+    };
+    let end = points[0] + farthest(&points[0]);
+    let along = farthest(&end);
+    let length = along.norm();
+    let beside = |x: &Point3<f64>| along.cross(&(x - end)).norm() / length;
+    points.iter().all(|x| beside(x) <= FLAT * length)
+}
+
+/// Warns of pixels that cannot be those of the camera.
+pub(super) fn warn_of_units(pixels: &[Point2<f64>], view: &View, context: &Context) {
+    let k = view.camera().intrinsics;
+    let center = k.principal_point();
+    let reach = pixels
+        .iter()
+        .map(|pixel| pixel.coords.amax())
+        .fold(0.0, f64::max);
+    if reach <= SHARES && k.fu_px() > 10.0 * SHARES {
+        context.warn(&format!(
+            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
+             Multiply them by its size, or give --k 1,1,0,0 with a small \
+             --max-error-px for rays"
+        ));
+    }
+    let beyond = |at: fn(&Point2<f64>) -> f64| {
+        let most = pixels.iter().map(at).fold(0.0, f64::max);
+        (at(&center) > 0.0 && most > BEYOND * at(&center)).then_some((most, at(&center)))
+    };
+    if let Some((most, center)) = beyond(|pixel| pixel.x).or(beyond(|pixel| pixel.y)) {
+        context.warn(&format!(
+            "pixels reach to {most:.0}, and the principal point at {center:.0} is that of an image about {:.0} long: \
+             intrinsics must be of the size of the image that the pixels are from",
+            2.0 * center
+        ));
+    }
+}
+
+/// Says what to look at where no pose fits.
+pub(super) fn with_advice(failure: Failure, path: &Path) -> Failure {
+    let failure = failure.about(path);
+    match failure.kind {
+        "no-consensus" => Failure {
+            message: format!("{failure}; {ADVICE}"),
+            ..failure
+        },
+        _ => failure,
+    }
+}
+
+/// Usual causes of points without a pose.
+pub(super) const ADVICE: &str =
+    "are the columns u v x y z, and the intrinsics those of this image?";
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    #[test]
+    fn points_on_a_line_are_found_at_any_place_and_scale() {
+        for (place, scale) in [(0.0, 1.0), (1e3, 1.0), (0.0, 1e-9), (1e6, 1e3)] {
+            let point = |n: u32| Vector3::new(1.0, 2.0, -0.5) * f64::from(n * n) * scale;
+            let mut line: Vec<_> = (0..6)
+                .map(|n| Point3::from(point(n)).map(|x| x + place))
+                .collect();
+            assert!(are_on_a_line(&line), "{place} {scale}");
+            line[3].x += 0.01 * scale;
+            assert!(!are_on_a_line(&line), "{place} {scale}");
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Command-line options of `epipole stitch`.
+
+use crate::camera::CameraArguments;
+use crate::features::{FeatureArguments, MatchArguments};
+use crate::listing::ListingArguments;
+use crate::matrices::positive;
+use crate::reading::SizeArguments;
+use clap::{Args, ValueEnum};
+use epipole::stitch::{Blend, RenderOptions, Surface};
+use std::path::PathBuf;
+
+/// Model that the photos share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Model {
+    /// A place: the camera only turned.
+    Rotation,
+    /// A plane, such as a wall or a page; the camera may move.
+    Homography,
+}
+
+/// Projection of a panorama.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Projection {
+    /// Lines stay straight; up to 120°.
+    Plane,
+    /// Verticals stay straight; all around.
+    Cylinder,
+    /// All around, up and down.
+    Sphere,
+}
+
+/// Blending where photos overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Blending {
+    /// Coarse and fine details apart.
+    Bands,
+    /// Means by the distance to the border.
+    Feather,
+    /// None.
+    Seams,
+}
+
+const EXAMPLE: &str = "Example: epipole stitch left.jpg middle.jpg right.jpg -o panorama.jpg";
+
+/// Join photos from one place, or of one plane, to one picture.
+#[derive(Debug, Args)]
+#[command(
+    after_help = EXAMPLE,
+    after_long_help = "Example: epipole stitch left.jpg middle.jpg right.jpg -o panorama.jpg\n\n\
+    All photos share one focal length, that of --k, --focal-px or --camera, or else one that is found from the matches.\n\
+    Photos that overlap no other are left out. Where the camera moved between two photos, near things do not fit.\n\n\
+    JSON: width, height, focal_px (of the panorama; null with --model homography), files, num_stitched, mean_error_px\n\
+    (of the matches that agree), photos (name; rotation: from the frame of the panorama, which looks along z with y\n\
+    down, to the camera, 9 numbers row by row, null with --model homography; pixel_from_direction: from a direction of\n\
+    the panorama to a pixel, 9 numbers; null for those that are left out), overlaps (names, num_matches, num_inliers,\n\
+    mean_error_px, parallax: whether the camera moved)."
+)]
+pub(crate) struct Arguments {
+    /// Photos, or folders of them.
+    #[arg(required = true, value_name = "PHOTO")]
+    pub(super) photos: Vec<PathBuf>,
+    /// The .png or .jpg file to write.
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+    /// Model that the photos share.
+    #[arg(long, value_enum, default_value = "rotation")]
+    pub(super) model: Model,
+    /// Projection [default: cylinder, or plane with --model homography].
+    #[arg(long, value_enum)]
+    projection: Option<Projection>,
+    /// Blending where photos overlap.
+    #[arg(long, value_enum, default_value = "bands", help_heading = "Picture")]
+    blend: Blending,
+    /// Keep the exposures of the photos.
+    #[arg(long, help_heading = "Picture")]
+    keep_exposures: bool,
+    /// A larger picture is downscaled to M megapixels.
+    #[arg(long, value_name = "M", value_parser = positive, default_value_t = 100.0, help_heading = "Picture")]
+    max_output_megapixels: f64,
+    #[command(flatten)]
+    pub(super) camera: CameraArguments,
+    /// Camera file of the photos, whose distortion is removed (FILE#NAME: one of several).
+    #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "focal_px"])]
+    pub(super) camera_file: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) listing: ListingArguments,
+    #[command(flatten)]
+    pub(super) features: FeatureArguments,
+    #[command(flatten)]
+    pub(super) matching: MatchArguments,
+    #[command(flatten)]
+    pub(super) size: SizeArguments,
+}
+
+impl Arguments {
+    /// Whether the projection is one that photos of a plane do not have.
+    pub(super) fn is_bent(&self) -> bool {
+        !matches!(self.projection, None | Some(Projection::Plane))
+    }
+
+    /// Options of the core.
+    pub(super) fn render_options(&self) -> RenderOptions {
+        let surface = match (self.projection, self.model) {
+            (Some(Projection::Plane), _) | (None, Model::Homography) => Surface::Plane,
+            (Some(Projection::Cylinder), _) | (None, Model::Rotation) => Surface::Cylinder,
+            (Some(Projection::Sphere), _) => Surface::Sphere,
+        };
+        RenderOptions::default()
+            .with_surface(surface)
+            .with_blend(match self.blend {
+                Blending::Bands => Blend::Bands,
+                Blending::Feather => Blend::Feather,
+                Blending::Seams => Blend::Seams,
+            })
+            .with_gains(!self.keep_exposures)
+            .with_max_pixels((1e6 * self.max_output_megapixels).max(1.0) as u64)
+    }
+}

@@ -1,0 +1,161 @@
+//! Pairs of photos that overlap, and how well they fit.
+
+use super::arguments::Arguments;
+use super::input::Input;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::progress::Progress;
+use epipole::Error;
+use epipole::feature::Match;
+use epipole::progress::Part;
+use epipole::sfm::{PhotoOptions, match_photos};
+use epipole::stitch::{Overlap, OverlapOptions, Panorama, find_overlap};
+use nalgebra::{Matrix3, Point2};
+use serde_json::{Value, json};
+
+/// Share of the work after which all is matched.
+const MATCHED: f32 = 0.8;
+
+/// Matches that are farther off than this many pixels after all photos are in place do not fit.
+const FITS_PX: f64 = 6.0;
+
+/// A smaller share of the matches of an overlap that fits is parallax.
+const MOST: f64 = 0.7;
+
+/// All overlaps.
+pub(super) struct Overlaps {
+    pub(super) found: Vec<Overlap>,
+}
+
+/// Errors of all overlaps.
+pub(super) struct Judged {
+    pub(super) mean_error_px: f64,
+    pub(super) rows: Vec<Value>,
+}
+
+impl Overlaps {
+    /// Matches all photos with each other.
+    ///
+    /// # Errors
+    /// A sentence that names photos, if no two overlap.
+    pub(super) fn find(
+        arguments: &Arguments,
+        input: &Input,
+        context: &Context,
+    ) -> Result<Self, Failure> {
+        let photo_options = PhotoOptions::default()
+            .with_features(arguments.features.options())
+            .with_matching(arguments.matching.options());
+        let options = OverlapOptions::default();
+        let options = options.with_ransac(options.ransac.with_seed(context.seed));
+        let progress = Progress::new(context, "overlaps");
+        let watch = &mut |status| progress.show(status);
+        let mut part = Part::new(watch, 0.0, MATCHED);
+        let (images, pairs) = match_photos(&input.photos, &photo_options, &mut part)?;
+        let mut found = Vec::new();
+        let share = |n: usize| MATCHED + (1.0 - MATCHED) * n as f32 / pairs.len() as f32;
+        for (n, pair) in pairs.iter().enumerate() {
+            let list = |image: usize, side: fn(&Match) -> usize| -> Vec<Point2<f64>> {
+                let keypoints = &images[image].keypoints;
+                pair.matches
+                    .iter()
+                    .map(|found| keypoints[side(found)])
+                    .collect()
+            };
+            let (a, b) = (
+                list(pair.image1, |m| m.index1),
+                list(pair.image2, |m| m.index2),
+            );
+            let mut part = Part::new(watch, share(n), share(n + 1));
+            let numbers = [pair.image1, pair.image2];
+            match find_overlap(numbers, &a, &b, &options, &mut part) {
+                Err(Error::Canceled) => return Err(Error::Canceled.into()),
+                overlap => found.extend(overlap?),
+            }
+        }
+        if found.is_empty() {
+            let most = pairs.iter().max_by_key(|pair| pair.matches.len());
+            let most = most.map_or_else(String::new, |pair| {
+                format!(
+                    ": most matches have {} and {}, {}, and they do not agree",
+                    input.photos[pair.image1].name,
+                    input.photos[pair.image2].name,
+                    pair.matches.len()
+                )
+            });
+            return Err(Failure::new(
+                "no-consensus",
+                format!("no two photos overlap{most}"),
+            ));
+        }
+        Ok(Self { found })
+    }
+
+    /// Measures the overlaps in a panorama; warns of photos that are left out and of cameras that
+    /// moved.
+    pub(super) fn judge(&self, panorama: &Panorama, input: &Input, context: &Context) -> Judged {
+        let names = |overlap: &Overlap| overlap.images.map(|image| &*input.photos[image].name);
+        let left_out: Vec<&str> = (input.photos.iter().zip(&panorama.pixel_from_direction))
+            .filter(|(_, place)| place.is_none())
+            .map(|(photo, _)| &*photo.name)
+            .collect();
+        if !left_out.is_empty() {
+            context.warn(&format!(
+                "left out, for they overlap none of the others: {}",
+                left_out.join(", ")
+            ));
+        }
+        let (mut rows, mut moved) = (Vec::new(), Vec::new());
+        let (mut sum_px, mut count) = (0.0, 0_usize);
+        for overlap in &self.found {
+            let [Some(first), Some(second)] =
+                overlap.images.map(|n| panorama.pixel_from_direction[n])
+            else {
+                continue;
+            };
+            let errors = errors_px(&first, &second, overlap);
+            let fitting: Vec<f64> = errors
+                .iter()
+                .copied()
+                .filter(|error| *error <= FITS_PX)
+                .collect();
+            let sum: f64 = fitting.iter().sum();
+            let is_loose = (fitting.len() as f64) < MOST * errors.len() as f64;
+            let parallax = overlap.has_parallax || is_loose;
+            if parallax {
+                moved.push(names(overlap).join(" and "));
+            }
+            (sum_px, count) = (sum_px + sum, count + fitting.len());
+            rows.push(json!({
+                "names": names(overlap), "num_matches": overlap.num_matches, "num_inliers": fitting.len(),
+                "mean_error_px": sum / fitting.len().max(1) as f64, "parallax": parallax,
+            }));
+        }
+        if !moved.is_empty() {
+            context.warn(&format!(
+                "the camera moved between {}: things at different distances do not fit (parallax). A plane, such as a \
+                 wall, fits with --model homography",
+                moved.join(", ")
+            ));
+        }
+        Judged {
+            mean_error_px: sum_px / count.max(1) as f64,
+            rows,
+        }
+    }
+}
+
+/// Distances in the second photo.
+fn errors_px(first: &Matrix3<f64>, second: &Matrix3<f64>, overlap: &Overlap) -> Vec<f64> {
+    let inverse = first.try_inverse().unwrap_or_default();
+    let transfer = second * inverse;
+    let [pixels1, pixels2] = &overlap.pixels;
+    let error = |(a, b): (&Point2<f64>, &Point2<f64>)| {
+        let seen = transfer * a.to_homogeneous();
+        match seen.z > 0.0 {
+            true => (seen.xy() / seen.z - b.coords).norm(),
+            false => f64::INFINITY,
+        }
+    };
+    pixels1.iter().zip(pixels2).map(error).collect()
+}

@@ -1,0 +1,67 @@
+//! Photographs and matches of `epipole two-view`.
+
+use super::arguments::{Arguments, Model};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::features::matched_pixels;
+use crate::match_file;
+use crate::photo::Photo;
+use nalgebra::Point2;
+
+/// Two photographs and their matches.
+pub(super) struct Input {
+    /// Photos of no pixels where only matches are given.
+    pub(super) photos: [Photo; 2],
+    pub(super) pixels: [Vec<Point2<f64>>; 2],
+    /// `None` for matches of a file.
+    pub(super) nums_keypoints: Option<[usize; 2]>,
+}
+
+impl Input {
+    /// Reads the photographs, and the matches or the features of which they are made.
+    ///
+    /// # Errors
+    /// A sentence that names the file; a sentence about intrinsics that only a photograph tells.
+    pub(super) fn read(arguments: &Arguments, context: &Context) -> Result<Self, Failure> {
+        let photos = match (&arguments.first, &arguments.second) {
+            (Some(first), Some(second)) => {
+                (arguments.known).read([first, second], arguments.size, context)?
+            }
+            _ => without_photos(arguments, context)?,
+        };
+        if let Some(path) = &arguments.matches {
+            return Ok(Self {
+                photos,
+                pixels: match_file::matches(path)?,
+                nums_keypoints: None,
+            });
+        }
+        let found1 = arguments.features.detect(&photos[0], context)?;
+        let found2 = arguments.features.detect(&photos[1], context)?;
+        let matches = arguments.matching.run_best_first(&found1, &found2)?;
+        Ok(Self {
+            photos,
+            pixels: matched_pixels(&matches, &found1, &found2),
+            nums_keypoints: Some([found1.keypoints.len(), found2.keypoints.len()]),
+        })
+    }
+}
+
+fn without_photos(arguments: &Arguments, context: &Context) -> Result<[Photo; 2], Failure> {
+    if arguments.camera.has_focal_only() {
+        return Err(Failure::usage(
+            "--focal-px has the principal point in the middle of a photo: give both photos, or --k fx,fy,cx,cy",
+        ));
+    }
+    let is_known = arguments.known.is_given() || arguments.camera.is_given();
+    if arguments.model == Model::Essential && !is_known {
+        return Err(Failure::usage(
+            "an essential matrix needs --k fx,fy,cx,cy or --camera where there are no photos",
+        ));
+    }
+    let camera = arguments.known.alone(context)?;
+    Ok([
+        Photo::without_pixels(camera.as_ref()),
+        Photo::without_pixels(camera.as_ref()),
+    ])
+}

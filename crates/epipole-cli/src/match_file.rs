@@ -1,0 +1,59 @@
+//! Files of points and matches.
+
+use crate::failure::Failure;
+use crate::files;
+use epipole_io::matches::{
+    MatchLayout, read_matches, read_points, read_points_with_pixels, write_matches,
+};
+use nalgebra::{Point2, Point3};
+use std::path::Path;
+
+fn read<T>(path: &Path, parse: fn(&[u8]) -> epipole_io::Result<T>) -> Result<T, Failure> {
+    let bytes = files::read_bytes(path)?;
+    parse(&bytes).map_err(|error| Failure::from(error).about(path))
+}
+
+/// Reads the matches of two images: the pixels in each.
+///
+/// # Errors
+/// A sentence that names the file and the line.
+pub(crate) fn matches(path: &Path) -> Result<[Vec<Point2<f64>>; 2], Failure> {
+    read(path, read_matches)
+}
+
+/// Reads the points of an image.
+///
+/// # Errors
+/// As [`matches`].
+pub(crate) fn points(path: &Path) -> Result<Vec<Point2<f64>>, Failure> {
+    read(path, read_points)
+}
+
+/// Reads points of the world and their pixels.
+///
+/// # Errors
+/// As [`matches`].
+pub(crate) fn points_with_pixels(
+    path: &Path,
+) -> Result<(Vec<Point2<f64>>, Vec<Point3<f64>>), Failure> {
+    read(path, read_points_with_pixels)
+}
+
+/// Writes matches, with the distance of their descriptors and its ratio to the second nearest; with
+/// commas if the name ends in `.csv`.
+///
+/// # Errors
+/// A sentence that names the file.
+pub(crate) fn write(
+    path: &Path,
+    pixels: [&[Point2<f64>]; 2],
+    distances_and_ratios: &[[f32; 2]],
+) -> Result<(), Failure> {
+    let is_csv = (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let layout = match is_csv {
+        true => MatchLayout::Csv,
+        false => MatchLayout::Text,
+    };
+    let text = write_matches(layout, pixels, distances_and_ratios);
+    files::write(path, text.as_bytes())
+}

@@ -1,0 +1,107 @@
+//! Files of matches: what `epipole match -o` writes, `fit` and `two-view` read.
+
+use crate::common::{Folder, command, fails, json, k, moved, numbers, parse, path};
+use epipole::camera::RigidTransform;
+use nalgebra::Vector3;
+use std::io::Write;
+use std::process::Stdio;
+
+const SIZE: (u32, u32) = (400, 300);
+
+/// Two photos of the still life, and the intrinsics of both.
+fn pair(folder: &Folder) -> String {
+    let motion = RigidTransform::new(
+        Vector3::new(-0.25, 0.02, 0.03),
+        Vector3::new(0.02, 0.17, 0.01),
+    );
+    let cameras = [
+        moved(SIZE, &RigidTransform::identity()),
+        moved(SIZE, &motion),
+    ];
+    for (camera, name) in cameras.iter().zip(["a.png", "b.png"]) {
+        folder.photograph(name, camera, SIZE);
+    }
+    k(&cameras[0])
+}
+
+#[test]
+fn matches_that_were_written_give_the_same_geometry() {
+    let folder = Folder::new("matches");
+    let k = pair(&folder);
+    let [a, b, text, csv] =
+        ["a.png", "b.png", "matches.txt", "matches.csv"].map(|name| folder.file(name));
+    let found = json(&["match", path(&a), path(&b), "-o", path(&text)]);
+    json(&["match", path(&a), path(&b), "-o", path(&csv)]);
+    let written = std::fs::read_to_string(&text).unwrap();
+    assert!(written.starts_with("# u1 v1 u2 v2 distance ratio\n"));
+    let count = found["matches"].as_array().unwrap().len();
+    assert_eq!(written.lines().count(), count + 1);
+    assert!(count > 100, "{count}");
+
+    let mut direct = json(&["two-view", path(&a), path(&b), "--k", &k]);
+    for arguments in [
+        vec!["two-view", "--matches", path(&text), "--k", &k],
+        vec![
+            "two-view",
+            path(&a),
+            path(&b),
+            "--matches",
+            path(&csv),
+            "--k",
+            &k,
+        ],
+    ] {
+        let mut of_file = json(&arguments);
+        assert!(of_file["num_keypoints"].is_null());
+        for result in [&mut of_file, &mut direct] {
+            for field in ["time_ms", "num_keypoints"] {
+                result.as_object_mut().unwrap().remove(field);
+            }
+        }
+        assert_eq!(of_file, direct);
+    }
+    let fits: Vec<_> = [&text, &csv]
+        .map(|file| json(&["fit", "--model", "fundamental", path(file)]))
+        .into();
+    assert_eq!(fits[0]["model"], fits[1]["model"]);
+
+    // Standard input is a file, too.
+    let mut run = command(&["fit", "--model", "fundamental", "-", "--json"])
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    run.stdin
+        .take()
+        .unwrap()
+        .write_all(written.as_bytes())
+        .unwrap();
+    let piped = parse(&run.wait_with_output().unwrap());
+    assert_eq!(numbers(&piped["model"]), numbers(&fits[0]["model"]));
+}
+
+#[test]
+fn without_photos_the_camera_must_be_said() {
+    let folder = Folder::new("matches-alone");
+    let rows = (0..20).map(|n| format!("{} {} {} {}\n", n * 7 % 20, n, n * 7 % 20 + 3, n));
+    let file = folder.write("matches.txt", &rows.collect::<String>());
+    let broken = folder.write("broken.csv", "u1,v1,u2\n1,2,3\n");
+    let matches = ["two-view", "--matches", path(&file)];
+    for (more, expected) in [
+        (
+            &["--model", "essential"][..],
+            "needs --k fx,fy,cx,cy or --camera",
+        ),
+        (&["--focal-px", "500"], "give both photos, or --k"),
+        (&["a.png"], "SECOND"),
+    ] {
+        fails(&folder, &[&matches, more].concat(), 2, expected);
+    }
+    let broken = ["two-view", "--matches", path(&broken)];
+    fails(
+        &folder,
+        &broken,
+        1,
+        "line 1: the first line names no columns u1 v1 u2 v2",
+    );
+    fails(&folder, &["two-view"], 2, "FIRST");
+}

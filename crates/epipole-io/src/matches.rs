@@ -1,0 +1,114 @@
+//! Points and matches: one a line, numbers in columns.
+
+use crate::{Result, table};
+use nalgebra::{Point2, Point3};
+use std::fmt::Write as _;
+
+/// Reads matches of two images: `u1 v1 u2 v2` a line, pixels.
+///
+/// Numbers may stand between commas, semicolons, tabs or spaces, in quotes or brackets; decimal
+/// commas are read between semicolons or tabs. `#` begins a comment. A first line of names,
+/// `u1 v1 u2 v2` or `x1 y1 x2 y2`, allows any order; without one, columns behind the fourth are
+/// ignored.
+///
+/// Returns the pixels in the first image and those in the second.
+///
+/// # Errors
+/// [`Error::Malformed`](crate::Error::Malformed) with the line of a missing number, NaN or an
+/// ambiguous comma, for a first column that counts the rows, and for a file that is no text.
+/// Infinite coordinates are read.
+///
+/// ```
+/// use epipole_io::matches::read_matches;
+/// use nalgebra::Point2;
+/// let [pixels1, pixels2] = read_matches(b"id;u1;v1;u2;v2\n7;10,5;20;30;40,25\n")?;
+/// assert_eq!(pixels1, [Point2::new(10.5, 20.0)]);
+/// assert_eq!(pixels2, [Point2::new(30.0, 40.25)]);
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn read_matches(bytes: &[u8]) -> Result<[Vec<Point2<f64>>; 2]> {
+    let names = [["u1", "v1", "u2", "v2"], ["x1", "y1", "x2", "y2"]];
+    let rows = table::read(bytes, &names)?;
+    Ok([
+        rows.iter().map(|row| Point2::new(row[0], row[1])).collect(),
+        rows.iter().map(|row| Point2::new(row[2], row[3])).collect(),
+    ])
+}
+
+/// Reads points of an image: `u v` a line, pixels. The columns may be named `u v`, `x y`, or as
+/// those of matches, whose first image is taken.
+///
+/// # Errors
+/// As [`read_matches`].
+pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
+    let names = [["u", "v"], ["x", "y"], ["u1", "v1"], ["x1", "y1"]];
+    let rows = table::read(bytes, &names)?;
+    Ok(rows.iter().map(|row| Point2::new(row[0], row[1])).collect())
+}
+
+/// Reads points of the world with their pixels: `u v x y z` a line. A first line of these names
+/// allows any order.
+///
+/// Returns pixels and points, in the unit of the file.
+///
+/// # Errors
+/// As [`read_matches`].
+///
+/// ```
+/// use epipole_io::matches::read_points_with_pixels;
+/// let (pixels, points) = read_points_with_pixels(b"X,Y,Z,u,v\n1,2,3,320,240\n")?;
+/// assert_eq!((pixels[0].x, points[0].z), (320.0, 3.0));
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn read_points_with_pixels(bytes: &[u8]) -> Result<(Vec<Point2<f64>>, Vec<Point3<f64>>)> {
+    let rows = table::read(bytes, &[["u", "v", "x", "y", "z"]])?;
+    let point = |row: &[f64; 5]| Point3::new(row[2], row[3], row[4]);
+    Ok((
+        rows.iter().map(|row| Point2::new(row[0], row[1])).collect(),
+        rows.iter().map(point).collect(),
+    ))
+}
+
+/// Separator and header of a file of matches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MatchLayout {
+    /// Blanks, and the names of the columns in a comment.
+    Text,
+    /// Commas, and the names of the columns in the first line.
+    Csv,
+}
+
+/// Writes matches with the distance of their descriptors and its ratio to the second nearest:
+/// `u1 v1 u2 v2 distance ratio` a line.
+///
+/// ```
+/// use epipole_io::matches::{MatchLayout, read_matches, write_matches};
+/// use nalgebra::Point2;
+/// let [a, b] = [[Point2::new(1.5, 2.0)], [Point2::new(3.0, 0.1)]];
+/// let text = write_matches(MatchLayout::Csv, [&a, &b], &[[0.25, 0.5]]);
+/// assert_eq!(text, "u1,v1,u2,v2,distance,ratio\n1.5,2,3,0.1,0.25,0.5\n");
+/// assert_eq!(read_matches(text.as_bytes())?, [a.to_vec(), b.to_vec()]);
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn write_matches(
+    layout: MatchLayout,
+    [pixels1, pixels2]: [&[Point2<f64>]; 2],
+    distances_and_ratios: &[[f32; 2]],
+) -> String {
+    let (before, separator) = match layout {
+        MatchLayout::Text => ("# ", " "),
+        MatchLayout::Csv => ("", ","),
+    };
+    let names = ["u1", "v1", "u2", "v2", "distance", "ratio"].join(separator);
+    let mut text = format!("{before}{names}\n");
+    for ((a, b), [distance, ratio]) in pixels1.iter().zip(pixels2).zip(distances_and_ratios) {
+        let s = separator;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{}{s}{}{s}{}{s}{}{s}{distance}{s}{ratio}",
+            a.x, a.y, b.x, b.y
+        );
+    }
+    text
+}

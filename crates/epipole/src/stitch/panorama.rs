@@ -1,0 +1,123 @@
+//! Photos in place.
+
+use super::overlap::Overlap;
+use super::tree::largest_tree;
+use super::turns::estimate_turns;
+use crate::camera::Intrinsics;
+use crate::math::svd3;
+use crate::progress::Monitor;
+use crate::{Error, Result};
+use nalgebra::{Matrix3, Vector3};
+
+/// A share of the spread of horizontal axes that tells which way is up.
+const TELLS_UP: f64 = 1e-4;
+
+/// Photos in the frame of a panorama, which looks along z with y down.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panorama {
+    /// For each photo `M`, which maps a direction of the panorama to a pixel, `p ∝ M d`, with
+    /// p.z > 0 where the photo sees it. `None` for photos that overlap no other.
+    pub pixel_from_direction: Vec<Option<Matrix3<f64>>>,
+    /// Rotations of the cameras, for those that turned: `d_in_cam = R d`.
+    pub rotations: Vec<Option<Matrix3<f64>>>,
+    /// Pixels per unit of a direction at z = 1: the focal length, for cameras that turned.
+    pub scale_px: f64,
+    /// Factor of all focal lengths, if one was looked for and the matches tell it.
+    pub focal_factor: Option<f64>,
+}
+
+pub(super) const NO_OVERLAP: Error = Error::Degenerate {
+    what: "a panorama",
+    why: "no two photos overlap",
+};
+
+/// The rotations of photos that were taken from one place, with one factor of their focal lengths.
+///
+/// Overlaps are joined to a tree; the factor of least cost on a grid and the rotation that aligns
+/// the rays of each overlap are the start of a joint refinement by Levenberg–Marquardt, with a
+/// Cauchy loss. The horizon is level where the photos were taken by turning right or left.
+///
+/// * `intrinsics`: of each photo; focal lengths are given or guessed
+/// * `overlaps`: pairs of photos; photos that they do not join to the largest set have no place
+/// * `find_focal`: whether one factor of all focal lengths is looked for, from ¼ to 4
+///
+/// # Errors
+/// [`Error::Degenerate`] if no photos overlap or matches meet in a point, [`Error::Canceled`].
+///
+/// Source: Brown & Lowe 2007, §4 and 5.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::camera::Intrinsics;
+/// use epipole::stitch::{OverlapOptions, estimate_panorama, find_overlap};
+/// use nalgebra::{Point2, Rotation3, Vector3};
+/// let k = Intrinsics::centered(600.0, 640, 480)?;
+/// // A turn by 0.3 to the right.
+/// let turn = Rotation3::from_scaled_axis(Vector3::y() * -0.3);
+/// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(200 + i * 37 % 440), f64::from(i * 71 % 480))).collect();
+/// let p2: Vec<_> = p1.iter().map(|p| k.project(&(turn * k.ray(p)).into()).unwrap()).collect();
+/// let overlap = find_overlap([0, 1], &p1, &p2, &OverlapOptions::default(), &mut ())?.unwrap();
+/// let guess = [Intrinsics::centered(768.0, 640, 480)?; 2];
+/// let found = estimate_panorama(&guess, &[overlap], true, &mut ())?;
+/// assert!((found.scale_px - 600.0).abs() < 1e-3);
+/// # Ok(()) }
+/// ```
+pub fn estimate_panorama(
+    intrinsics: &[Intrinsics],
+    overlaps: &[Overlap],
+    find_focal: bool,
+    monitor: &mut dyn Monitor,
+) -> Result<Panorama> {
+    let tree = largest_tree(intrinsics.len(), overlaps);
+    if tree.edges.is_empty() {
+        return Err(NO_OVERLAP);
+    }
+    let (rotations, focal_factor) =
+        estimate_turns(intrinsics, overlaps, &tree, find_focal, monitor)?;
+    let level = leveled(&rotations);
+    let rotations: Vec<_> = rotations
+        .iter()
+        .map(|r| r.map(|r| r * level.transpose()))
+        .collect();
+    let factor = focal_factor.unwrap_or(1.0);
+    let matrix = |(k, r): (&Intrinsics, &Option<Matrix3<f64>>)| -> Result<_> {
+        r.map(|r| Ok(k.zoomed(factor)?.matrix() * r)).transpose()
+    };
+    let matrices = intrinsics.iter().zip(&rotations).map(matrix);
+    Ok(Panorama {
+        pixel_from_direction: matrices.collect::<Result<_>>()?,
+        rotations,
+        scale_px: intrinsics[tree.root].fu_px() * factor,
+        focal_factor,
+    })
+}
+
+/// The rotation to a frame whose y is perpendicular to the x axes of all cameras, and whose z is
+/// their mean direction.
+///
+/// Source: Brown & Lowe 2007, §5 (automatic panorama straightening).
+fn leveled(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
+    let axis = |row: usize| {
+        let axes = rotations
+            .iter()
+            .flatten()
+            .map(move |r| r.row(row).transpose());
+        axes.collect::<Vec<Vector3<f64>>>()
+    };
+    let spread: Matrix3<f64> = axis(0).iter().map(|x| x * x.transpose()).sum();
+    let mean = |row| axis(row).iter().sum::<Vector3<f64>>();
+    let svd = svd3(&spread);
+    let tells_up = svd.singular_values[1] > TELLS_UP * svd.singular_values[0];
+    let down = match tells_up {
+        true => svd.v.column(2).into_owned(),
+        false => mean(1),
+    };
+    let ahead = mean(2);
+    let signed = down * down.dot(&mean(1)).signum();
+    let right = signed.cross(&ahead);
+    // All around, the mean direction may vanish.
+    let (Some(y), Some(x)) = (signed.try_normalize(1e-9), right.try_normalize(1e-9)) else {
+        return Matrix3::identity();
+    };
+    Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()])
+}

@@ -1,0 +1,169 @@
+//! Rotations of cameras at one place, with one factor of their focal lengths.
+
+use super::jacobian::{Match, Turns, TurnsProblem};
+use super::overlap::Overlap;
+use super::tree::Tree;
+use crate::camera::Intrinsics;
+use crate::optim::{LmOptions, minimize_dense};
+use crate::progress::Monitor;
+use crate::two_view::align_rays;
+use crate::{Error, Result};
+use nalgebra::{DVector, Matrix3, Point2, Vector3};
+
+/// Focal lengths are looked for from the given one over this to the given one times this.
+const WIDEST: f64 = 4.0;
+
+/// Number of factors tried over that range, evenly by their logarithms: steps of 9 %.
+const NUM_TRIED: usize = 33;
+
+/// Maximum number of matches over all overlaps, for the size of the dense Jacobian.
+const MAX_MATCHES: usize = 6000;
+
+/// Minimum number of matches of an overlap that is thinned out.
+const MIN_OF_OVERLAP: usize = 30;
+
+/// Squared error in pixels beyond which a match costs no more.
+const CLIPPED_SQ: f64 = 25.0;
+
+/// Rotations and the focal length that explain the overlaps of a tree best.
+///
+/// * `intrinsics`: of each photo; the focal lengths are given or guessed
+/// * `find_focal`: whether one factor of all focal lengths is looked for
+///
+/// Returns `None` in place of a factor that the matches do not tell: then it is 1.
+///
+/// # Errors
+/// [`Error::Degenerate`] if the matches of an overlap leave its rotation open;
+/// [`Error::Canceled`].
+pub(super) fn estimate_turns(
+    intrinsics: &[Intrinsics],
+    overlaps: &[Overlap],
+    tree: &Tree,
+    find_focal: bool,
+    monitor: &mut dyn Monitor,
+) -> Result<(Vec<Option<Matrix3<f64>>>, Option<f64>)> {
+    let mut number_of = vec![None; intrinsics.len()];
+    let children = tree.edges.iter().map(|edge| edge[0]);
+    for (number, image) in std::iter::once(tree.root).chain(children).enumerate() {
+        number_of[image] = Some(number);
+    }
+    let joined = |overlap: &&Overlap| {
+        overlap
+            .images
+            .iter()
+            .all(|&image| number_of[image].is_some())
+    };
+    let used: Vec<&Overlap> = overlaps.iter().filter(joined).collect();
+    let each = (MAX_MATCHES / used.len().max(1)).max(MIN_OF_OVERLAP);
+    let thinned = |overlap: &Overlap| -> Vec<[Point2<f64>; 2]> {
+        let step = overlap.pixels[0].len().div_ceil(each).max(1);
+        let pairs = overlap.pixels[0].iter().zip(&overlap.pixels[1]);
+        pairs.step_by(step).map(|(a, b)| [*a, *b]).collect()
+    };
+    let pairs: Vec<Vec<[Point2<f64>; 2]>> = used.iter().map(|overlap| thinned(overlap)).collect();
+    let of = |overlap: &Overlap| overlap.images.map(|image| &intrinsics[image]);
+    let cost = |factor: f64| -> f64 {
+        let each = used.iter().zip(&pairs);
+        each.map(|(overlap, pairs)| cost_of(of(overlap), pairs, factor))
+            .sum()
+    };
+    let start = match find_focal {
+        true => best_factor(cost),
+        false => None,
+    };
+    let factor = start.unwrap_or(1.0);
+
+    let mut rotations = vec![None; intrinsics.len()];
+    rotations[tree.root] = Some(Matrix3::identity());
+    for &[child, parent, index] in &tree.edges {
+        let overlap = &overlaps[index];
+        let turn =
+            rotation_of(of(overlap), &thinned(overlap), factor).ok_or(Error::Degenerate {
+                what: "the rotation of a photo",
+                why: "its matches meet in a point",
+            })?;
+        let turn = match overlap.images[0] == parent {
+            true => turn,
+            false => turn.transpose(),
+        };
+        rotations[child] = rotations[parent].map(|of_parent: Matrix3<f64>| turn * of_parent);
+    }
+    let order = std::iter::once(tree.root).chain(tree.edges.iter().map(|edge| edge[0]));
+    let order: Vec<usize> = order.collect();
+    let matches = used.iter().zip(&pairs).flat_map(|(overlap, pairs)| {
+        let [a, b] = overlap.images;
+        let numbers = [a, b].map(|image| number_of[image].unwrap_or(0));
+        pairs.iter().map(move |pixels| Match {
+            images: numbers,
+            pixels: *pixels,
+        })
+    });
+    let problem = TurnsProblem {
+        matches: matches.collect(),
+        turns: Turns {
+            intrinsics: order.iter().map(|&image| intrinsics[image]).collect(),
+            starts: (order.iter())
+                .map(|&image| rotations[image].unwrap_or_default())
+                .collect(),
+            factor,
+        },
+        is_focal_held: start.is_none(),
+    };
+    let mut parameters = DVector::zeros(problem.num_parameters());
+    minimize_dense(&problem, &mut parameters, &LmOptions::default(), monitor)?;
+    for (number, &image) in order.iter().enumerate() {
+        rotations[image] = Some(problem.turns.rotation(&parameters, number));
+    }
+    Ok((rotations, start.map(|_| problem.turns.factor(&parameters))))
+}
+
+/// The factor of least cost; `None` at the end of the range, where every longer focal length fits.
+fn best_factor(cost: impl Fn(f64) -> f64) -> Option<f64> {
+    let at = |n: usize| {
+        let share = n as f64 / (NUM_TRIED - 1) as f64;
+        libm::exp((2.0 * share - 1.0) * libm::log(WIDEST))
+    };
+    let costs: Vec<f64> = (0..NUM_TRIED).map(|n| cost(at(n))).collect();
+    let best = (0..NUM_TRIED).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
+    (best > 0 && best + 1 < NUM_TRIED).then(|| at(best))
+}
+
+fn ray(k: &Intrinsics, pixel: &Point2<f64>, factor: f64) -> Vector3<f64> {
+    let ray = k.ray(pixel);
+    Vector3::new(ray.x, ray.y, ray.z * factor).normalize()
+}
+
+/// The rotation from the first image to the second that aligns the rays best.
+fn rotation_of(
+    [k1, k2]: [&Intrinsics; 2],
+    pairs: &[[Point2<f64>; 2]],
+    factor: f64,
+) -> Option<Matrix3<f64>> {
+    let rays: Vec<[Vector3<f64>; 2]> = (pairs.iter())
+        .map(|[a, b]| [ray(k1, a, factor), ray(k2, b, factor)])
+        .collect();
+    align_rays(rays.iter())
+}
+
+/// Sum of clipped squared errors in image 2, px².
+fn cost_of([k1, k2]: [&Intrinsics; 2], pairs: &[[Point2<f64>; 2]], factor: f64) -> f64 {
+    let most = CLIPPED_SQ * pairs.len() as f64;
+    let Some(rotation) = rotation_of([k1, k2], pairs, factor) else {
+        return most;
+    };
+    let error_sq = |[a, b]: &[Point2<f64>; 2]| {
+        let seen = rotation * ray(k1, a, factor);
+        // As by a camera whose focal length is the factor times as long.
+        let seen = Vector3::new(seen.x, seen.y, seen.z / factor);
+        match seen.z > 0.0 {
+            true => (k2.matrix() * seen / seen.z - b.to_homogeneous())
+                .norm_squared()
+                .min(CLIPPED_SQ),
+            false => CLIPPED_SQ,
+        }
+    };
+    pairs.iter().map(error_sq).sum()
+}
+
+#[cfg(test)]
+mod tests;
