@@ -36,9 +36,9 @@ impl Reach {
     /// the nearest mark.
     pub(super) fn within(clear: f64) -> Self {
         // A window is wider at its corners.
-        let disk = (0.9 * clear).min(CLEAR_SQUARES.disk);
+        let disk = (0.75 * clear).min(CLEAR_SQUARES.disk);
         Self {
-            window: (0.7 * disk).min(CLEAR_SQUARES.window),
+            window: (0.8 * disk).min(CLEAR_SQUARES.window),
             disk,
             stay: clear.min(CLEAR_SQUARES.stay),
         }
