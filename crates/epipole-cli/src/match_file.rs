@@ -3,9 +3,9 @@
 use crate::failure::Failure;
 use crate::files;
 use epipole_io::matches::{
-    MatchLayout, read_matches, read_points, read_points_with_pixels, write_matches,
+    MatchLayout, PixelsAndPoints, read_matches, read_points, read_points_with_pixels, write_matches,
 };
-use nalgebra::{Point2, Point3};
+use nalgebra::Point2;
 use std::path::Path;
 
 fn read<T>(path: &Path, parse: fn(&[u8]) -> epipole_io::Result<T>) -> Result<T, Failure> {
@@ -33,9 +33,7 @@ pub(crate) fn points(path: &Path) -> Result<Vec<Point2<f64>>, Failure> {
 ///
 /// # Errors
 /// As [`matches`].
-pub(crate) fn points_with_pixels(
-    path: &Path,
-) -> Result<(Vec<Point2<f64>>, Vec<Point3<f64>>), Failure> {
+pub(crate) fn points_with_pixels(path: &Path) -> Result<PixelsAndPoints, Failure> {
     read(path, read_points_with_pixels)
 }
 

@@ -46,6 +46,9 @@ pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
     Ok(rows.iter().map(|row| Point2::new(row[0], row[1])).collect())
 }
 
+/// Pixels, and the points of the world that are seen there.
+pub type PixelsAndPoints = (Vec<Point2<f64>>, Vec<Point3<f64>>);
+
 /// Reads points of the world with their pixels: `u v x y z` a line. A first line of these names
 /// allows any order.
 ///
@@ -60,7 +63,7 @@ pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
 /// assert_eq!((pixels[0].x, points[0].z), (320.0, 3.0));
 /// # Ok::<(), epipole_io::Error>(())
 /// ```
-pub fn read_points_with_pixels(bytes: &[u8]) -> Result<(Vec<Point2<f64>>, Vec<Point3<f64>>)> {
+pub fn read_points_with_pixels(bytes: &[u8]) -> Result<PixelsAndPoints> {
     let rows = table::read(bytes, &[["u", "v", "x", "y", "z"]])?;
     let point = |row: &[f64; 5]| Point3::new(row[2], row[3], row[4]);
     Ok((

@@ -25,6 +25,9 @@ const MIN_OF_OVERLAP: usize = 30;
 /// Squared error in pixels beyond which a match costs no more.
 const CLIPPED_SQ: f64 = 25.0;
 
+/// Rotation of each photo; `None` for photos beside the tree.
+pub(super) type Rotations = Vec<Option<Matrix3<f64>>>;
+
 /// Rotations and the focal length that explain the overlaps of a tree best.
 ///
 /// * `intrinsics`: of each photo; the focal lengths are given or guessed
@@ -41,7 +44,7 @@ pub(super) fn estimate_turns(
     tree: &Tree,
     find_focal: bool,
     monitor: &mut dyn Monitor,
-) -> Result<(Vec<Option<Matrix3<f64>>>, Option<f64>)> {
+) -> Result<(Rotations, Option<f64>)> {
     let mut number_of = vec![None; intrinsics.len()];
     let children = tree.edges.iter().map(|edge| edge[0]);
     for (number, image) in std::iter::once(tree.root).chain(children).enumerate() {
