@@ -3,7 +3,7 @@
 use clap::{Arg, Command};
 
 /// Options that `-h` shows, by their long names, in the order of their definition.
-const COMMON: [&str; 58] = [
+const COMMON: [&str; 57] = [
     "align",
     "baseline-m",
     "board",
@@ -38,7 +38,6 @@ const COMMON: [&str; 58] = [
     "num-frames",
     "output",
     "paper",
-    "pattern",
     "ply",
     "png",
     "positions",

@@ -1,7 +1,9 @@
 //! Points and matches: one a line, numbers in columns.
 
+use crate::text::{decode, lines};
 use crate::{Result, table};
 use nalgebra::{Point2, Point3};
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// Reads matches of two images: `u1 v1 u2 v2` a line, pixels.
@@ -49,8 +51,8 @@ pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
 /// Pixels, and the points of the world that are seen there.
 pub type PixelsAndPoints = (Vec<Point2<f64>>, Vec<Point3<f64>>);
 
-/// Reads points of the world with their pixels: `u v x y z` a line. A first line of these names
-/// allows any order.
+/// Reads points of the world with their pixels: `x y z u v` a line. A first line of these names
+/// allows any order; a first line of four numbers, fx fy cx cy of some camera, is skipped.
 ///
 /// Returns pixels and points, in the unit of the file.
 ///
@@ -59,17 +61,45 @@ pub type PixelsAndPoints = (Vec<Point2<f64>>, Vec<Point3<f64>>);
 ///
 /// ```
 /// use epipole_io::matches::read_points_with_pixels;
-/// let (pixels, points) = read_points_with_pixels(b"X,Y,Z,u,v\n1,2,3,320,240\n")?;
+/// let (pixels, points) = read_points_with_pixels(b"u,v,X,Y,Z\n320,240,1,2,3\n")?;
 /// assert_eq!((pixels[0].x, points[0].z), (320.0, 3.0));
+/// assert_eq!(read_points_with_pixels(b"1 2 3 320 240\n")?, (pixels, points));
 /// # Ok::<(), epipole_io::Error>(())
 /// ```
 pub fn read_points_with_pixels(bytes: &[u8]) -> Result<PixelsAndPoints> {
-    let rows = table::read(bytes, &[["u", "v", "x", "y", "z"]])?;
-    let point = |row: &[f64; 5]| Point3::new(row[2], row[3], row[4]);
+    let text = decode(bytes)?;
+    let rows = table::read(
+        without_intrinsics(text).as_bytes(),
+        &[["x", "y", "z", "u", "v"]],
+    )?;
+    let point = |row: &[f64; 5]| Point3::new(row[0], row[1], row[2]);
     Ok((
-        rows.iter().map(|row| Point2::new(row[0], row[1])).collect(),
+        rows.iter().map(|row| Point2::new(row[3], row[4])).collect(),
         rows.iter().map(point).collect(),
     ))
+}
+
+/// The text with its first line made a comment, if that has four numbers where the next has more.
+fn without_intrinsics(text: &str) -> Cow<'_, str> {
+    let count = |line: &str| {
+        let words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let are_numbers = words.iter().all(|word| word.parse::<f64>().is_ok());
+        are_numbers.then_some(words.len())
+    };
+    let mut filled = lines(text);
+    match (filled.next(), filled.next()) {
+        (Some((number, first)), Some((_, next)))
+            if count(first) == Some(4) && count(next).is_some_and(|count| count > 4) =>
+        {
+            let kept = text.lines().enumerate();
+            let kept = kept.map(|(index, line)| if index + 1 == number { "#" } else { line });
+            kept.flat_map(|line| [line, "\n"])
+                .collect::<String>()
+                .into()
+        }
+        _ => text.into(),
+    }
 }
 
 /// Separator and header of a file of matches.

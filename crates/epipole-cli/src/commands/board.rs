@@ -22,13 +22,13 @@ use std::path::PathBuf;
 /// Draw a calibration board to print, true to scale.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole board --pattern charuco --size 7x5 --square-mm 30 --marker-mm 22 -o board.pdf\n\n\
+    after_help = "Example: epipole board --kind charuco --size 7x5 --square-mm 30 --marker-mm 22 -o board.pdf\n\n\
     Print at 100 %, without \"fit to page\": the ruler below the board must be 100 mm long. Glue the sheet to\n\
     something flat. The caption names the options with which `epipole calibrate` reads the board.\n\n\
     ChArUco boards are those of OpenCV from 4.6 on: the upper left square is black (no legacyPattern), and\n\
     markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is the lower left one, and borders have\n\
     two bits; --square-mm is the side of a tag.\n\n\
-    JSON: files, pattern, size (columns and rows), square_mm, paper_mm and board_mm (width and height of what is\n\
+    JSON: files, kind, size (columns and rows), square_mm, paper_mm and board_mm (width and height of what is\n\
     black), calibrate (options of `epipole calibrate` for this board)."
 )]
 pub(crate) struct Arguments {
@@ -84,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
     let [width, height] = page.board_mm;
     Ok(Report::default()
         .field("files", [&arguments.output])
-        .field("pattern", arguments.pattern.name())
+        .field("kind", arguments.pattern.name())
         .field("size", json!([columns, rows]))
         .field("square_mm", arguments.square_mm)
         .field("paper_mm", page.paper_mm)
@@ -105,7 +105,7 @@ fn calibrate_options(arguments: &Arguments, pattern: Pattern) -> String {
     let meters = |mm: f64| format!("{:.6}", mm / 1000.0);
     let trimmed = |mm: f64| meters(mm).trim_end_matches('0').to_owned();
     let mut options = format!(
-        "--pattern {} --board {columns}x{rows} --square-m {}",
+        "--kind {} --board {columns}x{rows} --square-m {}",
         arguments.pattern.name(),
         trimmed(arguments.square_mm)
     );

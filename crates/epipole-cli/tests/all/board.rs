@@ -57,7 +57,7 @@ fn boards_are_drawn_to_scale_and_found() {
     let folder = Folder::new("board");
     let file = folder.file("board.png");
     for (options, board, width_mm) in patterns() {
-        let mut arguments = vec!["board", "--pattern"];
+        let mut arguments = vec!["board", "--kind"];
         arguments.extend(options);
         arguments.extend(["--square-mm", "20", "--dpi", "127", "-o", path(&file)]);
         let result = json(&arguments);
@@ -101,7 +101,7 @@ fn vectors_have_the_size_of_the_paper() {
     let result = json(&[&arguments[..], &[path(&svg)]].concat());
     assert_eq!(
         result["calibrate"],
-        "--pattern chessboard --board 9x6 --square-m 0.025"
+        "--kind chessboard --board 9x6 --square-m 0.025"
     );
     let text = std::fs::read_to_string(&svg).unwrap();
     assert!(text.contains("width=\"297mm\" height=\"210mm\""));
@@ -126,7 +126,7 @@ fn boards_that_do_not_fit_are_refused() {
     fails(&folder, &large, 2, "--square-mm");
     let many = [
         "board",
-        "--pattern",
+        "--kind",
         "charuco",
         "--size",
         "12x10",
@@ -185,7 +185,7 @@ fn parts_of_charuco_boards_calibrate_a_camera() {
         arguments.push(path(&file).to_owned());
     }
     let options =
-        "--pattern charuco --board 7x5 --square-m 0.03 --marker-m 0.021 --dictionary 5x5_100";
+        "--kind charuco --board 7x5 --square-m 0.03 --marker-m 0.021 --dictionary 5x5_100";
     arguments.extend(options.split(' ').map(str::to_owned));
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = json(&arguments);

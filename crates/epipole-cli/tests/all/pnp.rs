@@ -22,7 +22,7 @@ fn truth() -> RigidTransform {
 
 fn rows(points: &[Point3<f64>], pixels: &[Point2<f64>]) -> String {
     (points.iter().zip(pixels))
-        .map(|(x, p)| format!("{} {} {} {} {}\n", p.x, p.y, x.x, x.y, x.z))
+        .map(|(x, p)| format!("{} {} {} {} {}\n", x.x, x.y, x.z, p.x, p.y))
         .collect()
 }
 
@@ -97,7 +97,8 @@ fn a_focal_length_is_found_with_the_pose() {
 #[test]
 fn four_corners_of_a_court_give_focal_length_and_place() {
     let folder = Folder::new("pnp-court");
-    let court = "X Y Z u v\n-5.485 23.77 0.0 229.0 60.0\n5.485 23.77 0.0 407.0 61.0\n\
+    // As the problem was sent: intrinsics first, with a focal length of 1 for an unknown one.
+    let court = "# the court\n1 1 319.5 179.5\n-5.485 23.77 0.0 229.0 60.0\n5.485 23.77 0.0 407.0 61.0\n\
                  5.485 0.0 0.0 584.0 274.0\n-5.485 0.0 0.0 53.0 275.0\n";
     let file = folder.write("court.txt", court);
     let arguments = [
@@ -167,7 +168,7 @@ fn points_without_a_pose_are_refused_for_their_reason() {
     let pixel = |n: u32| format!("{} {}", 100 + 37 * n, 80 + 11 * (n * n % 7));
     let all = |point: &dyn Fn(u32) -> String| -> String {
         (0..8)
-            .map(|n| format!("{} {}\n", pixel(n), point(n)))
+            .map(|n| format!("{} {}\n", point(n), pixel(n)))
             .collect()
     };
     let cases = [
@@ -191,15 +192,17 @@ fn points_without_a_pose_are_refused_for_their_reason() {
         ),
         (
             "u v x y\n1 2 3 4\n".to_owned(),
-            "names no columns u v x y z, but u v x y",
+            "names no columns x y z u v, but u v x y",
         ),
         (
-            "4 4 4 4 4\n".repeat(9).replacen("4 4", "1 2", 1),
+            "4 4 4 4 4\n"
+                .repeat(9)
+                .replacen("4 4 4 4 4", "4 4 4 1 2", 1),
             "only 1 of the 9 points",
         ),
         (
             all(&|n| format!("{} {} {}", n * 5 % 8, n * 3 % 7, n * n % 5)),
-            "are the columns u v x y z",
+            "are the columns x y z u v",
         ),
     ];
     for (text, expected) in &cases {

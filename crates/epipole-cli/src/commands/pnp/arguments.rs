@@ -18,8 +18,8 @@ const EXAMPLE: &str = "Example: epipole pnp points.txt --k 800,800,320,240";
     mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)),
     after_help = EXAMPLE,
     after_long_help = "Example: epipole pnp points.txt --k 800,800,320,240\n\n\
-    A file of points has one a line, u v x y z: a pixel, and the point of the world that is seen there, in any unit.\n\
-    A first line of these names allows any order; # begins a comment. Numbers may stand between commas, semicolons,\n\
+    A file of points has one a line, x y z u v: a point of the world, in any unit, and the pixel where it is seen.\n\
+    A first line of these names allows any order, one of four numbers is skipped; # begins a comment. Numbers may stand between commas, semicolons,\n\
     tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
     With --focal-px unknown four points are enough, also on a plane that does not face the camera. Up to five points\n\
     with a known camera, or four with an unknown focal length, are all taken as right.\n\n\
@@ -31,7 +31,7 @@ const EXAMPLE: &str = "Example: epipole pnp points.txt --k 800,800,320,240";
     null), alternatives (other poses that fit as well: cam_from_world, center, mean_error_px, focal_px each)."
 )]
 pub(crate) struct Arguments {
-    /// A text file with u v x y z a line; - for standard input.
+    /// A text file with x y z u v a line; - for standard input.
     pub(super) points: PathBuf,
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]

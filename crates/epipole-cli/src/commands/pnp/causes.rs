@@ -114,7 +114,7 @@ pub(super) fn with_advice(failure: Failure, path: &Path) -> Failure {
 
 /// Usual causes of points without a pose.
 pub(super) const ADVICE: &str =
-    "are the columns u v x y z, and the intrinsics those of this image?";
+    "are the columns x y z u v, and the intrinsics those of this image?";
 
 #[cfg(test)]
 mod tests {

@@ -218,7 +218,7 @@ impl Project {
         let options = self.document.settings.calibration;
         let pattern = match options.board.pattern {
             BoardPattern::Chessboard => "",
-            BoardPattern::Circles => " --pattern asymmetric-circles",
+            BoardPattern::Circles => " --kind asymmetric-circles",
         };
         format!(
             "epipole calibrate boards/ --board {}x{}{pattern} --square-m {} --model {} -o camera.json",
