@@ -12,7 +12,7 @@ pub(crate) struct CameraArguments {
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     pub(crate) k: Option<Intrinsics>,
-    /// Focal length in pixels, principal point in the middle of each photograph.
+    /// Focal length in pixels. The principal point is the middle of each photograph.
     #[arg(long, value_name = "F", value_parser = positive, conflicts_with = "k")]
     pub(crate) focal_px: Option<f64>,
 }

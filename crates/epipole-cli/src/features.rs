@@ -88,7 +88,7 @@ impl FeatureArguments {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Matches")]
 pub(crate) struct MatchArguments {
-    /// The nearest descriptor must be closer than this share of the second nearest.
+    /// Ratio test (the nearest descriptor must be closer than this share of the second nearest).
     #[arg(long, default_value_t = 0.8, value_name = "SHARE", value_parser = above_0_up_to_1)]
     pub(crate) ratio: f32,
     /// Require mutual nearest neighbors; --mutual=false to disable.

@@ -66,8 +66,8 @@ pub(crate) fn tell_of_others(
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
-    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
-    /// MATLAB (FILE#NAME: one of several), for images of its size or turned by 90°. Images stay
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
+    /// nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°. Images stay
     /// distorted, and results are of rays.
     #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
     camera_file: Option<PathBuf>,

@@ -27,7 +27,7 @@ pub(crate) struct PatternArguments {
     /// Pattern of the board.
     #[arg(long = "kind", value_enum, default_value = "chessboard")]
     pattern: Printed,
-    /// Markers of a ChArUco board: 4x4_N, 5x5_N, 6x6_N, 7x7_N (N is 50, 100, 250 or 1000) or 36h11.
+    /// Markers of a ChArUco board. 4x4_N, 5x5_N, 6x6_N, 7x7_N (N is 50, 100, 250 or 1000) or 36h11.
     #[arg(long, value_name = "NAME", default_value = "4x4_50", value_parser = dictionary)]
     dictionary: MarkerDictionary,
     /// Distance between the tags of an AprilGrid, as a share of their side.

@@ -25,7 +25,7 @@ pub(crate) enum Sampler {
     Prosac,
 }
 
-/// The largest error of an inlier.
+/// Maximum error of an inlier (pixels; "auto" finds it from the noise of the matches).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MaxError {
     Pixels(f64),

@@ -63,6 +63,9 @@ const COMMON: [&str; 57] = [
     "window",
 ];
 
+/// Maximum length of a line, characters.
+const WIDTH: usize = 80;
+
 /// The command with its help cut to one screen.
 pub(crate) fn shortened(command: Command) -> Command {
     command
@@ -77,7 +80,7 @@ pub(crate) fn shortened(command: Command) -> Command {
                 .as_deref()
                 .and_then(|text| text.split("\n\n").next());
             let more = format!("All options and the fields of --json: epipole {name} --help");
-            let after = [example.unwrap_or_default(), &more].join("\n");
+            let after = [&continued(example.unwrap_or_default()), &more[..]].join("\n");
             subcommand
                 .mut_args(short)
                 .after_help(after.trim_start().to_owned())
@@ -94,10 +97,24 @@ fn short(argument: Arg) -> Arg {
         return argument.hide_short_help(true);
     }
     let help = argument.get_help().map(ToString::to_string);
-    argument
+    let takes_values = argument.get_action().takes_values();
+    let argument = argument
         .help(first_phrase(&help.unwrap_or_default()).to_owned())
-        .help_heading(None::<&str>)
-        .hide_possible_values(true)
+        .help_heading(None::<&str>);
+    match takes_values {
+        true => argument.hide_possible_values(true),
+        false => argument,
+    }
+}
+
+/// A command in lines of at most 80 characters.
+fn continued(command: &str) -> String {
+    match command.get(..WIDTH - 1).and_then(|start| start.rfind(' ')) {
+        Some(end) if command.len() > WIDTH => {
+            format!("{} \\\n    {}", &command[..end], &command[end + 1..])
+        }
+        _ => command.to_owned(),
+    }
 }
 
 /// The text up to the end of its first phrase.
@@ -111,7 +128,7 @@ fn first_phrase(text: &str) -> &str {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-    use super::shortened;
+    use super::{WIDTH, shortened};
     use crate::command;
 
     #[test]
@@ -126,7 +143,7 @@ mod tests {
             if name != "help" && count > 24 {
                 wrong.push(format!("{name} -h has {count} lines"));
             }
-            for line in text.lines().filter(|line| line.chars().count() > 80) {
+            for line in text.lines().filter(|line| line.chars().count() > WIDTH) {
                 wrong.push(format!("{name} -h: over 80 characters: {line}"));
             }
         }

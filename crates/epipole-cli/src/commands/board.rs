@@ -32,16 +32,18 @@ use std::path::PathBuf;
     black), calibrate (options of `epipole calibrate` for this board)."
 )]
 pub(crate) struct Arguments {
-    /// Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks.
+    /// Marks of the board. Inner corners of a chessboard, squares of a ChArUco board, tags of an
+    /// AprilGrid, disks.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     size: (usize, usize),
-    /// The side of a square or of a tag, or the distance of two rows of disks, millimeters.
+    /// Side of a square or tag, mm. Of circles the distance of two rows.
     #[arg(long, value_name = "S", default_value_t = 25.0, value_parser = positive)]
     square_mm: f64,
-    /// The side of a ChArUco board's markers, millimeters [default: three quarters of a square].
+    /// Side of a ChArUco marker, mm (without, three quarters of a square).
     #[arg(long, value_name = "M", value_parser = positive)]
     marker_mm: Option<f64>,
-    /// a4, a3, letter, or WIDTHxHEIGHT in millimeters; named ones are turned as the board needs it.
+    /// Size of the paper (a4, a3, letter, or WIDTHxHEIGHT in millimeters; named ones are turned as
+    /// the board needs it).
     #[arg(long, value_name = "PAPER", default_value = "a4", value_parser = paper)]
     paper: Paper,
     /// Pixels an inch, of a PNG.

@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     /// Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     board: (usize, usize),
-    /// The side of a square or tag, or the distance of two rows of disks; the unit of all places.
+    /// Side of a square or tag. Of circles the distance of two rows; the unit of all places.
     #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = positive)]
     square_m: f64,
     /// The side of a ChArUco board's markers [default: three quarters of a square].

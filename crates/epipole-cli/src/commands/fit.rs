@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     model: Model,
     /// A text file with one match a line; - for standard input.
     matches: PathBuf,
-    /// Intrinsics of the first camera, for the essential matrix.
+    /// Intrinsics of camera 1. For the essential matrix.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
     /// Intrinsics of the second camera; those of --k if not given.

@@ -54,8 +54,8 @@ pub(crate) struct Arguments {
     frames: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Camera file of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or
-    /// MATLAB (FILE#NAME: one of several), for frames of its size. Frames stay distorted. Not for
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
+    /// nerfstudio, Metashape or MATLAB, for frames of its size. Frames stay distorted. Not for
     /// rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,

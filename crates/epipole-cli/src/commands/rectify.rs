@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
-    /// File of a stereo rig, of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB, for
+    /// File of a stereo rig (of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB), for
     /// photographs of its two cameras, left and right.
     #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
     rig: Option<PathBuf>,

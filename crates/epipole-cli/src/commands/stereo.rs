@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     /// Matcher.
     #[arg(long, value_enum, default_value = "sgm")]
     method: Method,
-    /// Give every pixel a value, from its surroundings if need be.
+    /// Fill all pixels. Values come from their surroundings.
     #[arg(long)]
     fill: bool,
     /// The file for the disparities, .pfm or .png.

@@ -34,16 +34,16 @@ const EXAMPLE: &str =
 pub(crate) struct Arguments {
     /// A text file with u1 v1 u2 v2 a line; - for standard input.
     matches: PathBuf,
-    /// A model, a file of a rig, or a file of the first camera with its pose.
+    /// Model, rig, or camera 1 with its pose (any file of these that is read).
     #[arg(value_name = "MODEL|CAMERA1")]
     cameras: PathBuf,
     /// A file of the second camera with its pose.
     #[arg(value_name = "CAMERA2")]
     second: Option<PathBuf>,
-    /// Images of the model that the matches are of [default: the two that it has].
+    /// Names of the two images (of those of the model; without, the two that it has).
     #[arg(long, value_name = "NAME1,NAME2")]
     images: Option<String>,
-    /// Write the points: .ply, or .csv with the columns of the JSON.
+    /// Write the points (.ply, or .csv with the columns of the JSON).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

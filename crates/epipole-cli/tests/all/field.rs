@@ -215,7 +215,7 @@ fn matches_are_read_as_spreadsheets_and_programs_write_them() {
     }
     for (file, why) in [
         ("index_no_header.csv", "the first column counts the rows"),
-        ("space_comma.txt", ":1: decimal comma in \"154,92\""),
+        ("space_comma.txt", "line 1: decimal comma in \"154,92\""),
     ] {
         let file = field(&format!("17/{file}")).unwrap();
         fails(

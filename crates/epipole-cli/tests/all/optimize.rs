@@ -183,7 +183,7 @@ fn broken_problems_are_refused_with_their_line() {
         ("-1 1 1\n".to_owned(), "line 1"),
         (
             "4000000000 4000000000 4000000000\n".to_owned(),
-            "the bundle adjustment problem",
+            "the text ends where an observation's camera should follow",
         ),
         ("some words\n".to_owned(), "line 1"),
         // Cameras, but nothing that they see.

@@ -229,7 +229,7 @@ fn points_without_a_pose_are_refused_for_their_reason() {
             2,
             "is not a number above 0, nor \"unknown\"",
         ),
-        (vec!["--k", K, "--center", "320,240"], 2, "--focal-px"),
+        (vec!["--k", K, "--center", "320,240"], 2, "--center"),
         (vec!["--camera", "none.json"], 1, "there is no such file"),
     ] {
         fails(
@@ -251,10 +251,10 @@ fn wrong_units_of_pixels_are_told() {
     let text = std::fs::read_to_string(&file).unwrap();
     let shares = text.lines().map(|line| {
         let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
-        let [u, v, x, y, z] = numbers[..] else {
+        let [x, y, z, u, v] = numbers[..] else {
             panic!()
         };
-        format!("{} {} {x} {y} {z}\n", u / 640.0, v / 480.0)
+        format!("{x} {y} {z} {} {}\n", u / 640.0, v / 480.0)
     });
     folder.write("points.txt", &shares.collect::<String>());
     assert!(told(K).contains("which are no pixels"));

@@ -146,7 +146,7 @@ fn poses_that_pnp_printed_triangulate() {
     let mut files = Vec::new();
     for n in 0..2 {
         let rows = pixels(&poses()[n]).into_iter().zip(points());
-        let rows = rows.map(|(p, x)| format!("{} {} {} {} {}\n", p.x, p.y, x.x, x.y, x.z));
+        let rows = rows.map(|(p, x)| format!("{} {} {} {} {}\n", x.x, x.y, x.z, p.x, p.y));
         let file = folder.write(&format!("points{n}.txt"), &rows.collect::<String>());
         let output = epipole(&["pnp", path(&file), "--k", "700,700,320,240", "--json"]);
         let text = String::from_utf8(output.stdout).unwrap();

@@ -74,7 +74,9 @@ impl Canvas {
         }
         if surface.is_round() {
             // Beyond half a turn it begins from the other side.
-            whole = [whole[0].max(-PI), whole[1].min(PI), whole[2], whole[3]];
+            if whole[0] < -PI || whole[1] > PI {
+                whole = [-PI, PI, whole[2], whole[3]];
+            }
         }
         let [left, right, top, bottom] = whole;
         let (wide, high) = (right - left, bottom - top);

@@ -10,8 +10,10 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use image::RgbImage;
 
-/// Number of bands of multi-band blending.
-const NUM_BANDS: usize = 6;
+/// Maximum number of bands of multi-band blending.
+const MAX_BANDS: usize = 6;
+/// Width of the coarsest band's transition as a share of the picture's side, as in OpenCV's stitcher.
+const TRANSITION: f64 = 0.05;
 
 /// Blending of photos where they overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,7 +23,7 @@ const NUM_BANDS: usize = 6;
     serde(rename_all = "snake_case")
 )]
 pub enum Blend {
-    /// Six bands of a Laplacian pyramid: no seams, and no double edges.
+    /// Up to six bands of a Laplacian pyramid: no seams, and no double edges.
     #[default]
     Bands,
     /// Means by the distance to the border of a photo: edges are double where photos do not fit.
@@ -114,10 +116,20 @@ pub fn render_panorama(
         false => vec![1.0; views.len()],
     };
     match options.blend {
-        Blend::Bands => blend_bands(&canvas, &views, photos, &gains, NUM_BANDS, monitor),
+        Blend::Bands => {
+            let num_bands = num_bands(canvas.width() * canvas.height());
+            blend_bands(&canvas, &views, photos, &gains, num_bands, monitor)
+        }
         Blend::Seams => blend_bands(&canvas, &views, photos, &gains, 1, monitor),
         Blend::Feather => feather(&canvas, &views, photos, &gains, monitor),
     }
+}
+
+/// Number of bands for a picture of so many pixels, from 2 on.
+fn num_bands(num_pixels: usize) -> usize {
+    let transition_px = TRANSITION * (num_pixels as f64).sqrt();
+    let count = libm::log2(transition_px.max(1.0)).ceil() as usize;
+    count.saturating_sub(1).clamp(2, MAX_BANDS)
 }
 
 #[cfg(test)]

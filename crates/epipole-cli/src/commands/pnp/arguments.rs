@@ -14,6 +14,7 @@ const EXAMPLE: &str = "Example: epipole pnp points.txt --k 800,800,320,240";
 /// Find the pose of a camera from known points and their pixels.
 #[derive(Debug, Args)]
 #[command(
+    override_usage = "epipole pnp [OPTIONS] <POINTS>",
     group(ArgGroup::new("view").args(["k", "camera", "focal_px"]).required(true)),
     mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)),
     after_help = EXAMPLE,
@@ -36,17 +37,17 @@ pub(crate) struct Arguments {
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
-    /// Camera file of `epipole calibrate`, OpenCV, COLMAP and others (FILE#NAME: one of several).
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, COLMAP and others.
     #[arg(long, value_name = "FILE")]
     camera: Option<PathBuf>,
-    /// Focal length in pixels, with the principal point of --center or --size; or "unknown".
+    /// Focal length in pixels, or "unknown". The principal point is that of --center or --size.
     #[arg(long, value_name = "F|unknown", value_parser = focal)]
     focal_px: Option<Focal>,
-    /// Size of the image, whose middle is the principal point unless --k gives it.
+    /// Size of the image. Its middle is the principal point unless --k gives it.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, conflicts_with = "camera")]
     size: Option<(u32, u32)>,
     /// Principal point in pixels.
-    #[arg(long, value_name = "cx,cy", value_parser = pixel, allow_hyphen_values = true, requires = "focal_px")]
+    #[arg(long, value_name = "cx,cy", value_parser = pixel, allow_hyphen_values = true, conflicts_with_all = ["k", "camera"])]
     center: Option<Point2<f64>>,
     #[command(flatten)]
     pub(super) robust: RobustArguments,

@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Positions")]
 pub(super) struct PositionArguments {
-    /// Positions of the photos: a file of lines NAME X Y Z in meters, with a standard deviation
+    /// Positions of the photos. A file of lines NAME X Y Z in meters, with a standard deviation
     /// behind if it is another than --position-sigma-m; or "exif" for what the photographs say.
     /// Three that are not on one line give the result their frame and meters; some may be wrong.
     #[arg(long, value_name = "FILE|exif")]

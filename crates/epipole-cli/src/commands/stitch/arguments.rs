@@ -79,7 +79,7 @@ pub(crate) struct Arguments {
     max_output_megapixels: f64,
     #[command(flatten)]
     pub(super) camera: CameraArguments,
-    /// Camera file of the photos, whose distortion is removed (FILE#NAME: one of several).
+    /// Camera file of the photos (FILE#NAME: one of several). Their distortion is removed.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "focal_px"])]
     pub(super) camera_file: Option<PathBuf>,
     #[command(flatten)]

@@ -236,10 +236,9 @@ mod tests {
     #[test]
     fn a_point_in_the_center_plane_is_an_error() {
         let mut problem = ring(1, 1, 0.0, 10);
-        let camera = problem.cameras[0];
-        problem.points[0] = Point3::from(
-            -(nalgebra::Rotation3::new(camera.rotation).inverse() * camera.translation),
-        );
+        problem.cameras[0].rotation = Vector3::zeros();
+        problem.cameras[0].translation = Vector3::zeros();
+        problem.points[0] = Point3::new(1.0, 2.0, 0.0);
         let result = adjust_bal(
             &mut problem,
             &LmOptions::default(),
