@@ -94,6 +94,7 @@ const MODULES_OF_IO: &[&str] = &[
     "trajectory",
     "cloud",
     "model",
+    "fuzz",
 ];
 
 fn manifest(name: &str) -> toml::Table {

@@ -10,7 +10,7 @@ import { book, root } from "./places.mjs";
 import { serve } from "./server.mjs";
 
 const { GIFEncoder, applyPalette, quantize } = gifenc;
-/** Where the pictures go. */
+/** Folder of the pictures. */
 const FOLDER = join(root, "docs/images");
 /** Frames of the moving picture, and the time that each is shown. */
 const FRAMES = 36;

@@ -64,9 +64,9 @@ pub struct Decoded<I> {
 
 /// The gray image in [0, 1] of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
 ///
-/// Colors become gray as in [`rgb_to_gray`](epipole::imaging::rgb_to_gray); gray of more than eight bits keeps
-/// its depth; transparency is ignored. Of a TIFF file the first image is read: gray or RGB,
-/// integers or floats, in any compression but JPEG 2000, WebP and Zstandard.
+/// Colors become gray as in [`rgb_to_gray`](epipole::imaging::rgb_to_gray); gray of more than eight
+/// bits keeps its depth; transparency is ignored. Of a TIFF file the first image is read: gray or
+/// RGB, integers or floats, in any compression but JPEG 2000, WebP and Zstandard.
 ///
 /// # Errors
 /// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;

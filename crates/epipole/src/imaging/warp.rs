@@ -85,9 +85,9 @@ pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
 ///
 /// * `out_from_image`: pixels to pixels, any scale, as OpenCV's `warpPerspective` takes it
 ///
-/// Gray or color, bytes or floats. Pixels of the result that no finite pixel maps to read the border's constant, 0 unless set. The
-/// map is followed backwards, pixel by pixel; a map that shrinks the image aliases, so
-/// [`resize`](super::resize()) or blur first.
+/// Gray or color, bytes or floats. Pixels of the result that no finite pixel maps to read the
+/// border's constant, 0 unless set. The map is followed backwards, pixel by pixel; a map that
+/// shrinks the image aliases, so [`resize`](super::resize()) or blur first.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a matrix that is not finite, [`Error::Degenerate`] for one without an

@@ -12,7 +12,7 @@ use image::RgbImage;
 
 /// Maximum number of bands of multi-band blending.
 const MAX_BANDS: usize = 6;
-/// Width of the coarsest band's transition as a share of the picture's side, as in OpenCV's stitcher.
+/// Width of the widest transition as a share of the picture's side: that of OpenCV's stitcher.
 const TRANSITION: f64 = 0.05;
 
 /// Blending of photos where they overlap.
