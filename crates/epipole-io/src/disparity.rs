@@ -88,6 +88,7 @@ pub fn read_pfm(bytes: &[u8]) -> Result<DisparityImage> {
 /// [`Error::Unsupported`] for an empty image, which PNG does not have.
 ///
 /// Source: the format of the KITTI stereo benchmark.
+#[cfg(feature = "photos")]
 pub fn write_png16(disparity: &DisparityImage) -> Result<Vec<u8>> {
     use image::ImageEncoder;
     let value = |&d: &f32| {

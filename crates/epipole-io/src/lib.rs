@@ -5,10 +5,17 @@
 //! are converted to the conventions of [`epipole`]: pixel centers at integers, `cam_from_world`,
 //! x right, y down, z forward.
 
+#![cfg_attr(
+    not(feature = "cameras"),
+    allow(dead_code, reason = "some parts serve cameras and models only")
+)]
+
 pub mod bundle;
 mod bytes;
+#[cfg(feature = "cameras")]
 pub mod camera;
 pub mod cloud;
+#[cfg(feature = "cameras")]
 mod colmap;
 #[cfg(test)]
 mod damage;
@@ -17,6 +24,7 @@ mod error;
 #[cfg(test)]
 mod fuzz;
 pub mod matches;
+#[cfg(feature = "cameras")]
 pub mod model;
 #[cfg(feature = "photos")]
 pub mod photo;
@@ -28,6 +36,7 @@ mod table;
 mod text;
 mod tokens;
 pub mod trajectory;
+#[cfg(feature = "cameras")]
 mod tree;
 
 pub use error::{Error, Result};
