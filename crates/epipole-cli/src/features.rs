@@ -48,7 +48,7 @@ pub(crate) struct FeatureArguments {
     /// Kind of features.
     #[arg(long, value_enum, default_value_t = Kind::Rootsift)]
     pub(crate) features: Kind,
-    /// Keep the N strongest features per image (0: all).
+    /// Number of features per image (the strongest; 0: all).
     #[arg(long, default_value_t = FeatureOptions::default().max_features, value_name = "N")]
     pub(crate) max_features: usize,
     /// Minimum response of a feature, for gray from 0 to 1 [default: 0.02 for SIFT, 0.078 for ORB,

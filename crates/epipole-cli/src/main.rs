@@ -47,7 +47,7 @@ const LAST: usize = 900;
 #[derive(Debug, Parser)]
 #[command(name = "epipole", version, propagate_version = true)]
 struct Cli {
-    /// Print exactly one JSON object on standard output.
+    /// Print one JSON object on standard output.
     #[arg(long, global = true, display_order = LAST)]
     json: bool,
     /// Suppress progress and warnings.

@@ -67,7 +67,7 @@ pub(crate) enum BudgetFormula {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Inliers")]
 pub(crate) struct RobustArguments {
-    /// The largest error of an inlier, pixels; "auto" finds it from the noise of the matches.
+    /// Maximum error of an inlier (pixels; "auto" finds it from the noise of the matches).
     #[arg(long, default_value_t = MaxError::Pixels(RansacOptions::default().max_error_px), value_name = "PX|auto", value_parser = max_error)]
     max_error_px: MaxError,
     /// The probability that one sample at least is free of outliers.

@@ -3,7 +3,7 @@
 use clap::{Arg, Command};
 
 /// Options that `-h` shows, by their long names, in the order of their definition.
-const COMMON: [&str; 57] = [
+const COMMON: [&str; 56] = [
     "align",
     "baseline-m",
     "board",
@@ -58,10 +58,34 @@ const COMMON: [&str; 57] = [
     "theme",
     "to",
     "undistort",
-    "upright",
     "version",
     "window",
 ];
+
+/// Common options that a command with many of them leaves to `--help`.
+const RARE: [(&str, &[&str]); 6] = [
+    ("localize", &["max-features"]),
+    (
+        "odometry",
+        &["max-error-px", "max-features", "ratio", "recursive"],
+    ),
+    ("rectify", &["max-error-px", "max-features", "ratio"]),
+    (
+        "sfm",
+        &[
+            "max-error-px",
+            "max-features",
+            "ratio",
+            "recursive",
+            "undistort",
+        ],
+    ),
+    ("stitch", &["max-features"]),
+    ("two-view", &["max-features"]),
+];
+
+/// Text of an option that is cut at a comma if it is longer, characters.
+const LONG: usize = 45;
 
 /// Maximum length of a line, characters.
 const WIDTH: usize = 80;
@@ -81,16 +105,18 @@ pub(crate) fn shortened(command: Command) -> Command {
                 .and_then(|text| text.split("\n\n").next());
             let more = format!("All options and the fields of --json: epipole {name} --help");
             let after = [&continued(example.unwrap_or_default()), &more[..]].join("\n");
+            let rare = RARE.iter().find(|(command, _)| *command == name);
+            let rare = rare.map_or(&[][..], |(_, options)| options);
             subcommand
-                .mut_args(short)
+                .mut_args(|argument| short(argument, rare))
                 .after_help(after.trim_start().to_owned())
                 .disable_version_flag(true)
         })
 }
 
-fn short(argument: Arg) -> Arg {
+fn short(argument: Arg, rare: &[&str]) -> Arg {
     let is_common = match argument.get_long() {
-        Some(name) => COMMON.contains(&name),
+        Some(name) => COMMON.contains(&name) && !rare.contains(&name),
         None => true,
     };
     if !is_common {
@@ -119,7 +145,15 @@ fn continued(command: &str) -> String {
 
 /// The text up to the end of its first phrase.
 fn first_phrase(text: &str) -> &str {
-    let ends = [". ", "; ", " ("];
+    let phrase = before(text, &[". ", "; ", " (", " ["]);
+    match phrase.len() > LONG {
+        true => before(phrase, &[": ", ", "]),
+        false => phrase,
+    }
+}
+
+/// The text before the first of these.
+fn before<'a>(text: &'a str, ends: &[&str]) -> &'a str {
     let end = ends.iter().filter_map(|end| text.find(end)).min();
     end.map_or(text, |end| &text[..end])
 }

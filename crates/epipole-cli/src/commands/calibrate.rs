@@ -41,7 +41,8 @@ pub(crate) struct Arguments {
     /// Photographs of the board, all of one size, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    /// Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks.
+    /// Marks of the board. Inner corners of a chessboard, squares of a ChArUco board, tags of an
+    /// AprilGrid, disks.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     board: (usize, usize),
     /// Side of a square or tag. Of circles the distance of two rows; the unit of all places.

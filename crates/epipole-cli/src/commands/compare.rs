@@ -45,16 +45,16 @@ pub(crate) struct Arguments {
     truth: PathBuf,
     /// The estimated trajectory.
     estimate: PathBuf,
-    /// Alignment of the estimate with the truth.
+    /// Alignment of the estimate.
     #[arg(long, value_enum, default_value = "se3")]
     align: Align,
-    /// Largest difference in time of two poses that are compared, seconds.
+    /// Largest time difference (of poses that are compared, seconds).
     #[arg(long, default_value_t = 0.01, value_name = "S", value_parser = positive)]
     max_difference_s: f64,
     /// Compare poses of equal number, whatever their times.
     #[arg(long)]
     by_index: bool,
-    /// Poses between the two ends of a motion of the RPE.
+    /// Step of the RPE, poses.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     step: u32,
 }

@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// A parameter of the figure; repeat for more.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     set: Vec<(String, String)>,
-    /// Width, or width and height, in CSS pixels: 760 or 800x600.
+    /// Size in CSS pixels, 760 or 800x600 (one number is the width).
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
     /// Device pixels to a CSS pixel.

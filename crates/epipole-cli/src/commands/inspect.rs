@@ -12,7 +12,7 @@ use epipole_io::trajectory::Trajectory;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Tell what a model, a camera file or a trajectory holds and what is odd about it.
+/// Tell what a model, a camera file or a trajectory holds.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: epipole inspect reconstruction/sparse/0\n\n\
     Reads the models of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) and\n\

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     /// Write the matches; with commas if the name ends in .csv.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write both photographs with lines between the matches.
+    /// Draw the matches (both photographs, with lines between them).
     #[arg(long, value_name = "FILE.png")]
     png: Option<PathBuf>,
     #[command(flatten)]

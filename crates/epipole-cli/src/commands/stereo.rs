@@ -40,10 +40,10 @@ pub(crate) struct Arguments {
     left: PathBuf,
     /// The right one.
     right: PathBuf,
-    /// The smallest disparity looked for, pixels.
+    /// Smallest disparity, pixels.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(i32).range(-8192..=8191), allow_hyphen_values = true)]
     min_disparity: i32,
-    /// The largest disparity looked for, pixels.
+    /// Largest disparity, pixels.
     #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(i32).range(-8191..=8192), allow_hyphen_values = true)]
     max_disparity: i32,
     /// Matcher.

@@ -9,7 +9,7 @@ use epipole::sfm::SfmOptions;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(crate) struct RefinedArguments {
-    /// Refine one factor for the focal lengths of each lens, also where they are known.
+    /// Refine the focal length (one factor of each lens, also where it is known).
     #[arg(long)]
     refine_focal: bool,
     /// Keep the focal lengths, also where they are but a guess.
