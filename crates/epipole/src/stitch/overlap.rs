@@ -65,7 +65,9 @@ pub struct Overlap {
 /// // Shifted by 200 px, but for every fourth match.
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let mut p2: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 200.0, p.y)).collect();
-/// p2.iter_mut().step_by(4).for_each(|p| p.y = 480.0 - p.y);
+/// for (i, p) in p2.iter_mut().enumerate().step_by(4) {
+///     *p = Point2::new((i * 113 % 640) as f64, (i * 29 % 480) as f64);
+/// }
 /// let overlap = find_overlap([0, 1], &p1, &p2, &OverlapOptions::default(), &mut ())?.unwrap();
 /// assert!(overlap.pixels[0].len() >= 45 && !overlap.has_parallax);
 /// assert!((overlap.homography[(0, 2)] / overlap.homography[(2, 2)] + 200.0).abs() < 1e-6);

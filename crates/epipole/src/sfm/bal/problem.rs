@@ -9,7 +9,7 @@ use nalgebra::{Point3, Vector3};
 /// `P = R X + t`, `p = −(P.x, P.y)/P.z`, `pixel = f (1 + k1 ‖p‖² + k2 ‖p‖⁴) p`.
 ///
 /// Source: Agarwal, Snavely, Seitz & Szeliski 2010, "Bundle adjustment in the large".
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BalCamera {
     /// Axis times angle of R, radians.
     pub rotation: Vector3<f64>,
