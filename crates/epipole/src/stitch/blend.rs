@@ -43,11 +43,20 @@ pub(super) fn blend_bands(
         let mut mask = Vec::with_capacity(area.width * area.height);
         for v in area.top..area.top + area.height {
             for u in area.left..area.left + area.width {
-                let color = color(canvas, view, photos[view.image], u, v);
+                // Coarse bands look beyond the border of a photo: there they find the photo that
+                // is seen, if any.
+                let size = photos[view.image].dimensions();
+                let owner = owner[v * width + u];
+                let shown = match owner == NONE || weight(canvas, view, size, u, v) > 0.0 {
+                    true => n,
+                    false => owner,
+                };
+                let from = &views[shown];
+                let color = color(canvas, from, photos[from.image], u, v);
                 for (plane, value) in planes.iter_mut().zip(color) {
-                    plane.push(gains[n] * value);
+                    plane.push(gains[shown] * value);
                 }
-                mask.push(f32::from(u8::from(owner[v * width + u] == n)));
+                mask.push(f32::from(u8::from(owner == n)));
             }
         }
         let image = |values| from_vec(area.width as u32, area.height as u32, values);
