@@ -50,6 +50,7 @@ pub use pyramid::{
 };
 pub use reduce::reduce_rgb;
 pub use resize::resize;
+pub(crate) use sample::bilinear;
 pub use sample::{sample_bicubic, sample_bilinear};
 pub use separable::separable_filter;
 pub use sharpness::sharpness;

@@ -23,7 +23,7 @@ pub fn sample_bilinear(image: &GrayImage32, u: f64, v: f64, border: Border) -> f
 }
 
 /// * `read`: the value of a pixel, by its index row by row
-pub(super) fn bilinear(
+pub(crate) fn bilinear(
     (width, height): (u32, u32),
     u: f64,
     v: f64,

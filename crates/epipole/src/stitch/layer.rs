@@ -1,6 +1,7 @@
 //! A photo, drawn on the canvas.
 
 use super::canvas::{Canvas, View};
+use crate::imaging::{Border, bilinear};
 use image::RgbImage;
 use nalgebra::Point2;
 
@@ -45,23 +46,9 @@ pub(super) fn color(
     let Some(p) = pixel(canvas, view, u, v) else {
         return [0.0; 3];
     };
-    let clamped = |x: f64, size: u32| x.clamp(0.0, f64::from(size.max(1)) - 1.0);
-    let (x, y) = (clamped(p.x, photo.width()), clamped(p.y, photo.height()));
-    let (left, top) = (x.floor(), y.floor());
-    let (a, b) = ((x - left) as f32, (y - top) as f32);
-    let (left, top) = (left as u32, top as u32);
-    let (right, bottom) = (
-        (left + 1).min(photo.width() - 1),
-        (top + 1).min(photo.height() - 1),
-    );
-    let at = |u, v| photo.get_pixel(u, v).0.map(f32::from);
-    let [p00, p10] = [at(left, top), at(right, top)];
-    let [p01, p11] = [at(left, bottom), at(right, bottom)];
-    core::array::from_fn(|c| {
-        let (upper, lower) = (
-            p00[c] + a * (p10[c] - p00[c]),
-            p01[c] + a * (p11[c] - p01[c]),
-        );
-        upper + b * (lower - upper)
+    let raw = photo.as_raw();
+    core::array::from_fn(|channel| {
+        let read = |pixel: usize| raw[3 * pixel + channel].into();
+        bilinear(photo.dimensions(), p.x, p.y, Border::Replicate, read)
     })
 }
