@@ -11,9 +11,11 @@ pub(crate) mod real_roots;
 pub(crate) mod scaling;
 pub(crate) mod simd;
 pub(crate) mod svd3;
+mod union_find;
 
 pub use geodetic::{Geodetic, local_from_geodetic};
 pub use length::length;
 pub use line::Line2;
 pub(crate) use svd3::nearest_orthogonal;
 pub use svd3::{Svd3, svd3};
+pub(crate) use union_find::UnionFind;

@@ -35,7 +35,6 @@ mod tracks;
 mod triangulate_track;
 mod two_view_reconstruction;
 mod two_view_start;
-mod union_find;
 mod unregistered;
 mod views;
 

@@ -1,7 +1,7 @@
 //! Tracks: which keypoints of which photographs show the same point of the scene.
 
-use super::union_find::UnionFind;
 use crate::feature::Match;
+use crate::math::UnionFind;
 use crate::{Error, Result};
 
 /// A keypoint of an image.

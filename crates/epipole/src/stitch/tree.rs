@@ -1,6 +1,7 @@
-//! The photos that hang together, and the overlaps that join them best.
+//! The largest set of photos that overlaps connect, and the overlaps that connect them best.
 
 use super::overlap::Overlap;
+use crate::math::UnionFind;
 
 /// A tree of overlaps.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,24 +11,18 @@ pub(super) struct Tree {
     pub(super) edges: Vec<[usize; 3]>,
 }
 
-/// The tree with the most matches over the largest set of photos that hang together. Its root is
-/// in the middle, so that few homographies follow each other.
+/// The tree with the most matches over the largest connected set of photos. Its root is in the
+/// middle, so that chains of homographies are short.
 pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Tree {
     let mut order: Vec<usize> = (0..overlaps.len()).collect();
     order.sort_by_key(|&index| (usize::MAX - overlaps[index].pixels[0].len(), index));
-    let mut set_of: Vec<usize> = (0..num_images).collect();
+    let mut sets = UnionFind::new(num_images);
     let mut neighbors: Vec<Vec<[usize; 2]>> = vec![Vec::new(); num_images];
     for index in order {
         let [a, b] = overlaps[index].images;
-        let (from, to) = (set_of[a], set_of[b]);
-        if from != to {
+        if sets.join(a, b) {
             neighbors[a].push([b, index]);
             neighbors[b].push([a, index]);
-            for set in &mut set_of {
-                if *set == from {
-                    *set = to;
-                }
-            }
         }
     }
     let trees = (0..num_images).map(|root| from_root(root, &neighbors));
@@ -81,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_of_photos_hangs_at_its_middle_by_its_best_overlaps() {
+    fn a_row_of_photos_has_its_root_in_the_middle_and_its_best_overlaps() {
         let overlaps = [
             overlap([0, 1], 50),
             overlap([1, 2], 40),

@@ -226,7 +226,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
     /// Which vertices stay, and the number of connected parts.
     fn held(&self) -> (Vec<bool>, usize) {
-        let mut parts = super::union_find::UnionFind::new(self.vertices.len());
+        let mut parts = crate::math::UnionFind::new(self.vertices.len());
         for edge in &self.edges {
             parts.join(edge.from, edge.to);
         }

@@ -1,16 +1,16 @@
-//! Which things belong together.
+//! Disjoint sets.
 
 /// Disjoint sets over `0..n` that can be joined.
 ///
 /// Source: Tarjan 1975, with path halving and union by size.
 #[derive(Debug, Clone)]
-pub(super) struct UnionFind {
+pub(crate) struct UnionFind {
     parent: Vec<u32>,
     size: Vec<u32>,
 }
 
 impl UnionFind {
-    pub(super) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             parent: (0..count as u32).collect(),
             size: vec![1; count],
@@ -18,7 +18,7 @@ impl UnionFind {
     }
 
     /// The representative of the set that holds `item`.
-    pub(super) fn root(&mut self, item: usize) -> usize {
+    pub(crate) fn root(&mut self, item: usize) -> usize {
         let mut item = item;
         while self.parent[item] as usize != item {
             self.parent[item] = self.parent[self.parent[item] as usize];
@@ -28,7 +28,7 @@ impl UnionFind {
     }
 
     /// Joins two sets; false if they were one already.
-    pub(super) fn join(&mut self, a: usize, b: usize) -> bool {
+    pub(crate) fn join(&mut self, a: usize, b: usize) -> bool {
         let (mut a, mut b) = (self.root(a), self.root(b));
         if a == b {
             return false;
