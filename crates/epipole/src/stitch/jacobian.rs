@@ -11,7 +11,7 @@ const WIDTH_PX: f64 = 1.0;
 const SMALL: f64 = 1e-4;
 
 /// A match of two photos, by their numbers.
-pub(super) struct Match {
+pub(super) struct PixelMatch {
     pub(super) images: [usize; 2],
     pub(super) pixels: [Point2<f64>; 2],
 }
@@ -44,7 +44,7 @@ impl Turns {
 
 /// Residuals of matches in their second photo, pixels.
 pub(super) struct TurnsProblem {
-    pub(super) matches: Vec<Match>,
+    pub(super) matches: Vec<PixelMatch>,
     pub(super) turns: Turns,
     pub(super) is_focal_held: bool,
 }
@@ -68,7 +68,7 @@ impl TurnsProblem {
         3 * (self.turns.intrinsics.len() - 1) + 1
     }
 
-    fn seen(&self, parameters: &DVector<f64>, found: &Match) -> Option<Seen> {
+    fn seen(&self, parameters: &DVector<f64>, found: &PixelMatch) -> Option<Seen> {
         let [k1, k2] = found.images.map(|number| &self.turns.intrinsics[number]);
         let [r1, r2] = found
             .images
@@ -187,7 +187,7 @@ mod tests {
         let mut pixel = || Point2::new(random.uniform(200.0, 440.0), random.uniform(140.0, 340.0));
         let problem = TurnsProblem {
             matches: [[0, 1], [2, 1], [1, 0], [2, 0], [1, 2]]
-                .map(|images| Match {
+                .map(|images| PixelMatch {
                     images,
                     pixels: [pixel(), pixel()],
                 })

@@ -1,6 +1,6 @@
 //! Rotations of cameras at one place, with one factor of their focal lengths.
 
-use super::jacobian::{Match, Turns, TurnsProblem};
+use super::jacobian::{PixelMatch, Turns, TurnsProblem};
 use super::overlap::Overlap;
 use super::tree::Tree;
 use crate::camera::Intrinsics;
@@ -96,7 +96,7 @@ pub(super) fn estimate_turns(
     let matches = used.iter().zip(&pairs).flat_map(|(overlap, pairs)| {
         let [a, b] = overlap.images;
         let numbers = [a, b].map(|image| number_of[image].unwrap_or(0));
-        pairs.iter().map(move |pixels| Match {
+        pairs.iter().map(move |pixels| PixelMatch {
             images: numbers,
             pixels: *pixels,
         })

@@ -5,7 +5,7 @@
 
 /// Bits row by row, the first the most significant; 1 is white.
 #[rustfmt::skip]
-#[allow(clippy::unreadable_literal)]
+#[expect(clippy::unreadable_literal, reason = "bits of markers, not numbers")]
 pub(super) const CODES: [u64; 1000] = [
     0x1e3dd82a6, 0x0efba3891, 0x15907eacd, 0xc91b3069e, 0xd607d6e15, 0xd8e8e0e68, 0x4268b41f5,
     0x88a50f29a, 0x307d524fd, 0x3c2f34b3c, 0x45dfc74e3, 0x48d85b257, 0x710558fc6, 0x86dcfad07,

@@ -5,7 +5,7 @@
 
 /// Bits row by row, the first the most significant; 1 is white.
 #[rustfmt::skip]
-#[allow(clippy::unreadable_literal)]
+#[expect(clippy::unreadable_literal, reason = "bits of markers, not numbers")]
 pub(super) const CODES: [u64; 1000] = [
     0x1bab8d94b9415, 0x1c837e27c8156, 0x13d545758ba4f, 0x14cce0b6fd298, 0x18d78f62664ac,
     0x0b1002846b3dc, 0x1a6d77cdea890, 0x07942db1117b6, 0x1120e3ead2d3c, 0x176cb631adc7e,
