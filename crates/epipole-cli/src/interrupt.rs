@@ -1,5 +1,7 @@
 //! Ctrl-C asks the work to end with what it has; a second one ends it at once.
 
+use epipole::progress::Status;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
@@ -24,4 +26,12 @@ pub(crate) fn listen() {
 /// Whether Ctrl-C was pressed.
 pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
+}
+
+/// Monitor that shows nothing and cancels after Ctrl-C.
+pub(crate) fn watch(_: Status) -> ControlFlow<()> {
+    match requested() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    }
 }

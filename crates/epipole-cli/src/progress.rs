@@ -37,11 +37,7 @@ impl Progress {
     pub(crate) fn show(&self, status: Status) -> ControlFlow<()> {
         self.0.set_message(status.stage.words());
         self.set(f64::from(status.share));
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        interrupt::watch(status)
     }
 }
 

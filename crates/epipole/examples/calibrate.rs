@@ -20,7 +20,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         for path in photos {
             let image = read_gray(path)?;
             size = image.dimensions();
-            let search = find_board(&image, &board)?;
+            let search = find_board(&image, &board, &mut ())?;
             println!("{path}: {:?}", search.problem(&board));
             views.push(search.view());
         }

@@ -66,7 +66,8 @@ pub struct Status {
 
 /// Observer of a long computation, which can cancel it.
 ///
-/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument.
+/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument,
+/// except passes over one image (filters, warps, maps), whose time is proportional to its pixels.
 /// `&mut ()` runs to the end in silence; a closure sees each [`Status`] and can return
 /// [`ControlFlow::Break`], upon which the function returns [`Error::Canceled`].
 ///

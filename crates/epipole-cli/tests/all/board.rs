@@ -70,7 +70,7 @@ fn boards_are_drawn_to_scale_and_found() {
         let gray = GrayImage32::from_fn(drawn.width(), drawn.height(), |u, v| {
             Luma([f32::from(drawn.get_pixel(u, v).0[0]) / 255.0])
         });
-        let search = find_board(&gray, &board).unwrap();
+        let search = find_board(&gray, &board, &mut ()).unwrap();
         let problem = search.problem(&board);
         let view = search.view().unwrap_or_else(|| panic!("{problem:?}"));
         assert_eq!(view.num_seen(), board.num_marks(), "{result}");

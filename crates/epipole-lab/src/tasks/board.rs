@@ -3,7 +3,7 @@
 
 use super::photograph::Photograph;
 #[cfg(feature = "files")]
-use super::task::{Monitor, Run, report};
+use super::task::{Monitor, Progress, Run, report};
 use super::task::{Query, Task};
 use crate::project::{BoardOptions, Given, Key, PhotoId, Project, Source, Step};
 use serde::{Deserialize, Serialize};
@@ -134,19 +134,20 @@ impl Project {
 impl Run for FindBoard {
     /// Searches just as `epipole calibrate` does.
     fn run(self, monitor: Monitor<'_>) -> Result<BoardFound, String> {
-        use super::convert::core_board;
+        use super::convert::{core_board, sentence};
         use super::thumbnail::Thumbnail;
         use epipole::calibration::{BoardSearch, find_board};
         use epipole::feature::photo_to_gray;
         use epipole::imaging::reduce_rgb;
+        use epipole::progress::Status;
         // The unit of length does not matter here.
         let board = core_board(&self.options, 1.0)?;
         report(monitor, 0.0, "reading")?;
         let whole = of_sensor(&self.source)?;
         let sensor_size = whole.dimensions();
-        report(monitor, 0.3, "searching")?;
-        let search =
-            find_board(&photo_to_gray(&whole), &board).map_err(|error| error.to_string())?;
+        let mut watch =
+            |status: Status| monitor(Progress::Share(0.3 + 0.7 * status.share, "searching"));
+        let search = find_board(&photo_to_gray(&whole), &board, &mut watch).map_err(sentence)?;
         let problem = search.problem(&board);
         let other_grid = match search {
             BoardSearch::Partial { columns, rows, .. } => Some((columns as u32, rows as u32)),

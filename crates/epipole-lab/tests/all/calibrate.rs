@@ -123,7 +123,9 @@ fn files_give_what_the_core_gives_bit_for_bit() {
     let views: Vec<Option<BoardView>> = (files.iter())
         .map(|file| {
             let image = image::load_from_memory(file).unwrap().to_rgb8();
-            find_board(&photo_to_gray(&image), &board).unwrap().view()
+            find_board(&photo_to_gray(&image), &board, &mut ())
+                .unwrap()
+                .view()
         })
         .collect();
     assert_eq!(views.iter().flatten().count(), 5);

@@ -10,6 +10,7 @@ use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, pyramid_down};
+use crate::progress::{Monitor, Stage, report};
 use nalgebra::Point2;
 
 /// Maximum length of the longer side of the image in which the search starts, pixels.
@@ -25,8 +26,11 @@ const FIRST_SIDE: u32 = 1300;
 /// two columns: the markers tell which ones.
 ///
 /// * `image`: gray values in [0, 1]
+/// * `monitor`: hears before each image of the pyramid that is searched, in the one stage
+///   [`Stage::FeatureDetection`]
 ///
 /// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled);
 /// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
 ///
@@ -44,7 +48,7 @@ const FIRST_SIDE: u32 = 1300;
 ///     image::Luma([f32::from(!inside || (u / 20 + v / 20) % 2 == 1)])
 /// });
 /// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
-/// let view = find_board(&image, &board)?.view().expect("a board");
+/// let view = find_board(&image, &board, &mut ())?.view().expect("a board");
 /// assert_eq!(view.num_seen(), 20);
 /// let first = view.pixels[0].expect("the first corner");
 /// assert!((first - nalgebra::Point2::new(119.5, 99.5)).norm() < 0.01 || (first - nalgebra::Point2::new(39.5, 39.5)).norm() < 0.01);
@@ -52,10 +56,14 @@ const FIRST_SIDE: u32 = 1300;
 /// ```
 #[doc(alias = "findChessboardCorners")]
 #[doc(alias = "findCirclesGrid")]
-pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+pub fn find_board(
+    image: &GrayImage32,
+    board: &Board,
+    monitor: &mut dyn Monitor,
+) -> Result<BoardSearch> {
     check_range(image)?;
     if board.pattern().has_markers() {
-        return find_marker_board(image, board);
+        return find_marker_board(image, board, monitor);
     }
     let mut levels = vec![image.clone()];
     while let Some(last) = levels.last()
@@ -71,7 +79,9 @@ pub fn find_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
     let mut order: Vec<usize> = (0..=first).rev().collect();
     order.extend(first + 1..levels.len());
     let mut best = BoardSearch::Nothing;
-    for level in order {
+    for (n, &level) in order.iter().enumerate() {
+        let share = n as f32 / order.len() as f32;
+        report(monitor, Stage::FeatureDetection, share)?;
         let found = match board.pattern() {
             Pattern::Circles | Pattern::AsymmetricCircles => {
                 find_circle_grid(&levels[level], board)?
@@ -196,7 +206,7 @@ mod tests {
                 }
                 num_poses += 1;
                 let image = photograph_of_board(&board, camera, pose, 0.01, seed as u64);
-                let search = find_board(&image, &board).unwrap();
+                let search = find_board(&image, &board, &mut ()).unwrap();
                 let problem = search.problem(&board);
                 let Some(view) = search.view() else {
                     println!("{number} {seed}: {problem:?}");
@@ -230,7 +240,7 @@ mod tests {
                 *value = Luma([0.55]);
             }
         }
-        let view = find_board(&image, &board).unwrap().view().unwrap();
+        let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
         assert!((30..=50).contains(&view.num_seen()), "{}", view.num_seen());
         let (largest, rms) = errors(&view, &truth);
         assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
@@ -262,7 +272,7 @@ mod tests {
                     *value = Luma([0.55]);
                 }
             }
-            if let Some(view) = find_board(&image, &board).unwrap().view() {
+            if let Some(view) = find_board(&image, &board, &mut ()).unwrap().view() {
                 num_seen += view.num_seen();
                 worst = worst.max(errors(&view, &truth).0);
             }
@@ -287,7 +297,7 @@ mod tests {
                 let bright =
                     GrayImage32::from_fn(640, 480, |u, v| Luma([1.0 - dark.get_pixel(u, v).0[0]]));
                 for image in [dark, bright] {
-                    let search = find_board(&image, &board).unwrap();
+                    let search = find_board(&image, &board, &mut ()).unwrap();
                     let problem = search.problem(&board);
                     let Some(view) = search.view() else {
                         println!("{number} {seed}: {problem:?}");
@@ -317,7 +327,7 @@ mod tests {
         for (seed, pose) in poses(&board, 4, 14.0, 6).iter().enumerate() {
             let truth = true_view(&board, &camera, pose);
             let image = photograph_of_board(&board, &camera, pose, 0.01, seed as u64);
-            let view = find_board(&image, &board).unwrap().view().unwrap();
+            let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             assert_eq!(view.num_seen(), 35);
             // The center of an ellipse is not the image of the disk's center.
             let (largest, rms) = errors(&view, &truth);
@@ -325,7 +335,10 @@ mod tests {
         }
         let wider = Board::new(Pattern::Circles, 8, 5, 0.03).unwrap();
         let image = photograph_of_board(&board, &camera, &poses(&board, 1, 14.0, 6)[0], 0.0, 0);
-        let problem = find_board(&image, &wider).unwrap().problem(&wider).unwrap();
+        let problem = find_board(&image, &wider, &mut ())
+            .unwrap()
+            .problem(&wider)
+            .unwrap();
         assert!(problem.contains("7 × 5"), "{problem}");
     }
 
@@ -337,7 +350,7 @@ mod tests {
         let told = |pose: &RigidTransform, columns: usize, rows: usize| {
             let image = photograph_of_board(&board, &camera, pose, 0.01, 2);
             let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
-            let search = find_board(&image, &wanted).unwrap();
+            let search = find_board(&image, &wanted, &mut ()).unwrap();
             assert!(!matches!(search, BoardSearch::Found(_)));
             search.problem(&wanted).unwrap()
         };
@@ -354,7 +367,7 @@ mod tests {
         let half_out = RigidTransform::translation(0.18, 0.0, 0.0) * pose;
         assert!(told(&half_out, 9, 6).contains("outside of the picture"));
         let nothing = GrayImage32::from_pixel(200, 100, Luma([0.5]));
-        let search = find_board(&nothing, &board).unwrap();
+        let search = find_board(&nothing, &board, &mut ()).unwrap();
         assert!(
             search
                 .problem(&board)
@@ -362,12 +375,12 @@ mod tests {
                 .contains("no board of 9 × 6")
         );
         for (width, height) in [(0, 0), (1, 1), (4, 900)] {
-            let search = find_board(&GrayImage32::new(width, height), &board).unwrap();
+            let search = find_board(&GrayImage32::new(width, height), &board, &mut ()).unwrap();
             assert_eq!(search, BoardSearch::Nothing);
         }
         let nan = GrayImage32::from_pixel(20, 20, Luma([f32::NAN]));
-        assert!(find_board(&nan, &board).is_err());
+        assert!(find_board(&nan, &board, &mut ()).is_err());
         let bytes = GrayImage32::from_pixel(20, 20, Luma([200.0]));
-        assert!(find_board(&bytes, &board).is_err());
+        assert!(find_board(&bytes, &board, &mut ()).is_err());
     }
 }

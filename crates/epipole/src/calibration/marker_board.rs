@@ -8,6 +8,7 @@ use super::{Board, BoardView};
 use crate::Result;
 use crate::homography::{fit_homography, homography_4point, transfer};
 use crate::imaging::GrayImage32;
+use crate::progress::Monitor;
 use nalgebra::{Matrix3, Point2, center};
 
 /// Minimum number of marks, which lie in two rows and two columns at least.
@@ -20,12 +21,16 @@ const MOST_STRAYED: f64 = 0.2;
 const BESIDE: f64 = 0.8;
 
 /// Looks for a board with markers. Its marks are exact to a fraction of a pixel.
-pub(super) fn find_marker_board(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+pub(super) fn find_marker_board(
+    image: &GrayImage32,
+    board: &Board,
+    monitor: &mut dyn Monitor,
+) -> Result<BoardSearch> {
     let Some(markers) = board_markers(board) else {
         return Ok(BoardSearch::Nothing);
     };
     let options = MarkerOptions::default().with_border_bits(markers.border_bits);
-    let found = detect_markers(image, markers.dictionary, &options, &mut ())?;
+    let found = detect_markers(image, markers.dictionary, &options, monitor)?;
     if found.is_empty() {
         return Ok(BoardSearch::Nothing);
     }
@@ -193,7 +198,7 @@ mod tests {
     /// Number of marks, largest and root mean square distance from the truth.
     fn search(image: &GrayImage32, board: &Board, pose: &RigidTransform) -> (usize, f64, f64) {
         let truth = true_view(board, &camera(), pose);
-        let search = find_board(image, board).unwrap();
+        let search = find_board(image, board, &mut ()).unwrap();
         let problem = search.problem(board);
         let view = search.view().unwrap_or_else(|| panic!("{problem:?}"));
         let errors: Vec<f64> = view
@@ -237,7 +242,7 @@ mod tests {
             let pose = nearer * far;
             let truth = true_view(&board, &camera, &pose);
             let image = photograph_of_board(&board, &camera, &pose, 0.01, 0);
-            let view = find_board(&image, &board).unwrap().view().unwrap();
+            let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             let missing = (truth.pixels.iter().zip(&view.pixels)).filter(|(truth, seen)| {
                 let is_inside =
                     |p: &Point2<f64>| (10.0..630.0).contains(&p.x) && (10.0..470.0).contains(&p.y);
@@ -321,7 +326,7 @@ mod tests {
         let (board, poses) = &boards()[0];
         let image = photograph_of_board(board, &camera(), &poses[0], 0.01, 4);
         let wider = Board::new(CHARUCO, 8, 5, 0.03).unwrap();
-        let search = find_board(&image, &wider).unwrap();
+        let search = find_board(&image, &wider, &mut ()).unwrap();
         let problem = search.problem(&wider).unwrap();
         assert!(
             problem.contains("17 markers") && problem.contains("count"),
@@ -332,7 +337,10 @@ mod tests {
             marker_share: 0.75,
         };
         let other = Board::new(other, 7, 5, 0.03).unwrap();
-        let problem = find_board(&image, &other).unwrap().problem(&other).unwrap();
+        let problem = find_board(&image, &other, &mut ())
+            .unwrap()
+            .problem(&other)
+            .unwrap();
         assert!(problem.contains("dictionary"), "{problem}");
     }
 
@@ -369,10 +377,13 @@ mod tests {
         for (board, _) in boards() {
             for (width, height) in [(0, 0), (1, 1), (1, 400), (400, 1), (90, 70)] {
                 let image = GrayImage32::from_pixel(width, height, Luma([0.5]));
-                assert_eq!(find_board(&image, &board).unwrap(), BoardSearch::Nothing);
+                assert_eq!(
+                    find_board(&image, &board, &mut ()).unwrap(),
+                    BoardSearch::Nothing
+                );
             }
             let nan = GrayImage32::from_pixel(20, 20, Luma([f32::NAN]));
-            assert!(find_board(&nan, &board).is_err());
+            assert!(find_board(&nan, &board, &mut ()).is_err());
         }
     }
 }

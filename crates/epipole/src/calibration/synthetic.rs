@@ -86,7 +86,7 @@ impl Sheet {
 /// // The corner in row 1 and column 2 is 2 cm to the right and 2 cm below of the first.
 /// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
 /// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
-/// let found = find_board(&image, &board)?.view().expect("a board");
+/// let found = find_board(&image, &board, &mut ())?.view().expect("a board");
 /// let seen = found.pixels[7].expect("a corner");
 /// assert!((seen - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
 /// # Ok(()) }

@@ -8,7 +8,7 @@ use crate::camera::{Camera, RigidTransform};
 use crate::epipolar::estimate_relative_pose;
 use crate::feature::Match;
 use crate::homography::estimate_homography;
-use crate::progress::{Monitor, Stage, report};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::robust::{RansacOptions, RansacReport};
 use crate::two_view::{
     TwoViewOptions, find_explaining_turn, find_plane_through_lenses, find_turn_and_focal,
@@ -37,9 +37,10 @@ pub struct VerifiedPair {
 /// * `pair`: matches of the photographs' keypoints
 /// * `images`, `cameras`: of the two photographs that the pair names
 /// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`] and the seed
+/// * `monitor`: hears from the searches, in the one stage [`Stage::PairVerification`]
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if a match refers to a keypoint that is not there, [`Error::NotFinite`]
+/// [`Error::Canceled`]; [`Error::OutOfRange`] if a match refers to a keypoint that is not there, [`Error::NotFinite`]
 /// for a lens with such a coefficient.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
@@ -48,6 +49,7 @@ pub fn verify_matches(
     images: [&SfmImage; 2],
     cameras: [&Camera; 2],
     options: &SfmOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Option<VerifiedPair>> {
     let counts = images.map(|image| image.keypoints.len());
     let is_absent = |found: &&Match| found.index1 >= counts[0] || found.index2 >= counts[1];
@@ -75,7 +77,8 @@ pub fn verify_matches(
         &views,
         &pair_ransac(options),
         options.min_num_inliers,
-    );
+        &mut Part::new(monitor, 0.0, 1.0).of_stage(Stage::PairVerification),
+    )?;
     Ok(found.map(|found| VerifiedPair {
         pair: PairMatches {
             matches: found.pair.matches,
@@ -101,7 +104,8 @@ pub(super) fn verify_pairs(
         let mut found: Vec<Option<VerifiedPair>> = vec![None; group.len()];
         crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
             let needed = options.min_num_inliers;
-            found[0] = verify_pair(&group[n], views, &ransac, needed);
+            // Without a monitor nothing cancels it.
+            found[0] = verify_pair(&group[n], views, &ransac, needed, &mut ()).unwrap_or(None);
         });
         verified.extend(found.into_iter().flatten());
         done += group.len();
@@ -122,11 +126,12 @@ pub(super) fn verify_pair(
     views: &Views,
     options: &RansacOptions,
     min_num_inliers: usize,
-) -> Option<VerifiedPair> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<VerifiedPair>> {
     let both = [pair.image1, pair.image2];
     let cameras = both.map(|image| &views.cameras[image]);
     if pair.matches.len() < min_num_inliers.max(5) {
-        return None;
+        return Ok(None);
     }
     let pixels = both.map(|image| &views.pixels[image][..]);
     let pixels1: Vec<_> = (pair.matches.iter())
@@ -136,10 +141,13 @@ pub(super) fn verify_pair(
         .map(|found| pixels[1][found.index2])
         .collect();
     // Without consensus the two photographs simply do not overlap.
-    let report = estimate_relative_pose(&pixels1, &pixels2, cameras, options, &mut ()).ok()?;
-    if report.num_unique_inliers < min_num_inliers {
-        return None;
-    }
+    let search = &mut Part::new(monitor, 0.0, 0.6);
+    let report = unless_canceled(estimate_relative_pose(
+        &pixels1, &pixels2, cameras, options, search,
+    ))?;
+    let Some(report) = report.filter(|found| found.num_unique_inliers >= min_num_inliers) else {
+        return Ok(None);
+    };
     let cam2_from_cam1 = report.model.cam2_from_cam1();
     let inliers = (0..pixels1.len()).filter(|&n| report.inliers[n]);
     let matches: Vec<_> = inliers.clone().map(|n| pair.matches[n]).collect();
@@ -147,8 +155,10 @@ pub(super) fn verify_pair(
     let pixels2: Vec<_> = inliers.map(|n| pixels2[n]).collect();
     let mut angles = Vec::new();
     for (p1, p2) in pixels1.iter().zip(&pixels2) {
-        let ray1 = cam2_from_cam1.rotation * cameras[0].unproject(p1).ok()?;
-        let ray2 = cameras[1].unproject(p2).ok()?;
+        let (Ok(ray1), Ok(ray2)) = (cameras[0].unproject(p1), cameras[1].unproject(p2)) else {
+            return Ok(None);
+        };
+        let ray1 = cam2_from_cam1.rotation * ray1;
         // Head on is as bad as parallel.
         angles.push(libm::acos(ray1.dot(&ray2).abs().min(1.0)));
     }
@@ -161,7 +171,8 @@ pub(super) fn verify_pair(
         },
         ..TwoViewOptions::default()
     };
-    let flat = find_plane(&pixels1, &pixels2, cameras, &judging);
+    let rest = &mut Part::new(monitor, 0.6, 1.0);
+    let flat = find_plane(&pixels1, &pixels2, cameras, &judging, rest)?;
     // A rotation gives no depth, and with a wrong focal length a rotation passes for a plane.
     let only_turned = flat.as_ref().is_some_and(|flat| {
         find_explaining_turn(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
@@ -172,12 +183,21 @@ pub(super) fn verify_pair(
         true => 0.0,
         false => angles.get(angles.len() / 2).copied().unwrap_or(0.0),
     };
-    Some(VerifiedPair {
+    Ok(Some(VerifiedPair {
         pair: PairMatches { matches, ..*pair },
         cam2_from_cam1,
         median_angle_rad,
         is_flat: flat.is_some(),
-    })
+    }))
+}
+
+/// `None` for any failure but a cancellation.
+fn unless_canceled<T>(found: Result<T>) -> Result<Option<T>> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(Error::Canceled) => Err(Error::Canceled),
+        Err(_) => Ok(None),
+    }
 }
 
 /// Maximum number of samples in search of a plane or a rotation among inliers.
@@ -189,13 +209,16 @@ fn find_plane(
     pixels2: &[Point2<f64>],
     cameras: [&Camera; 2],
     judging: &TwoViewOptions,
-) -> Option<RansacReport<Matrix3<f64>>> {
+    monitor: &mut dyn Monitor,
+) -> Result<Option<RansacReport<Matrix3<f64>>>> {
     if !Camera::are_pinholes(cameras) {
-        return find_plane_through_lenses(pixels1, pixels2, cameras, judging);
+        return Ok(find_plane_through_lenses(
+            pixels1, pixels2, cameras, judging,
+        ));
     }
-    let flat = estimate_homography(pixels1, pixels2, &judging.ransac, &mut ()).ok();
+    let search = estimate_homography(pixels1, pixels2, &judging.ransac, monitor);
     let needed = judging.max_homography_share * pixels1.len() as f64;
-    flat.filter(|flat| flat.num_inliers as f64 > needed)
+    Ok(unless_canceled(search)?.filter(|flat| flat.num_inliers as f64 > needed))
 }
 
 /// Whether a rotation with another focal length explains matches on a plane.

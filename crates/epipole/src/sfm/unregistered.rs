@@ -144,7 +144,7 @@ pub fn why_unregistered(
         }
         let verified: Vec<_> = with
             .iter()
-            .filter_map(|pair| verify_pair(pair, &views, &ransac, needed))
+            .filter_map(|pair| verify_pair(pair, &views, &ransac, needed, &mut ()).ok()?)
             .collect();
         if verified.is_empty() {
             return WhyUnregistered::NoMotion;

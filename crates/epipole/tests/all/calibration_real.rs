@@ -35,7 +35,7 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
     for (columns, rows) in [(7, 6), (8, 6), (5, 4)] {
         let smaller = Board::new(Pattern::Chessboard, columns, rows, 0.025).expect("a board");
         for name in ["left01.jpg", "left03.jpg", "right05.jpg"] {
-            let search = find_board(&gray_of(name), &smaller).expect("a search");
+            let search = find_board(&gray_of(name), &smaller, &mut ()).expect("a search");
             let problem = search.problem(&smaller).expect("another size");
             assert!(
                 problem.contains("the board is of another size"),
@@ -48,7 +48,7 @@ fn every_board_is_found_and_the_errors_are_no_larger_than_opencvs() {
             .filter(|number| *number != 10)
             .map(|number| {
                 let gray = gray_of(&format!("{side}{number:02}.jpg"));
-                let search = find_board(&gray, &board).expect("a search");
+                let search = find_board(&gray, &board, &mut ()).expect("a search");
                 println!("{side}{number}: {:?}", search.problem(&board));
                 search.view()
             })

@@ -318,7 +318,14 @@ fn a_fisheye_that_only_turned_begins_nothing() {
     let options = SfmOptions::default();
     let images = [&world.input.images[0], &world.input.images[1]];
     let pair = &world.input.pairs[0];
-    let found = verify_matches(pair, images, [&world.input.cameras[0]; 2], &options).unwrap();
+    let found = verify_matches(
+        pair,
+        images,
+        [&world.input.cameras[0]; 2],
+        &options,
+        &mut (),
+    )
+    .unwrap();
     assert_eq!(found.map(|pair| pair.median_angle_rad), Some(0.0));
     let result = run(&world, &options);
     assert!(result.components.is_empty());
@@ -342,7 +349,7 @@ fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
         assert!(told.contains("every coefficient of the lens"), "{told}");
         let images = [&world.input.images[0], &world.input.images[1]];
         let pair = &world.input.pairs[0];
-        assert!(verify_matches(pair, images, [&with([k; 4]); 2], &options).is_err());
+        assert!(verify_matches(pair, images, [&with([k; 4]); 2], &options, &mut ()).is_err());
     }
     // It folds 7° off the axis: nearly all keypoints have no ray.
     world.input.cameras = vec![with([-20.0, 0.0, 0.0, 0.0])];
@@ -428,7 +435,13 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
         ..seen_through(making.lens)
     };
     let options = SfmOptions::default();
-    let found = verify_matches(&pair, [&images[0], &images[1]], [&camera; 2], &options);
+    let found = verify_matches(
+        &pair,
+        [&images[0], &images[1]],
+        [&camera; 2],
+        &options,
+        &mut (),
+    );
     found.unwrap().unwrap()
 }
 

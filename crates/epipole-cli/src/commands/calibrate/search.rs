@@ -36,7 +36,7 @@ pub(super) fn search(
                 return Err(epipole::Error::Canceled.into());
             }
             let gray = Photo::of_sensor(&photo.path, reading, context)?;
-            let found = find_board(&gray, board)?;
+            let found = find_board(&gray, board, &mut interrupt::watch)?;
             let done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / photos.len() as f64);
             Ok((gray.dimensions(), found))

@@ -10,7 +10,6 @@ use epipole::camera::Intrinsics;
 use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
 use epipole::robust::RansacReport;
 use nalgebra::Point2;
-use std::ops::ControlFlow;
 
 /// Samples of six matches, at most: each takes as long as ten of five.
 const MAX_SAMPLES: usize = 2000;
@@ -47,12 +46,14 @@ pub(super) fn intrinsics(
             && !report.could_be_chance()
             && report.model.tells_focal()
     };
-    let mut monitor = |_| match interrupt::requested() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
-    let found =
-        estimate_relative_pose_and_focal(pixels1, pixels2, &middle, &middle, &ransac, &mut monitor);
+    let found = estimate_relative_pose_and_focal(
+        pixels1,
+        pixels2,
+        &middle,
+        &middle,
+        &ransac,
+        &mut interrupt::watch,
+    );
     if found == Err(epipole::Error::Canceled) {
         return Err(epipole::Error::Canceled.into());
     }
