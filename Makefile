@@ -12,7 +12,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -112,6 +112,9 @@ publish-crates: ## publishes the crates that are not yet on crates.io at this ve
 
 bless: setup-build ## makes the golden images anew; commit them alone, with the reason
 	EPIPOLE_BLESS=1 cargo test -p epipole-widgets --test golden
+
+bless-contract: setup-build ## writes web/src/contract.ts anew from the types of epipole-widgets
+	EPIPOLE_BLESS=1 cargo test --locked --quiet -p epipole-widgets --lib typescript
 
 bless-licenses: setup-build ## lists anew what we ship that is not ours; read the difference before you commit it
 	node tests/tools/supply.mjs --bless

@@ -1,7 +1,8 @@
 /** Announcements of a figure: events for the page, sentences for screen readers. */
 
-import type { Challenge, Parameters, Snapshot } from "./contract.js";
+import type { Challenge, Snapshot } from "./contract.js";
 import type { FigureHost } from "./host.js";
+import type { Parameters } from "./permalink.js";
 import type { Shell } from "./shell.js";
 
 /** A figure before and after something has changed. */

@@ -1,6 +1,7 @@
 /** Attributes of an element that are parameters of its figure. */
 
-import type { Parameters, Snapshot } from "./contract.js";
+import type { Snapshot } from "./contract.js";
+import type { Parameters } from "./permalink.js";
 
 /** Attributes that are no parameters: those of the element, and global HTML attributes. */
 const NOT_PARAMETERS =

@@ -1,178 +1,484 @@
-/** Data that figures exchange with the page, as serialized by `epipole-widgets`. */
+/** Data that figures and pages exchange. Written by `make bless-contract` from `epipole-widgets`. */
 
-/** A numeric control. */
-export interface Slider {
-  kind: "slider";
-  unit: string;
-  min: number;
-  max: number;
-  step: number;
-  default: number;
-  digits: number;
-  value: number;
-}
+/**
+ * A figure's current state, laid out for a page width.
+ */
+export type Snapshot = { layout: Layout, aspect: Aspect, controls: Array<Control>, handles: Array<Handle>, spaces: Array<Space>, symbols: Array<PlacedSymbol>, readouts: Array<Readout>, challenges: Array<Challenge>, description: string, running: boolean, photos: Array<PhotoSlot>, 
+/**
+ * File that can be saved besides the picture.
+ */
+file: FileOffer | null, 
+/**
+ * Status while the figure waits for a long computation.
+ */
+waiting: string | null, };
 
-/** An on/off control. */
-export interface Toggle {
-  kind: "toggle";
-  default: boolean;
-  value: boolean;
-}
+/**
+ * Aspect of a figure's picture on wide pages, from which a page arranges everything else.
+ */
+export type Aspect = "broad" | "tall";
 
-/** A choice between a few options. */
-export interface Choice {
-  kind: "choice";
-  /** Permanent name and label of each option. */
-  options: [string, string][];
-  default: string;
-  value: string;
-}
+/**
+ * The picture's size and its panels, for one width of the page.
+ */
+export type Layout = { 
+/**
+ * Width, CSS pixels.
+ */
+width: number, 
+/**
+ * Height, CSS pixels.
+ */
+height: number, 
+/**
+ * The panels; none overlap.
+ */
+panels: Array<Panel>, };
 
-/** A button that triggers an action. */
-export interface Button {
-  kind: "button";
-  role: "run" | "step" | "restart" | "action";
-  /** True while its animation is running. */
-  pressed: boolean;
-}
+/**
+ * A part of the picture with its own world: a photograph, a plot, a view from above.
+ */
+export type Panel = { 
+/**
+ * Permanent name.
+ */
+id: string, 
+/**
+ * Rectangle on the page, CSS pixels.
+ */
+rect: { x: number; y: number; width: number; height: number }, 
+/**
+ * World units from left to right.
+ */
+x_axis: Axis, 
+/**
+ * World units from top to bottom.
+ */
+y_axis: Axis, 
+/**
+ * Whether a click away from handles has an effect here.
+ */
+clickable: boolean, };
 
-/** A control with its current value. */
-export type Control = {
-  id: string;
-  label: string;
-  /** The value as text, such as "0.30 m". */
-  value_text: string;
-  /** False if it has no effect at present. */
-  enabled: boolean;
-  /** Always visible, folded with rarely used controls, or part of the permalink only. */
-  place: "first" | "more" | "hidden";
-} & (Slider | Toggle | Choice | Button);
+/**
+ * Mapping of one world coordinate along one side of a panel.
+ */
+export type Axis = { 
+/**
+ * World value at the panel's left or top edge.
+ */
+start: number, 
+/**
+ * World value at the panel's right or bottom edge; smaller than `start` for an axis that runs
+ * up.
+ */
+end: number, };
 
-/** A draggable point. */
-export interface Handle {
-  id: string;
-  panel: string;
-  label: string;
-  value_text: string;
-  x: number;
-  y: number;
-  x_range: [number, number];
-  y_range: [number, number];
-  step: [number, number];
-  digits: number;
-  removable: boolean;
-  /** Position in the picture, CSS pixels of the layout. */
-  place: [number, number];
-}
+/**
+ * A control with its present value: what a page needs to show it.
+ */
+export type Control = { 
+/**
+ * Permanent name.
+ */
+id: string, 
+/**
+ * Label shown to the reader.
+ */
+label: string, 
+/**
+ * The value in words for a screen reader, such as "0.30 m".
+ */
+value_text: string, 
+/**
+ * False when it can do nothing now; it stays discoverable.
+ */
+enabled: boolean, 
+/**
+ * Placement on the page.
+ */
+place: Place, } & ({ "kind": "slider", 
+/**
+ * Unit after the value.
+ */
+unit: string, 
+/**
+ * Smallest value.
+ */
+min: number, 
+/**
+ * Largest value.
+ */
+max: number, 
+/**
+ * Distance between neighboring values.
+ */
+step: number, 
+/**
+ * Value at the start.
+ */
+default: number, 
+/**
+ * Digits after the decimal point.
+ */
+digits: number, 
+/**
+ * Present value.
+ */
+value: number, } | { "kind": "toggle", 
+/**
+ * State at the start.
+ */
+default: boolean, 
+/**
+ * Present state.
+ */
+value: boolean, } | { "kind": "choice", 
+/**
+ * Permanent name and label of each option.
+ */
+options: Array<[string, string]>, 
+/**
+ * Permanent name of the option at the start.
+ */
+default: string, 
+/**
+ * Permanent name of the present option.
+ */
+value: string, } | { "kind": "button", 
+/**
+ * Kind of action.
+ */
+role: ButtonRole, 
+/**
+ * True while the animation that it starts is running.
+ */
+pressed: boolean, });
 
-/** A number or text beside the picture. */
-export interface Readout {
-  id: string;
-  label: string;
-  value: number | string;
-  unit: string;
-  /** The value as displayed, with its unit. */
-  text: string;
-  /** Whether it is displayed large and always visible; the others are folded. */
-  main: boolean;
-}
+/**
+ * The four kinds of control.
+ */
+export type ControlKind = { "kind": "slider", 
+/**
+ * Unit after the value.
+ */
+unit: string, 
+/**
+ * Smallest value.
+ */
+min: number, 
+/**
+ * Largest value.
+ */
+max: number, 
+/**
+ * Distance between neighboring values.
+ */
+step: number, 
+/**
+ * Value at the start.
+ */
+default: number, 
+/**
+ * Digits after the decimal point.
+ */
+digits: number, 
+/**
+ * Present value.
+ */
+value: number, } | { "kind": "toggle", 
+/**
+ * State at the start.
+ */
+default: boolean, 
+/**
+ * Present state.
+ */
+value: boolean, } | { "kind": "choice", 
+/**
+ * Permanent name and label of each option.
+ */
+options: Array<[string, string]>, 
+/**
+ * Permanent name of the option at the start.
+ */
+default: string, 
+/**
+ * Permanent name of the present option.
+ */
+value: string, } | { "kind": "button", 
+/**
+ * Kind of action.
+ */
+role: ButtonRole, 
+/**
+ * True while the animation that it starts is running.
+ */
+pressed: boolean, };
 
-/** A goal for the reader. */
-export interface Challenge {
-  id: string;
-  goal: string;
-  hint: string;
-  /** Why the solution works, in one sentence. */
-  why: string;
-  solved: boolean;
-}
+/**
+ * Kind of action of a button, from which a page chooses its position and icon.
+ */
+export type ButtonRole = "run" | "step" | "restart" | "action";
 
-/** An input for a reader's photograph. */
-export interface PhotoSlot {
-  id: string;
-  label: string;
-  /** Longer side in pixels to which larger photographs are downscaled. */
-  max_side_px: number;
-}
+/**
+ * Placement of a control on the page.
+ */
+export type Place = "first" | "more" | "hidden";
 
-/** A file to save besides the picture. */
-export interface FileOffer {
-  label: string;
-  hint: string;
-  extension: string;
-  /** Whether the file can be saved already. */
-  is_ready: boolean;
-}
+/**
+ * A handle with its position on the page, CSS pixels.
+ */
+export type Handle = { place: [number, number], 
+/**
+ * Permanent name; also its URL parameter, with the value `x,y`.
+ */
+id: string, 
+/**
+ * Name of its panel.
+ */
+panel: string, 
+/**
+ * Label for screen readers.
+ */
+label: string, 
+/**
+ * Position in words, such as "2.80 m away, 0.40 m to the right".
+ */
+value_text: string, 
+/**
+ * x in world units.
+ */
+x: number, 
+/**
+ * y in world units.
+ */
+y: number, 
+/**
+ * Smallest and largest x.
+ */
+x_range: [number, number], 
+/**
+ * Smallest and largest y.
+ */
+y_range: [number, number], 
+/**
+ * Step of an arrow key along x and y, world units.
+ */
+step: [number, number], 
+/**
+ * Digits after the decimal point of its position.
+ */
+digits: number, 
+/**
+ * Whether the reader may remove it.
+ */
+removable: boolean, };
 
-/** A part of the picture. */
-export interface Panel {
-  id: string;
-  rect: { x: number; y: number; width: number; height: number };
-  clickable: boolean;
-}
+/**
+ * A panel whose contents the reader turns, moves and zooms.
+ *
+ * Its state is two handles and a slider, so that keys, permalinks and tests cover it. Pointers
+ * have shortcuts: a drag anywhere in the panel moves the handle `orbit`, a drag with Shift moves
+ * `pan`; two fingers move `pan` and, spread, the slider.
+ */
+export type Space = { 
+/**
+ * Name of the panel.
+ */
+panel: string, 
+/**
+ * Handle that turns the scene.
+ */
+orbit: string, 
+/**
+ * Handle that moves the scene across the panel.
+ */
+pan: string, 
+/**
+ * Slider that zooms.
+ */
+zoom: string, };
 
-/** A panel that shows a 3D scene. */
-export interface Space {
-  panel: string;
-  /** The handle that rotates the scene; a drag anywhere in the panel moves it. */
-  orbit: string;
-  /** The handle that pans the scene; dragged with Shift or two fingers. */
-  pan: string;
-  /** The slider that zooms; Ctrl and the wheel, or pinching. */
-  zoom: string;
-}
+/**
+ * A symbol with its position on the page, CSS pixels.
+ */
+export type PlacedSymbol = { name: string, 
+/**
+ * A point, or one end of a line.
+ */
+from: [number, number], 
+/**
+ * The other end.
+ */
+to: [number, number] | null, };
 
-/** A symbol of the text in the picture: a point or a line segment. CSS pixels of the layout. */
-export interface PlacedSymbol {
-  name: string;
-  from: [number, number];
-  to: [number, number] | null;
-}
+/**
+ * A value with its label and unit.
+ */
+export type Readout = { 
+/**
+ * Permanent name.
+ */
+id: string, 
+/**
+ * Label shown to the reader.
+ */
+label: string, 
+/**
+ * The value.
+ */
+value: ReadoutValue, 
+/**
+ * Unit after a number; empty for a pure number.
+ */
+unit: string, 
+/**
+ * The value as shown, with its unit.
+ */
+text: string, 
+/**
+ * Whether it carries the figure's point: it is then large and always shown. The others fold.
+ */
+main: boolean, };
 
-/** Everything that the page shows, for one layout width. */
-export interface Snapshot {
-  /**
-   * Shape of the picture: broad ones take the full width, tall ones have the controls beside them.
-   */
-  aspect: "broad" | "tall";
-  layout: { width: number; height: number; panels: Panel[] };
-  controls: Control[];
-  handles: Handle[];
-  spaces: Space[];
-  symbols: PlacedSymbol[];
-  readouts: Readout[];
-  challenges: Challenge[];
-  description: string;
-  running: boolean;
-  photos: PhotoSlot[];
-  file: FileOffer | null;
-  /** Message while the figure waits for a long computation. */
-  waiting: string | null;
-}
+/**
+ * Value of a readout.
+ */
+export type ReadoutValue = number | string;
 
-/** An action of the reader. */
-export type FigureEvent =
-  | { type: "set"; id: string; value: string | number | boolean }
-  | { type: "press"; id: string }
-  | { type: "handle-removed"; id: string }
-  | { type: "reset" };
+/**
+ * A challenge with whether it is solved now.
+ */
+export type Challenge = { 
+/**
+ * Permanent name.
+ */
+id: string, 
+/**
+ * The goal as a request to the reader.
+ */
+goal: string, 
+/**
+ * A nudge for a reader who is stuck.
+ */
+hint: string, 
+/**
+ * Why that reaches it, in one sentence.
+ */
+why: string, 
+/**
+ * Whether the present state reaches the goal.
+ */
+solved: boolean, };
 
-/** Step of the verified solution of a challenge. Positions are in the world units of panels. */
-export type SolutionEvent =
-  | FigureEvent
-  | { type: "handle-moved"; id: string; x: number; y: number }
-  | { type: "clicked"; panel: string; x: number; y: number }
-  | { type: "tick"; dt_s: number };
+/**
+ * A slot for a photograph of the reader's own.
+ */
+export type PhotoSlot = { 
+/**
+ * Permanent name.
+ */
+id: string, 
+/**
+ * Label shown to the reader, such as "Left photograph".
+ */
+label: string, 
+/**
+ * Largest useful width or height, pixels; a page downscales larger photographs and reports it.
+ */
+max_side_px: number, };
 
-/** Direction of an arrow key. */
+/**
+ * A file that a figure offers, such as a point cloud for other programs.
+ */
+export type FileOffer = { 
+/**
+ * Label of the button.
+ */
+label: string, 
+/**
+ * Contents of the file and its use, as a tooltip.
+ */
+hint: string, 
+/**
+ * Extension of the file name, without the dot.
+ */
+extension: string, 
+/**
+ * Whether the file can be saved now.
+ */
+is_ready: boolean, };
+
+/**
+ * An input from the reader, from a permalink or from the clock.
+ */
+export type FigureEvent = { "type": "set", 
+/**
+ * The control.
+ */
+id: string, 
+/**
+ * Its new value.
+ */
+value: Value, } | { "type": "press", 
+/**
+ * The control.
+ */
+id: string, } | { "type": "handle-moved", 
+/**
+ * The handle.
+ */
+id: string, 
+/**
+ * New place in the world units of its panel.
+ */
+x: number, 
+/**
+ * New place in the world units of its panel.
+ */
+y: number, } | { "type": "handle-removed", 
+/**
+ * The handle.
+ */
+id: string, } | { "type": "clicked", 
+/**
+ * The panel.
+ */
+panel: string, 
+/**
+ * Place in the panel's world units.
+ */
+x: number, 
+/**
+ * Place in the panel's world units.
+ */
+y: number, } | { "type": "tick", 
+/**
+ * Seconds since the last tick.
+ */
+dt_s: number, } | { "type": "reset" };
+
+/**
+ * The value of a control, from an attribute, a URL or an input of the page.
+ */
+export type Value = boolean | number | string;
+
+/**
+ * Direction of an arrow key on the page.
+ */
 export type Direction = "left" | "right" | "up" | "down";
 
-/** Parameters in permalink order. */
-export type Parameters = [key: string, value: string][];
-
-/** A rejected parameter. */
-export interface Refused {
-  /** True if the figure has no such parameter. */
-  unknown: boolean;
-  message: string;
-}
+/**
+ * A rejected parameter.
+ */
+export type Refused = { 
+/**
+ * True if the figure has no such parameter: one in the page's address may belong to another
+ * script.
+ */
+unknown: boolean, 
+/**
+ * The reason, as a sentence.
+ */
+message: string, };

@@ -3,14 +3,14 @@
 import { actsOn, stageOn } from "./acts.js";
 import { Announcer } from "./announcer.js";
 import { changedParameters } from "./attributes.js";
-import type { Parameters, Refused, Snapshot } from "./contract.js";
+import type { Refused, Snapshot } from "./contract.js";
 import { capitalize, setAttribute } from "./dom.js";
 import { listenToReader, observeHost, type FigureHost } from "./host.js";
 import { INITIAL, reduce, type Effect, type LifecycleEvent } from "./lifecycle.js";
 import { hurryModule, type Engine } from "./module.js";
 import { Motion } from "./motion.js";
 import { Failure, openEngine, openState } from "./opening.js";
-import { parametersIn } from "./permalink.js";
+import { type Parameters, parametersIn } from "./permalink.js";
 import { Renderer } from "./renderer.js";
 import { layoutWidth } from "./room.js";
 import type { Shell } from "./shell.js";

@@ -1,9 +1,10 @@
 /** Native inputs for a figure's controls. */
 
-import type { Button, Choice, Control, FigureEvent, Slider, Toggle } from "./contract.js";
+import type { Control, FigureEvent } from "./contract.js";
 import { fold, make, setAttribute, setText } from "./dom.js";
 
 type Send = (event: FigureEvent) => void;
+type Kind<K extends Control["kind"]> = Extract<Control, { kind: K }>;
 
 /** Choices whose options have more characters take the width of two inputs. */
 const BROAD_OPTIONS = 18;
@@ -98,7 +99,7 @@ function setEnabled(element: Element, control: Control): void {
   setAttribute(element, "aria-disabled", control.enabled ? undefined : "true");
 }
 
-function sliderRow(control: Control & Slider, send: Send): Row {
+function sliderRow(control: Kind<"slider">, send: Send): Row {
   const id = `control-${control.id}`;
   const input = make("input", {
     id,
@@ -133,7 +134,7 @@ function sliderRow(control: Control & Slider, send: Send): Row {
   };
 }
 
-function toggleRow(control: Control & Toggle, send: Send): Row {
+function toggleRow(control: Kind<"toggle">, send: Send): Row {
   const input = make("input", { type: "checkbox" });
   const element = make("label", { class: "toggle" }, input, make("span", {}, control.label));
   let shown = control;
@@ -152,7 +153,7 @@ function toggleRow(control: Control & Toggle, send: Send): Row {
   };
 }
 
-function radioRow(control: Control & Choice, send: Send): Row {
+function radioRow(control: Kind<"choice">, send: Send): Row {
   const letters = control.options.reduce((sum, [, label]) => sum + label.length, 0);
   const length = letters > BROAD_OPTIONS ? "choice broad" : "choice";
   const element = make("fieldset", { class: length }, make("legend", {}, control.label));
@@ -183,7 +184,7 @@ function radioRow(control: Control & Choice, send: Send): Row {
   };
 }
 
-function selectRow(control: Control & Choice, send: Send): Row {
+function selectRow(control: Kind<"choice">, send: Send): Row {
   const id = `control-${control.id}`;
   const options = control.options.map(([value, label]) => make("option", { value }, label));
   const select = make("select", { id }, ...options);
@@ -207,9 +208,9 @@ function selectRow(control: Control & Choice, send: Send): Row {
   };
 }
 
-function buttonRow(control: Control & Button, send: Send): Row {
+function buttonRow(control: Kind<"button">, send: Send): Row {
   const element = make("button", { type: "button", class: control.role });
-  let shown: Control & Button = control;
+  let shown: Kind<"button"> = control;
   element.addEventListener("click", () => {
     if (shown.enabled) send({ type: "press", id: control.id });
   });

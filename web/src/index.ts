@@ -9,6 +9,7 @@ export { connect, type Connection } from "./messages.js";
 export { listFigures } from "./module.js";
 export type { Goal } from "./challenges.js";
 export type { Saved } from "./saved.js";
+export type { Parameters } from "./permalink.js";
 export type * from "./contract.js";
 
 /** Events of a figure and their details. */

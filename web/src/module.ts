@@ -3,13 +3,8 @@
 import load, { Figure, figures, take_panic } from "epipole-web";
 import { movedTo } from "./assets.js";
 import { compile } from "./compile.js";
-import type {
-  Direction,
-  Parameters,
-  Refused,
-  Snapshot,
-  SolutionEvent,
-} from "./contract.js";
+import type { Direction, FigureEvent, Refused, Snapshot } from "./contract.js";
+import type { Parameters } from "./permalink.js";
 import type { Photo } from "./photos.js";
 
 type Loaded = { memory: WebAssembly.Memory };
@@ -136,7 +131,7 @@ export class Engine {
     return JSON.parse(this.#figure.snapshot(width));
   }
 
-  update(event: SolutionEvent): string | undefined {
+  update(event: FigureEvent): string | undefined {
     const figure = this.#figure;
     switch (event.type) {
       case "set":
@@ -159,7 +154,7 @@ export class Engine {
   }
 
   /** The events that reach a goal from the default state. */
-  solution(challenge: string): SolutionEvent[] {
+  solution(challenge: string): FigureEvent[] {
     return JSON.parse(this.#figure.solution(challenge));
   }
 

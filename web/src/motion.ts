@@ -3,8 +3,9 @@
  * the reader takes over.
  */
 
-import type { Parameters, Refused, Snapshot, SolutionEvent } from "./contract.js";
+import type { FigureEvent, Refused, Snapshot } from "./contract.js";
 import type { Engine } from "./module.js";
+import type { Parameters } from "./permalink.js";
 import { wantsStillness } from "./theme.js";
 
 /** The figure, as animations need it. */
@@ -22,7 +23,7 @@ export interface Stage {
   /** Marks what has changed between two snapshots. */
   mark: (before: Snapshot, now: Snapshot) => void;
   /** Returns the events that reach a goal from the default state. */
-  solution: (challenge: string) => SolutionEvent[] | undefined;
+  solution: (challenge: string) => FigureEvent[] | undefined;
   /** Brings the figure to its default state. */
   reset: () => void;
   /** Shows which goal's solution is playing. */
@@ -113,7 +114,7 @@ export class Motion {
   }
 
   /** Plays events one after the other, until something else takes over. */
-  async #play(events: SolutionEvent[], turn: number): Promise<void> {
+  async #play(events: FigureEvent[], turn: number): Promise<void> {
     const ticks = events.filter(({ type }) => type === "tick").length;
     this.#stage.freeze(ticks > 0);
     for (const event of events) {
@@ -143,7 +144,7 @@ export class Motion {
   }
 
   /** Returns how to do an event gradually; undefined for events that are instantaneous. */
-  #eventStep({ controls, handles }: Snapshot, event: SolutionEvent): Step | undefined {
+  #eventStep({ controls, handles }: Snapshot, event: FigureEvent): Step | undefined {
     const between = (from: number, to: number, share: number) => from + share * (to - from);
     if (event.type === "set") {
       const { id, value } = event;

@@ -7,7 +7,9 @@
  * omitted; unknown parameters without a key belong to the page and are ignored.
  */
 
-import type { Parameters } from "./contract.js";
+
+/** Parameters of a figure in permalink order. */
+export type Parameters = [key: string, value: string][];
 
 const TAG: string = "epipole-figure";
 

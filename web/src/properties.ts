@@ -1,6 +1,7 @@
 /** A figure's parameters as properties of its element. */
 
-import type { Control, Parameters } from "./contract.js";
+import type { Control } from "./contract.js";
+import type { Parameters } from "./permalink.js";
 
 /** Members of the element that its properties use. */
 export interface Host extends HTMLElement {

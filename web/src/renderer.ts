@@ -1,9 +1,10 @@
 /** One running figure on a canvas: executes the effects of `drawing.ts`, with at most one drawing per frame. */
 
-import type { Parameters, Refused, Snapshot } from "./contract.js";
+import type { Refused, Snapshot } from "./contract.js";
 import { isCovered, type DrawEffect, type DrawEvent } from "./drawing.js";
 import type { State } from "./lifecycle.js";
 import { panicMessage, type Engine } from "./module.js";
+import type { Parameters } from "./permalink.js";
 import { drawScale, layoutWidth } from "./room.js";
 import { wantsStillness, type Theme } from "./theme.js";
 

@@ -1,8 +1,8 @@
 //! One figure of a page.
 
-use crate::json::{Listed, Refused, json};
+use crate::json::{Listed, json};
 use epipole_widgets::canvas::Picture;
-use epipole_widgets::contract::{Event, Handle, JobResult, Problem, Value};
+use epipole_widgets::contract::{Event, Handle, JobResult, Problem, Refused, Value};
 use epipole_widgets::pointing::{self, Direction};
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure as Model, Snapshot, gallery};

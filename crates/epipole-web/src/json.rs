@@ -1,6 +1,5 @@
 //! JSON output of the module.
 
-use epipole_widgets::contract::Problem;
 use serde::Serialize;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
@@ -11,24 +10,6 @@ pub(crate) struct Listed {
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
     pub(crate) help: &'static str,
-}
-
-/// A parameter that could not be used.
-#[derive(Serialize)]
-pub(crate) struct Refused {
-    /// True if the figure has no such parameter: one in the page's address may belong to another
-    /// script.
-    unknown: bool,
-    message: String,
-}
-
-impl Refused {
-    pub(crate) fn from(problem: &Problem) -> Self {
-        Self {
-            unknown: matches!(problem, Problem::UnknownParameter { .. }),
-            message: problem.to_string(),
-        }
-    }
 }
 
 /// JSON of plain data of this crate.

@@ -23,6 +23,8 @@ mod kit;
 pub mod pointing;
 mod snapshot;
 mod stage;
+#[cfg(test)]
+mod typescript;
 
 pub use epipole_canvas::{canvas, theme};
 pub use figure::{Answers, Figure, POSTER_WIDTH};

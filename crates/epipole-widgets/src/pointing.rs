@@ -8,6 +8,8 @@ pub const GRAB_RADIUS: f64 = 22.0;
 
 /// Direction of an arrow key on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(test, ts(rename_all = "kebab-case"))]
 pub enum Direction {
     /// Towards the left edge.
     Left,

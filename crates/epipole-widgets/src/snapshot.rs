@@ -10,6 +10,7 @@ use serde::Serialize;
 
 /// A figure's current state, laid out for a page width.
 #[derive(Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Snapshot {
     layout: Layout,
     aspect: Aspect,
@@ -30,7 +31,9 @@ pub struct Snapshot {
 
 /// A handle with its position on the page, CSS pixels.
 #[derive(Serialize)]
-struct PlacedHandle {
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(test, ts(rename = "Handle"))]
+pub(crate) struct PlacedHandle {
     #[serde(flatten)]
     handle: Handle,
     place: (f64, f64),

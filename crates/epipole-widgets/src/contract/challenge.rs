@@ -23,6 +23,8 @@ pub struct Challenge<M> {
 
 /// A challenge with whether it is solved now.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(test, ts(rename = "Challenge"))]
 pub struct ChallengeStatus {
     /// Permanent name.
     pub id: &'static str,

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 /// Placement of a control on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
     /// Beside or below the picture, always.
@@ -89,6 +90,7 @@ pub struct Button {
 
 /// Kind of action of a button, from which a page chooses its position and icon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum ButtonRole {
     /// Starts and stops an animation.
@@ -103,6 +105,7 @@ pub enum ButtonRole {
 
 /// A control with its present value: what a page needs to show it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Control {
     /// Permanent name.
     pub id: &'static str,
@@ -121,6 +124,7 @@ pub struct Control {
 
 /// The four kinds of control.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum ControlKind {
     /// A number in steps.

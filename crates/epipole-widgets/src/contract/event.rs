@@ -7,6 +7,8 @@ use std::fmt;
 
 /// An input from the reader, from a permalink or from the clock.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[cfg_attr(test, ts(rename = "FigureEvent"))]
 #[serde(tag = "type", rename_all = "kebab-case")]
 pub enum Event {
     /// A slider, toggle or choice takes a value.
@@ -89,6 +91,7 @@ impl Event {
 
 /// The value of a control, from an attribute, a URL or an input of the page.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(untagged)]
 pub enum Value {
     /// On or off.

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// A file that a figure offers, such as a point cloud for other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FileOffer {
     /// Label of the button.
     pub label: &'static str,

@@ -8,6 +8,7 @@ use serde::Serialize;
 ///
 /// A page makes each handle focusable; a drag and the arrow keys give the same event.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Handle {
     /// Permanent name; also its URL parameter, with the value `x,y`.
     pub id: String,

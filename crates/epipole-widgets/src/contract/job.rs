@@ -41,6 +41,7 @@ pub type Compute = fn(&[u8], Progress<'_>) -> JobResult;
 
 /// A slot for a photograph of the reader's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PhotoSlot {
     /// Permanent name.
     pub id: &'static str,

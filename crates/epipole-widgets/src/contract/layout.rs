@@ -6,6 +6,7 @@ use serde::Serialize;
 
 /// Mapping of one world coordinate along one side of a panel.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Axis {
     /// World value at the panel's left or top edge.
     pub start: f64,
@@ -16,10 +17,12 @@ pub struct Axis {
 
 /// A part of the picture with its own world: a photograph, a plot, a view from above.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Panel {
     /// Permanent name.
     pub id: &'static str,
     /// Rectangle on the page, CSS pixels.
+    #[cfg_attr(test, ts(type = "{ x: number; y: number; width: number; height: number }"))]
     pub rect: Rect,
     /// World units from left to right.
     pub x_axis: Axis,
@@ -98,6 +101,7 @@ pub const WIDTHS: [f64; 3] = [360.0, 720.0, 1088.0];
 
 /// The picture's size and its panels, for one width of the page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Layout {
     /// Width, CSS pixels.
     pub width: f64,

@@ -32,7 +32,7 @@ pub use knob::Knob;
 pub(crate) use knob::knobs;
 pub use layout::{Axis, Layout, Panel, WIDTHS};
 pub use model::{Declared, Model};
-pub use problem::Problem;
+pub use problem::{Problem, Refused};
 pub use readout::{Readout, ReadoutValue, format_number};
 pub use settings::Settings;
 pub use space::Space;

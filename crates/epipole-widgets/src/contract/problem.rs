@@ -1,6 +1,7 @@
 //! Errors of figures, as sentences for the reader.
 
 use epipole_canvas::canvas::BadSize;
+use serde::Serialize;
 
 /// Error of a figure.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -46,4 +47,24 @@ pub enum Problem {
     /// The computation behind the figure failed.
     #[error(transparent)]
     Core(#[from] epipole::Error),
+}
+
+/// A rejected parameter.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Refused {
+    /// True if the figure has no such parameter: one in the page's address may belong to another
+    /// script.
+    pub unknown: bool,
+    /// The reason, as a sentence.
+    pub message: String,
+}
+
+impl From<&Problem> for Refused {
+    fn from(problem: &Problem) -> Self {
+        Self {
+            unknown: matches!(problem, Problem::UnknownParameter { .. }),
+            message: problem.to_string(),
+        }
+    }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// A value with its label and unit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Readout {
     /// Permanent name.
     pub id: &'static str,
@@ -21,6 +22,7 @@ pub struct Readout {
 
 /// Value of a readout.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(untagged)]
 pub enum ReadoutValue {
     /// A finite number.

@@ -8,6 +8,7 @@ use serde::Serialize;
 /// have shortcuts: a drag anywhere in the panel moves the handle `orbit`, a drag with Shift moves
 /// `pan`; two fingers move `pan` and, spread, the slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Space {
     /// Name of the panel.
     pub panel: &'static str,

@@ -25,6 +25,7 @@ pub enum Mark {
 
 /// A symbol with its position on the page, CSS pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct PlacedSymbol {
     name: &'static str,
     /// A point, or one end of a line.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 /// Aspect of a figure's picture on wide pages, from which a page arranges everything else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Aspect {
     /// Broad, such as two photographs side by side: it takes the whole width, with the controls in
