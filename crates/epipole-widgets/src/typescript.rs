@@ -56,5 +56,8 @@ fn the_contract_of_pages_is_that_of_figures() {
         return;
     }
     let written = fs::read_to_string(FILE).unwrap();
-    assert!(written == contract, "web/src/contract.ts is stale: run `make bless-contract`");
+    assert!(
+        written == contract,
+        "web/src/contract.ts is stale: run `make bless-contract`"
+    );
 }

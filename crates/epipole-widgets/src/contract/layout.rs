@@ -22,7 +22,10 @@ pub struct Panel {
     /// Permanent name.
     pub id: &'static str,
     /// Rectangle on the page, CSS pixels.
-    #[cfg_attr(test, ts(type = "{ x: number; y: number; width: number; height: number }"))]
+    #[cfg_attr(
+        test,
+        ts(type = "{ x: number; y: number; width: number; height: number }")
+    )]
     pub rect: Rect,
     /// World units from left to right.
     pub x_axis: Axis,
