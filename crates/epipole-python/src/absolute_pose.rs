@@ -1,0 +1,335 @@
+//! Poses of cameras from known points.
+
+use crate::arrays::{exact_points, exactly, points2, points3, vector};
+use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
+use crate::errors::OrRaise;
+use crate::options;
+use crate::record::record;
+use crate::robust::{RansacReport, estimate};
+use epipole::absolute_pose;
+use epipole::nalgebra::{Point2, Point3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Pose of a camera with its focal length.
+    "epipole.absolute_pose" AbsolutePoseWithFocal {
+        /// Pose.
+        cam_from_world: RigidTransform,
+        /// Focal length, pixels.
+        focal_px: f64,
+        /// Standard deviation of the focal length, pixels; None if it makes no difference.
+        focal_std_px: Option<f64>,
+    }
+}
+
+impl From<absolute_pose::AbsolutePoseWithFocal> for AbsolutePoseWithFocal {
+    fn from(found: absolute_pose::AbsolutePoseWithFocal) -> Self {
+        Self {
+            cam_from_world: found.cam_from_world.into(),
+            focal_px: found.focal_px,
+            focal_std_px: found.focal_std_px,
+        }
+    }
+}
+
+#[pymethods]
+impl AbsolutePoseWithFocal {
+    /// Whether the points determine the focal length.
+    fn tells_focal(&self) -> bool {
+        let found = absolute_pose::AbsolutePoseWithFocal {
+            cam_from_world: self.cam_from_world.0,
+            focal_px: self.focal_px,
+            focal_std_px: self.focal_std_px,
+        };
+        found.tells_focal()
+    }
+}
+
+/// Pose of a calibrated camera from points with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// points_in_world : array_like, shape (N, 3)
+/// pixels : array_like, shape (N, 2)
+///     Where the camera sees the points.
+/// camera : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is ``cam_from_world``, a `RigidTransform`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.NoConsensusError
+#[pyfunction]
+#[pyo3(signature = (points_in_world, pixels, camera, *, progress=None, **options))]
+fn estimate_absolute_pose(
+    py: Python<'_>,
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    camera: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    let options = options::read(options)?;
+    let camera = &camera.0;
+    estimate(
+        py,
+        progress,
+        |m| absolute_pose::estimate_absolute_pose(&points, &pixels, camera, &options, m),
+        |model| Ok(Bound::new(py, RigidTransform::from(model))?.into_any()),
+    )
+}
+
+/// Pose and focal length of a camera from points with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// points_in_world : array_like, shape (N, 3)
+/// pixels : array_like, shape (N, 2)
+///     Where the camera sees the points.
+/// principal : array_like, shape (2,)
+///     Principal point, pixels.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is an `AbsolutePoseWithFocal`.
+#[pyfunction]
+#[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]
+fn estimate_absolute_pose_and_focal(
+    py: Python<'_>,
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    principal: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    let principal = Point2::from(vector("principal", principal)?);
+    let options = options::read(options)?;
+    estimate(
+        py,
+        progress,
+        |monitor| {
+            absolute_pose::estimate_absolute_pose_and_focal(
+                &points, &pixels, &principal, &options, monitor,
+            )
+        },
+        |model| Ok(Bound::new(py, AbsolutePoseWithFocal::from(model))?.into_any()),
+    )
+}
+
+/// Poses of three rays and their points.
+///
+/// Parameters
+/// ----------
+/// rays : array_like, shape (3, 3)
+///     A ray in each row.
+/// points_in_world : array_like, shape (3, 3)
+///     A point in each row.
+///
+/// Returns
+/// -------
+/// list of RigidTransform
+///     At most 4, each ``cam_from_world``.
+#[pyfunction]
+fn pose_p3p(
+    rays: &Bound<'_, PyAny>,
+    points_in_world: &Bound<'_, PyAny>,
+) -> PyResult<Vec<RigidTransform>> {
+    let rays = exactly("rays", rays)?;
+    let points = exact_points("points_in_world", points_in_world)?;
+    let poses = absolute_pose::pose_p3p(&rays, &points);
+    Ok(poses.into_iter().map(RigidTransform::from).collect())
+}
+
+/// Poses and focal lengths of four points.
+///
+/// Parameters
+/// ----------
+/// pixels : array_like, shape (4, 2)
+/// points_in_world : array_like, shape (4, 3)
+/// principal : array_like, shape (2,)
+///     Principal point, pixels.
+///
+/// Returns
+/// -------
+/// list of AbsolutePoseWithFocal
+///     At most 7.
+#[pyfunction]
+fn pose_p4pf(
+    pixels: &Bound<'_, PyAny>,
+    points_in_world: &Bound<'_, PyAny>,
+    principal: &Bound<'_, PyAny>,
+) -> PyResult<Vec<AbsolutePoseWithFocal>> {
+    let pixels = exact_points("pixels", pixels)?;
+    let points = exact_points("points_in_world", points_in_world)?;
+    let principal = Point2::from(vector("principal", principal)?);
+    let poses = absolute_pose::pose_p4pf(&pixels, &points, &principal);
+    Ok(poses.into_iter().map(AbsolutePoseWithFocal::from).collect())
+}
+
+/// Pose by linear least squares (DLT), without outliers.
+///
+/// Parameters
+/// ----------
+/// points_in_world : array_like, shape (N, 3)
+///     N >= 6, not in a plane.
+/// pixels : array_like, shape (N, 2)
+/// intrinsics : Intrinsics
+///
+/// Returns
+/// -------
+/// RigidTransform
+///     ``cam_from_world``
+#[pyfunction]
+fn pose_dlt(
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    intrinsics: &Intrinsics,
+) -> PyResult<RigidTransform> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    Ok(absolute_pose::pose_dlt(&points, &pixels, &intrinsics.0)
+        .or_raise()?
+        .into())
+}
+
+/// Pose with the least reprojection error, without outliers.
+///
+/// Parameters
+/// ----------
+/// points_in_world : array_like, shape (N, 3)
+/// pixels : array_like, shape (N, 2)
+/// camera : Camera
+///
+/// Returns
+/// -------
+/// RigidTransform
+///     ``cam_from_world``
+#[pyfunction]
+fn fit_absolute_pose(
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    camera: &Camera,
+) -> PyResult<RigidTransform> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    Ok(
+        absolute_pose::fit_absolute_pose(&points, &pixels, &camera.0)
+            .or_raise()?
+            .into(),
+    )
+}
+
+/// Second pose that explains a plane nearly as well, if there is one.
+///
+/// Parameters
+/// ----------
+/// cam_from_world : RigidTransform
+///     Pose found.
+/// points_in_world : array_like, shape (N, 3)
+/// pixels : array_like, shape (N, 2)
+/// camera : Camera
+///
+/// Returns
+/// -------
+/// RigidTransform or None
+#[pyfunction]
+fn find_flipped_pose(
+    cam_from_world: &RigidTransform,
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    camera: &Camera,
+) -> PyResult<Option<RigidTransform>> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    let pose = &cam_from_world.0;
+    let flipped = absolute_pose::find_flipped_pose(pose, &points, &pixels, &camera.0);
+    Ok(flipped.or_raise()?.map(RigidTransform::from))
+}
+
+/// Pose refined by the reprojection errors.
+///
+/// Parameters
+/// ----------
+/// cam_from_world : RigidTransform
+/// points_in_world : array_like, shape (N, 3)
+/// pixels : array_like, shape (N, 2)
+/// camera : Camera
+/// loss : str or dict, optional
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///
+/// Returns
+/// -------
+/// RigidTransform
+///     ``cam_from_world``
+#[pyfunction]
+#[pyo3(signature = (cam_from_world, points_in_world, pixels, camera, loss=None))]
+fn refine_absolute_pose(
+    cam_from_world: &RigidTransform,
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+    camera: &Camera,
+    loss: Option<&Bound<'_, PyAny>>,
+) -> PyResult<RigidTransform> {
+    let points = points3("points_in_world", points_in_world)?;
+    let pixels = points2("pixels", pixels)?;
+    let loss = options::loss(loss)?;
+    let pose = &cam_from_world.0;
+    let refined = absolute_pose::refine_absolute_pose(pose, &points, &pixels, &camera.0, loss);
+    Ok(refined.or_raise()?.into())
+}
+
+/// Distances between projected points and pixels.
+///
+/// Parameters
+/// ----------
+/// camera : PosedCamera
+/// point_in_world : array_like, shape (3,) or (N, 3)
+/// pixel : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels; infinite for a point that the camera does not see.
+#[pyfunction]
+fn reprojection_error_px<'py>(
+    camera: &PosedCamera,
+    point_in_world: &Bound<'py, PyAny>,
+    pixel: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pairs =
+        crate::arrays::Pairs::<3, 2>::read(("point_in_world", point_in_world), ("pixel", pixel))?;
+    pairs.numbers(pixel.py(), |x, p| {
+        absolute_pose::reprojection_error_px(&camera.0, &Point3::from(*x), &Point2::from(*p))
+    })
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<AbsolutePoseWithFocal>()?;
+    module.add_function(wrap_pyfunction!(estimate_absolute_pose, module)?)?;
+    module.add_function(wrap_pyfunction!(estimate_absolute_pose_and_focal, module)?)?;
+    module.add_function(wrap_pyfunction!(pose_p3p, module)?)?;
+    module.add_function(wrap_pyfunction!(pose_p4pf, module)?)?;
+    module.add_function(wrap_pyfunction!(pose_dlt, module)?)?;
+    module.add_function(wrap_pyfunction!(fit_absolute_pose, module)?)?;
+    module.add_function(wrap_pyfunction!(find_flipped_pose, module)?)?;
+    module.add_function(wrap_pyfunction!(refine_absolute_pose, module)?)?;
+    module.add_function(wrap_pyfunction!(reprojection_error_px, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! Pinhole intrinsics.
+
+use crate::arrays::{Batch, from_matrix, from_vector, matrix};
+use crate::errors::OrRaise;
+use crate::record::plain_class;
+use epipole::camera;
+use epipole::nalgebra::{Matrix3, Point2, Point3};
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Pinhole intrinsics ``K = [fu 0 cu; 0 fv cv; 0 0 1]``, pixel centers at integers.
+///
+/// Parameters
+/// ----------
+/// fu_px, fv_px : float
+///     Focal lengths along u and v, pixels, > 0.
+/// cu_px, cv_px : float
+///     Principal point, pixels.
+#[pyclass(frozen, from_py_object, module = "epipole.camera")]
+#[derive(Clone)]
+pub(crate) struct Intrinsics(pub(crate) camera::Intrinsics);
+
+impl From<camera::Intrinsics> for Intrinsics {
+    fn from(intrinsics: camera::Intrinsics) -> Self {
+        Self(intrinsics)
+    }
+}
+
+plain_class!(Intrinsics: fu_px, fv_px, cu_px, cv_px);
+
+#[pymethods]
+impl Intrinsics {
+    #[new]
+    fn new(fu_px: f64, fv_px: f64, cu_px: f64, cv_px: f64) -> PyResult<Self> {
+        Ok(Self(
+            camera::Intrinsics::new(fu_px, fv_px, cu_px, cv_px).or_raise()?,
+        ))
+    }
+
+    /// Intrinsics with square pixels and the principal point in the middle of the image.
+    ///
+    /// Parameters
+    /// ----------
+    /// focal_px : float
+    ///     Focal length, pixels, > 0.
+    /// width, height : int
+    ///     Image size, pixels.
+    #[staticmethod]
+    fn centered(focal_px: f64, width: u32, height: u32) -> PyResult<Self> {
+        Ok(Self(
+            camera::Intrinsics::centered(focal_px, width, height).or_raise()?,
+        ))
+    }
+
+    /// Intrinsics of a matrix K without skew.
+    ///
+    /// Parameters
+    /// ----------
+    /// k : array_like, shape (3, 3)
+    #[staticmethod]
+    fn from_matrix(k: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let m: Matrix3<f64> = matrix("k", k)?;
+        let (fu, fv, cu, cv) = (m[(0, 0)], m[(1, 1)], m[(0, 2)], m[(1, 2)]);
+        if m != Matrix3::new(fu, 0.0, cu, 0.0, fv, cv, 0.0, 0.0, 1.0) {
+            return Err(PyValueError::new_err(
+                "k must be of the form [[fu, 0, cu], [0, fv, cv], [0, 0, 1]]",
+            ));
+        }
+        Self::new(fu, fv, cu, cv)
+    }
+
+    /// Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+    #[staticmethod]
+    fn from_colmap(parameters: [f64; 4]) -> PyResult<Self> {
+        Ok(Self(
+            camera::Intrinsics::from_colmap(parameters).or_raise()?,
+        ))
+    }
+
+    /// COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+    fn to_colmap(&self) -> (f64, f64, f64, f64) {
+        self.0.to_colmap().into()
+    }
+
+    /// Focal length along u, pixels.
+    #[getter]
+    fn fu_px(&self) -> f64 {
+        self.0.fu_px()
+    }
+
+    /// Focal length along v, pixels.
+    #[getter]
+    fn fv_px(&self) -> f64 {
+        self.0.fv_px()
+    }
+
+    /// Principal point along u, pixels.
+    #[getter]
+    fn cu_px(&self) -> f64 {
+        self.0.principal_point().x
+    }
+
+    /// Principal point along v, pixels.
+    #[getter]
+    fn cv_px(&self) -> f64 {
+        self.0.principal_point().y
+    }
+
+    /// Principal point, pixels, shape (2,).
+    fn principal_point<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        from_vector(py, &self.0.principal_point().coords)
+    }
+
+    /// K, shape (3, 3).
+    fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_matrix(py, &self.0.matrix())
+    }
+
+    /// Inverse of K, shape (3, 3).
+    fn inverse_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_matrix(py, &self.0.inverse_matrix())
+    }
+
+    /// Pixels of points in the camera frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// x_in_cam : array_like, shape (3,) or (N, 3)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (2,) or (N, 2)
+    ///     Rows of NaN for points behind the camera; a single one raises `DegenerateError`.
+    fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
+        Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
+    }
+
+    /// Rays through pixels, in the camera frame, with z = 1.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixel : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (3,) or (N, 3)
+    fn ray<'py>(&self, pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let ray = |p: &_| Ok(self.0.ray(&Point2::from(*p)));
+        Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), ray)
+    }
+
+    /// Intrinsics after the image is resized by a factor; 0.5 halves both sides.
+    fn scaled(&self, factor: f64) -> PyResult<Self> {
+        Ok(Self(self.0.scaled(factor).or_raise()?))
+    }
+
+    /// Intrinsics with both focal lengths multiplied by a factor.
+    fn zoomed(&self, factor: f64) -> PyResult<Self> {
+        Ok(Self(self.0.zoomed(factor).or_raise()?))
+    }
+
+    /// Intrinsics after the image is resized from one (width, height) to another, pixels.
+    #[pyo3(signature = (old, new))]
+    fn resized(&self, old: (u32, u32), new: (u32, u32)) -> PyResult<Self> {
+        Ok(Self(self.0.resized(old, new).or_raise()?))
+    }
+
+    /// Intrinsics after the image is turned clockwise by quarter turns.
+    ///
+    /// Parameters
+    /// ----------
+    /// quarters : int
+    /// size : tuple of int
+    ///     Width and height before the turn, pixels.
+    fn turned(&self, quarters: u8, size: (u32, u32)) -> Self {
+        Self(self.0.turned(quarters, size))
+    }
+}

@@ -1,0 +1,120 @@
+//! Cameras, lenses and rigid transforms.
+
+mod calibrated;
+mod intrinsics;
+mod lens;
+mod posed;
+mod rigid;
+
+pub(crate) use calibrated::Camera;
+pub(crate) use intrinsics::Intrinsics;
+pub(crate) use lens::Lens;
+pub(crate) use posed::PosedCamera;
+pub(crate) use rigid::{RigidTransform, rotation};
+
+use crate::arrays::{Batch, from_matrix, vector};
+use crate::errors::OrRaise;
+use epipole::camera;
+use epipole::nalgebra::{Point2, Point3};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Cross-product matrix: `cross_matrix(t) @ x == np.cross(t, x)`.
+///
+/// Parameters
+/// ----------
+/// t : array_like, shape (3,)
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+fn cross_matrix<'py>(t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    from_matrix(t.py(), &camera::cross_matrix(&vector("t", t)?))
+}
+
+/// Motion from the frame of camera 1 to that of camera 2.
+///
+/// Parameters
+/// ----------
+/// cam1_from_world, cam2_from_world : RigidTransform
+///
+/// Returns
+/// -------
+/// RigidTransform
+///     ``cam2_from_cam1``
+#[pyfunction]
+fn relative_motion(
+    cam1_from_world: &RigidTransform,
+    cam2_from_world: &RigidTransform,
+) -> RigidTransform {
+    camera::relative_motion(&cam1_from_world.0, &cam2_from_world.0).into()
+}
+
+/// Pose of an upright camera that looks at a point.
+///
+/// Parameters
+/// ----------
+/// center_in_world, target_in_world : array_like, shape (3,)
+///     Center of the camera and the point it looks at.
+/// up_in_world : array_like, shape (3,)
+///     Direction that is up in the image.
+///
+/// Returns
+/// -------
+/// RigidTransform
+///     ``cam_from_world``
+#[pyfunction]
+fn look_at(
+    center_in_world: &Bound<'_, PyAny>,
+    target_in_world: &Bound<'_, PyAny>,
+    up_in_world: &Bound<'_, PyAny>,
+) -> PyResult<RigidTransform> {
+    let center = Point3::from(vector("center_in_world", center_in_world)?);
+    let target = Point3::from(vector("target_in_world", target_in_world)?);
+    let up = vector("up_in_world", up_in_world)?;
+    Ok(camera::look_at(&center, &target, &up).or_raise()?.into())
+}
+
+/// Pixels in COLMAP's convention, with pixel centers at halves.
+///
+/// Parameters
+/// ----------
+/// pixel : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray of the same shape
+#[pyfunction]
+fn pixel_to_colmap<'py>(pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let to_colmap = |p: &_| Ok(camera::pixel_to_colmap(&Point2::from(*p)).coords);
+    Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), to_colmap)
+}
+
+/// Pixels from COLMAP's convention, with pixel centers at halves.
+///
+/// Parameters
+/// ----------
+/// pixel : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray of the same shape
+#[pyfunction]
+fn pixel_from_colmap<'py>(pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let from_colmap = |p: &_| Ok(camera::pixel_from_colmap(&Point2::from(*p)).coords);
+    Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), from_colmap)
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Camera>()?;
+    module.add_class::<Intrinsics>()?;
+    module.add_class::<Lens>()?;
+    module.add_class::<PosedCamera>()?;
+    module.add_class::<RigidTransform>()?;
+    module.add_function(wrap_pyfunction!(cross_matrix, module)?)?;
+    module.add_function(wrap_pyfunction!(relative_motion, module)?)?;
+    module.add_function(wrap_pyfunction!(look_at, module)?)?;
+    module.add_function(wrap_pyfunction!(pixel_to_colmap, module)?)?;
+    module.add_function(wrap_pyfunction!(pixel_from_colmap, module)?)
+}

@@ -1,0 +1,234 @@
+//! Robust estimation of F, E and relative poses.
+
+use super::relative_pose::{PoseWithFocal, RelativePose};
+use crate::arrays::{from_matrix, points2, vector};
+use crate::camera::Camera;
+use crate::options;
+use crate::robust::{RansacReport, estimate};
+use epipole::epipolar;
+use epipole::nalgebra::Point2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Fundamental matrix of matches with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is F, shape (3, 3), with ``x2 @ F @ x1 == 0`` and unit norm.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.NoConsensusError
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
+pub(super) fn estimate_fundamental(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    estimate(
+        py,
+        progress,
+        |monitor| epipolar::estimate_fundamental(&pixels1, &pixels2, &options, monitor),
+        |model| Ok(from_matrix(py, &model)?.into_any()),
+    )
+}
+
+/// Essential matrix of matches with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is E, shape (3, 3), of unit norm.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.NoConsensusError
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
+pub(super) fn estimate_essential(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    estimate(
+        py,
+        progress,
+        |monitor| epipolar::estimate_essential(&pixels1, &pixels2, cameras, &options, monitor),
+        |model| Ok(from_matrix(py, &model)?.into_any()),
+    )
+}
+
+/// Relative pose of two calibrated cameras from matches with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is a `RelativePose`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.NoConsensusError
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
+pub(super) fn estimate_relative_pose(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    estimate(
+        py,
+        progress,
+        |monitor| epipolar::estimate_relative_pose(&pixels1, &pixels2, cameras, &options, monitor),
+        |model| Ok(Bound::new(py, RelativePose::from(model))?.into_any()),
+    )
+}
+
+/// Relative pose of two calibrated cameras that know the direction of gravity, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// gravity1, gravity2 : array_like, shape (3,)
+///     Direction of gravity in each camera's frame.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is a `RelativePose`.
+#[pyfunction]
+#[pyo3(signature = (
+    pixels1, pixels2, camera1, camera2, gravity1, gravity2, *, progress=None, **options
+))]
+#[allow(clippy::too_many_arguments)]
+pub(super) fn estimate_relative_pose_with_gravity(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    gravity1: &Bound<'_, PyAny>,
+    gravity2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let gravity1 = vector("gravity1", gravity1)?;
+    let gravity2 = vector("gravity2", gravity2)?;
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    let gravity = [&gravity1, &gravity2];
+    estimate(
+        py,
+        progress,
+        |monitor| {
+            epipolar::estimate_relative_pose_with_gravity(
+                &pixels1, &pixels2, cameras, gravity, &options, monitor,
+            )
+        },
+        |model| Ok(Bound::new(py, RelativePose::from(model))?.into_any()),
+    )
+}
+
+/// Relative pose and common focal length of two cameras, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// principal1, principal2 : array_like, shape (2,)
+///     Principal points, pixels.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is a `PoseWithFocal`.
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, principal1, principal2, *, progress=None, **options))]
+pub(super) fn estimate_relative_pose_and_focal(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    principal1: &Bound<'_, PyAny>,
+    principal2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let principal1 = Point2::from(vector("principal1", principal1)?);
+    let principal2 = Point2::from(vector("principal2", principal2)?);
+    let options = options::read(options)?;
+    estimate(
+        py,
+        progress,
+        |monitor| {
+            epipolar::estimate_relative_pose_and_focal(
+                &pixels1,
+                &pixels2,
+                &principal1,
+                &principal2,
+                &options,
+                monitor,
+            )
+        },
+        |model| Ok(Bound::new(py, PoseWithFocal::from_core(py, model)?)?.into_any()),
+    )
+}

@@ -1,0 +1,312 @@
+//! Distances, lines, epipoles; F and E from cameras and from each other.
+
+use super::relative_pose::SelectedPose;
+use crate::arrays::{Batch, Pairs, from_matrix, from_vector, matrix, points2, vector};
+use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::errors::OrRaise;
+use epipole::epipolar::{self, Epipole};
+use epipole::nalgebra::{Matrix3, Point2};
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+/// Sampson distances of matches from a fundamental matrix.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels.
+#[pyfunction]
+pub(super) fn sampson_px<'py>(
+    fundamental: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
+    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+        epipolar::sampson_px(&f, &Point2::from(*p), &Point2::from(*q))
+    })
+}
+
+/// Symmetric epipolar distances of matches from a fundamental matrix.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels.
+#[pyfunction]
+pub(super) fn symmetric_epipolar_px<'py>(
+    fundamental: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
+    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+        epipolar::symmetric_epipolar_px(&f, &Point2::from(*p), &Point2::from(*q))
+    })
+}
+
+/// Epipolar lines in image 1 of pixels of image 2.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray, shape (3,) or (N, 3)
+///     Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
+///     epipoles; a single one raises `DegenerateError`.
+#[pyfunction]
+pub(super) fn epipolar_line1<'py>(
+    fundamental: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
+    let line = |p: &_| Ok(epipolar::epipolar_line1(&f, &Point2::from(*p))?.homogeneous());
+    Batch::<2>::read("pixel2", pixel2)?.vectors(pixel2.py(), line)
+}
+
+/// Epipolar lines in image 2 of pixels of image 1.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// pixel1 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray, shape (3,) or (N, 3)
+///     Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
+///     epipoles; a single one raises `DegenerateError`.
+#[pyfunction]
+pub(super) fn epipolar_line2<'py>(
+    fundamental: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
+    let line = |p: &_| Ok(epipolar::epipolar_line2(&f, &Point2::from(*p))?.homogeneous());
+    Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), line)
+}
+
+/// Epipoles of image 1 and image 2.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+///
+/// Returns
+/// -------
+/// epipole1, epipole2 : ndarray, shape (3,)
+///     (u, v, 1), or (u, v, 0) with a unit direction for an epipole at infinity.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub(super) fn epipoles<'py>(
+    fundamental: &Bound<'py, PyAny>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+    let py = fundamental.py();
+    let (e1, e2) = epipolar::epipoles(&matrix("fundamental", fundamental)?).or_raise()?;
+    let homogeneous = |epipole| match epipole {
+        Epipole::Finite(at) => from_vector(py, &at.coords.push(1.0)),
+        Epipole::AtInfinity(direction) => from_vector(py, &direction.push(0.0)),
+    };
+    Ok((homogeneous(e1), homogeneous(e2)))
+}
+
+/// Nearest matrix of rank 2, of unit norm.
+///
+/// Parameters
+/// ----------
+/// matrix : array_like, shape (3, 3)
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn enforce_rank2<'py>(
+    matrix: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let m = crate::arrays::matrix("matrix", matrix)?;
+    from_matrix(matrix.py(), &epipolar::enforce_rank2(&m).or_raise()?)
+}
+
+/// Nearest essential matrix, of unit norm.
+///
+/// Parameters
+/// ----------
+/// matrix : array_like, shape (3, 3)
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn project_to_essential<'py>(
+    matrix: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let m = crate::arrays::matrix("matrix", matrix)?;
+    from_matrix(matrix.py(), &epipolar::project_to_essential(&m).or_raise()?)
+}
+
+/// The four motions of an essential matrix.
+///
+/// Parameters
+/// ----------
+/// essential : array_like, shape (3, 3)
+///
+/// Returns
+/// -------
+/// list of RigidTransform
+///     Each ``cam2_from_cam1`` with a translation of length 1.
+#[pyfunction]
+pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<RigidTransform>> {
+    let motions = epipolar::decompose_essential(&matrix("essential", essential)?).or_raise()?;
+    Ok(motions.into_iter().map(RigidTransform::from).collect())
+}
+
+/// Motion that puts most points in front of both cameras.
+///
+/// Parameters
+/// ----------
+/// motions : sequence of RigidTransform
+///     Candidates, such as those of `decompose_essential`.
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches without outliers.
+/// k1, k2 : Intrinsics
+///
+/// Returns
+/// -------
+/// SelectedPose
+#[pyfunction]
+pub(super) fn select_pose(
+    motions: Vec<RigidTransform>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> PyResult<SelectedPose> {
+    let motions: Vec<_> = motions.into_iter().map(|motion| motion.0).collect();
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let selected = epipolar::select_pose(&motions, &pixels1, &pixels2, &k1.0, &k2.0).or_raise()?;
+    Ok(SelectedPose {
+        cam2_from_cam1: selected.cam2_from_cam1.into(),
+        num_in_front: selected.num_in_front,
+        second_num_in_front: selected.second_num_in_front,
+    })
+}
+
+/// Essential matrix of a motion, of unit norm.
+///
+/// Parameters
+/// ----------
+/// cam2_from_cam1 : RigidTransform
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn essential_from_motion<'py>(
+    py: Python<'py>,
+    cam2_from_cam1: &RigidTransform,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    from_matrix(
+        py,
+        &epipolar::essential_from_motion(&cam2_from_cam1.0).or_raise()?,
+    )
+}
+
+/// Fundamental matrix of two cameras, of unit norm, for undistorted pixels.
+///
+/// Parameters
+/// ----------
+/// cam1, cam2 : PosedCamera
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn fundamental_from_cameras<'py>(
+    py: Python<'py>,
+    cam1: &PosedCamera,
+    cam2: &PosedCamera,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    from_matrix(
+        py,
+        &epipolar::fundamental_from_cameras(&cam1.0, &cam2.0).or_raise()?,
+    )
+}
+
+/// Fundamental matrix of an essential matrix, of unit norm.
+///
+/// Parameters
+/// ----------
+/// essential : array_like, shape (3, 3)
+/// k1, k2 : Intrinsics
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn fundamental_from_essential<'py>(
+    essential: &Bound<'py, PyAny>,
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let e = matrix("essential", essential)?;
+    let f = epipolar::fundamental_from_essential(&e, &k1.0, &k2.0).or_raise()?;
+    from_matrix(essential.py(), &f)
+}
+
+/// Essential matrix nearest to that of a fundamental matrix, of unit norm.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// k1, k2 : Intrinsics
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+pub(super) fn essential_from_fundamental<'py>(
+    fundamental: &Bound<'py, PyAny>,
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let f = matrix("fundamental", fundamental)?;
+    let e = epipolar::essential_from_fundamental(&f, &k1.0, &k2.0).or_raise()?;
+    from_matrix(fundamental.py(), &e)
+}
+
+/// Focal lengths of two cameras from their fundamental matrix.
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// principal1, principal2 : array_like, shape (2,)
+///     Principal points, pixels.
+///
+/// Returns
+/// -------
+/// focal1_px, focal2_px : float
+#[pyfunction]
+pub(super) fn focal_lengths_from_fundamental(
+    fundamental: &Bound<'_, PyAny>,
+    principal1: &Bound<'_, PyAny>,
+    principal2: &Bound<'_, PyAny>,
+) -> PyResult<(f64, f64)> {
+    let f = matrix("fundamental", fundamental)?;
+    let principal1 = Point2::from(vector("principal1", principal1)?);
+    let principal2 = Point2::from(vector("principal2", principal2)?);
+    let focals = epipolar::focal_lengths_from_fundamental(&f, &principal1, &principal2);
+    Ok(focals.or_raise()?.into())
+}

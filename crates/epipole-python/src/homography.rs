@@ -1,0 +1,320 @@
+//! Homographies.
+
+use crate::arrays::{
+    Batch, Pairs, exact_points, from_matrices, from_matrix, matrix, points2, vector,
+};
+use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::errors::OrRaise;
+use crate::options;
+use crate::record::record;
+use crate::robust::{RansacReport, estimate};
+use epipole::nalgebra::{Matrix3, Point2};
+use epipole::{Error, homography};
+use numpy::{PyArray1, PyArray2, PyArray3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Motion and plane of a homography.
+    "epipole.homography" PlaneMotion {
+        /// Motion; the translation is in units of the plane's distance from camera 1.
+        cam2_from_cam1: RigidTransform,
+        /// Unit normal of the plane in the frame of camera 1, shape (3,).
+        normal_in_cam1: Py<PyArray1<f64>>,
+    }
+}
+
+/// Homography of matches with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.NoConsensusError
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
+fn estimate_homography(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    estimate(
+        py,
+        progress,
+        |monitor| homography::estimate_homography(&pixels1, &pixels2, &options, monitor),
+        |model| Ok(from_matrix(py, &model)?.into_any()),
+    )
+}
+
+/// Homography between the rays of two calibrated cameras, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is H of rays, shape (3, 3).
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
+fn estimate_homography_calibrated(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    estimate(
+        py,
+        progress,
+        |monitor| {
+            homography::estimate_homography_calibrated(
+                &pixels1, &pixels2, cameras, &options, monitor,
+            )
+        },
+        |model| Ok(from_matrix(py, &model)?.into_any()),
+    )
+}
+
+/// Homographies of four matches.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (4, 2)
+///
+/// Returns
+/// -------
+/// ndarray, shape (K, 3, 3)
+///     K is 1, or 0 for a degenerate sample.
+#[pyfunction]
+fn homography_4point<'py>(
+    pixels1: &Bound<'py, PyAny>,
+    pixels2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let first = exact_points("pixels1", pixels1)?;
+    let second = exact_points("pixels2", pixels2)?;
+    from_matrices(
+        pixels1.py(),
+        &homography::homography_4point(&first, &second),
+    )
+}
+
+/// Homography of matches by linear least squares, without outliers.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches, N >= 4.
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+fn fit_homography<'py>(
+    pixels1: &Bound<'py, PyAny>,
+    pixels2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let first = points2("pixels1", pixels1)?;
+    let second = points2("pixels2", pixels2)?;
+    from_matrix(
+        pixels1.py(),
+        &homography::fit_homography(&first, &second).or_raise()?,
+    )
+}
+
+/// Homography refined from matches.
+///
+/// Parameters
+/// ----------
+/// homography : array_like, shape (3, 3)
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// loss : str or dict, optional
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+#[pyo3(signature = (homography, pixels1, pixels2, loss=None))]
+fn refine_homography<'py>(
+    homography: &Bound<'py, PyAny>,
+    pixels1: &Bound<'py, PyAny>,
+    pixels2: &Bound<'py, PyAny>,
+    loss: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let h = matrix("homography", homography)?;
+    let first = points2("pixels1", pixels1)?;
+    let second = points2("pixels2", pixels2)?;
+    let loss = options::loss(loss)?;
+    let refined = homography::refine_homography(&h, &first, &second, loss).or_raise()?;
+    from_matrix(pixels1.py(), &refined)
+}
+
+/// Pixels of image 2 where a homography maps pixels of image 1.
+///
+/// Parameters
+/// ----------
+/// homography : array_like, shape (3, 3)
+/// pixel1 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray of the same shape
+///     Rows of NaN for pixels mapped to infinity; a single one raises `DegenerateError`.
+#[pyfunction]
+fn transfer<'py>(
+    homography: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let h: Matrix3<f64> = matrix("homography", homography)?;
+    let transfer = |p: &_| match homography::transfer(&h, &Point2::from(*p)) {
+        Some(pixel2) => Ok(pixel2.coords),
+        None => Err(Error::Degenerate {
+            what: "the pixel in image 2",
+            why: "the homography maps it to infinity",
+        }),
+    };
+    Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), transfer)
+}
+
+/// Distances in image 2 between mapped pixels of image 1 and their matches.
+///
+/// Parameters
+/// ----------
+/// homography : array_like, shape (3, 3)
+/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels.
+#[pyfunction]
+fn transfer_error_px<'py>(
+    homography: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let h: Matrix3<f64> = matrix("homography", homography)?;
+    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+        homography::transfer_error_px(&h, &Point2::from(*p), &Point2::from(*q))
+    })
+}
+
+/// Sampson distances of matches from a homography.
+///
+/// Parameters
+/// ----------
+/// homography : array_like, shape (3, 3)
+/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels.
+#[pyfunction]
+fn homography_sampson_px<'py>(
+    homography: &Bound<'py, PyAny>,
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let h: Matrix3<f64> = matrix("homography", homography)?;
+    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+        homography::homography_sampson_px(&h, &Point2::from(*p), &Point2::from(*q))
+    })
+}
+
+/// Motions and planes of a homography.
+///
+/// Parameters
+/// ----------
+/// homography : array_like, shape (3, 3)
+/// k1, k2 : Intrinsics
+///
+/// Returns
+/// -------
+/// list of PlaneMotion
+#[pyfunction]
+fn decompose_homography(
+    py: Python<'_>,
+    homography: &Bound<'_, PyAny>,
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> PyResult<Vec<PlaneMotion>> {
+    let h = matrix("homography", homography)?;
+    let motions = homography::decompose_homography(&h, &k1.0, &k2.0).or_raise()?;
+    let to_python = |motion: homography::PlaneMotion| PlaneMotion {
+        cam2_from_cam1: motion.cam2_from_cam1.into(),
+        normal_in_cam1: crate::arrays::from_vector(py, &motion.normal_in_cam1).unbind(),
+    };
+    Ok(motions.into_iter().map(to_python).collect())
+}
+
+/// Homography of a plane between two cameras.
+///
+/// Parameters
+/// ----------
+/// cam2_from_cam1 : RigidTransform
+/// normal_in_cam1 : array_like, shape (3,)
+///     Unit normal: points of the plane satisfy ``normal @ x == -distance``.
+/// distance : float
+///     Distance of the plane from camera 1.
+/// k1, k2 : Intrinsics
+///
+/// Returns
+/// -------
+/// ndarray, shape (3, 3)
+#[pyfunction]
+fn homography_from_motion<'py>(
+    cam2_from_cam1: &RigidTransform,
+    normal_in_cam1: &Bound<'py, PyAny>,
+    distance: f64,
+    k1: &Intrinsics,
+    k2: &Intrinsics,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let normal = vector("normal_in_cam1", normal_in_cam1)?;
+    let motion = &cam2_from_cam1.0;
+    let h = homography::homography_from_motion(motion, &normal, distance, &k1.0, &k2.0);
+    from_matrix(normal_in_cam1.py(), &h)
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PlaneMotion>()?;
+    module.add_function(wrap_pyfunction!(estimate_homography, module)?)?;
+    module.add_function(wrap_pyfunction!(estimate_homography_calibrated, module)?)?;
+    module.add_function(wrap_pyfunction!(homography_4point, module)?)?;
+    module.add_function(wrap_pyfunction!(fit_homography, module)?)?;
+    module.add_function(wrap_pyfunction!(refine_homography, module)?)?;
+    module.add_function(wrap_pyfunction!(transfer, module)?)?;
+    module.add_function(wrap_pyfunction!(transfer_error_px, module)?)?;
+    module.add_function(wrap_pyfunction!(homography_sampson_px, module)?)?;
+    module.add_function(wrap_pyfunction!(decompose_homography, module)?)?;
+    module.add_function(wrap_pyfunction!(homography_from_motion, module)?)
+}

@@ -1,0 +1,58 @@
+//! Native module of the Python package `epipole`.
+//!
+//! Paths are those of the library: `epipole::epipolar::sampson_px` is `epipole.epipolar.sampson_px`
+//! in Python. Each folder or file below is a module of the library and registers its functions
+//! and classes itself.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`arrays`] | NumPy arrays to points and matrices, and back |
+//! | [`errors`] | errors of the library as exceptions |
+//! | [`options`] | keyword options to the library's option structs |
+//! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
+//! | [`record`] | `repr`, equality and pickling of classes |
+
+mod absolute_pose;
+mod arrays;
+mod camera;
+mod epipolar;
+mod errors;
+mod homography;
+mod options;
+mod progress;
+mod record;
+mod robust;
+mod triangulation;
+mod two_view;
+
+use pyo3::prelude::*;
+
+/// Adds functions and classes to a module.
+type Register = fn(&Bound<'_, PyModule>) -> PyResult<()>;
+
+/// The library's modules, in its order.
+const MODULES: [(&str, Register); 7] = [
+    ("camera", camera::register),
+    ("robust", robust::register),
+    ("epipolar", epipolar::register),
+    ("homography", homography::register),
+    ("absolute_pose", absolute_pose::register),
+    ("triangulation", triangulation::register),
+    ("two_view", two_view::register),
+];
+
+#[pymodule]
+fn _epipole(package: &Bound<'_, PyModule>) -> PyResult<()> {
+    let loaded = package.py().import("sys")?.getattr("modules")?;
+    package.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    errors::register(package)?;
+    for (name, register) in MODULES {
+        let path = format!("epipole.{name}");
+        let module = PyModule::new(package.py(), &path)?;
+        register(&module)?;
+        package.add(name, &module)?;
+        // Lets `from epipole.camera import Camera` find the module, which has no file.
+        loaded.set_item(path, module)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! `repr`, equality and pickling of classes, from the names of their attributes.
+
+use numpy::PyUntypedArray;
+use numpy::prelude::*;
+use pyo3::prelude::*;
+use pyo3::types::{PyString, PyTuple};
+
+/// Number of characters above which an attribute is shortened in a `repr`.
+const MAX_REPR: usize = 120;
+
+/// `Class(a=1, b=array of shape (100, 2))`.
+pub(crate) fn repr(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<String> {
+    let mut parts = Vec::new();
+    for field in fields {
+        parts.push(format!("{field}={}", brief(&object.getattr(*field)?)?));
+    }
+    let class = object.get_type().name()?;
+    Ok(format!("{class}({})", parts.join(", ")))
+}
+
+/// One attribute in a `repr`.
+fn brief(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let Ok(array) = value.cast::<PyUntypedArray>() else {
+        return Ok(value.repr()?.to_string());
+    };
+    let text = value.call_method0("tolist")?.repr()?.to_string();
+    if text.chars().count() <= MAX_REPR {
+        return Ok(text);
+    }
+    let kind: String = array.dtype().getattr("name")?.extract()?;
+    let shape = PyTuple::new(value.py(), array.shape())?.repr()?;
+    if kind == "bool" {
+        let count = value.call_method0("sum")?;
+        return Ok(format!("<bool array of shape {shape}, {count} true>"));
+    }
+    Ok(format!("<{kind} array of shape {shape}>"))
+}
+
+/// Whether two objects have the same class and equal attributes, arrays by their elements.
+pub(crate) fn equal(
+    object: &Bound<'_, PyAny>,
+    other: &Bound<'_, PyAny>,
+    fields: &[&str],
+) -> PyResult<bool> {
+    if !object.get_type().is(other.get_type()) {
+        return Ok(false);
+    }
+    for field in fields {
+        let (a, b) = (object.getattr(*field)?, other.getattr(*field)?);
+        let is_equal = if a.is_instance_of::<PyUntypedArray>() {
+            let numpy = object.py().import("numpy")?;
+            numpy.call_method1("array_equal", (a, b))?.extract()?
+        } else {
+            a.eq(b)?
+        };
+        if !is_equal {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Class and arguments that make the object again, for pickling and copying.
+pub(crate) fn reduce<'py>(
+    object: &Bound<'py, PyAny>,
+    fields: &[&str],
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    let names = fields.iter().map(|field| PyString::new(object.py(), field));
+    let values: PyResult<Vec<_>> = names.map(|name| object.getattr(name)).collect();
+    let arguments = PyTuple::new(object.py(), values?)?;
+    Ok((object.get_type().into_any(), arguments))
+}
+
+/// Gives a class `__repr__`, `__eq__` and `__reduce__`. Its constructor takes these attributes.
+macro_rules! plain_class {
+    ($class:ident: $($field:ident),+) => {
+        #[pymethods]
+        impl $class {
+            fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+                $crate::record::repr(slf, &[$(stringify!($field)),+])
+            }
+
+            fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+                $crate::record::equal(slf, other, &[$(stringify!($field)),+])
+            }
+
+            fn __reduce__<'py>(
+                slf: &Bound<'py, Self>,
+            ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, pyo3::types::PyTuple>)> {
+                $crate::record::reduce(slf, &[$(stringify!($field)),+])
+            }
+        }
+    };
+}
+
+/// Defines a class of named attributes: constructor, getters, and all of `plain_class`.
+macro_rules! record {
+    (
+        $(#[doc = $doc:literal])*
+        $module:literal $class:ident {
+            $($(#[doc = $field_doc:literal])* $field:ident: $type:ty,)+
+        }
+    ) => {
+        $(#[doc = $doc])*
+        #[pyclass(frozen, get_all, module = $module)]
+        pub(crate) struct $class {
+            $($(#[doc = $field_doc])* pub(crate) $field: $type,)+
+        }
+
+        #[pymethods]
+        impl $class {
+            #[new]
+            #[allow(clippy::too_many_arguments)]
+            fn new($($field: $type),+) -> Self {
+                Self { $($field),+ }
+            }
+        }
+
+        $crate::record::plain_class!($class: $($field),+);
+    };
+}
+
+pub(crate) use plain_class;
+pub(crate) use record;

@@ -1,0 +1,188 @@
+//! RANSAC for models defined in Python.
+
+use super::{RansacReport, estimate};
+use crate::options;
+use epipole::progress::{Monitor, Status};
+use epipole::robust::{self, Data, Estimator, Problem};
+use numpy::PyArray1;
+use numpy::prelude::*;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex};
+
+/// Model with its errors, computed once.
+struct Scored {
+    model: Py<PyAny>,
+    errors_sq: Vec<f64>,
+}
+
+/// Estimator whose parts are Python callables.
+struct Callables<'a> {
+    num_data: usize,
+    sample_size: usize,
+    fit: &'a Py<PyAny>,
+    errors: &'a Py<PyAny>,
+    refine: Option<&'a Py<PyAny>>,
+    /// First exception of a callable. It ends the run.
+    raised: &'a Mutex<Option<PyErr>>,
+}
+
+impl Callables<'_> {
+    /// Computes the errors of models; none after an exception.
+    fn scored(
+        &self,
+        make: impl FnOnce(Python<'_>) -> PyResult<Vec<Py<PyAny>>>,
+    ) -> Vec<Arc<Scored>> {
+        let Ok(mut raised) = self.raised.lock() else {
+            return Vec::new();
+        };
+        if raised.is_some() {
+            return Vec::new();
+        }
+        let scored = Python::attach(|py| {
+            let score = |model| self.score(py, model);
+            make(py)?
+                .into_iter()
+                .map(score)
+                .collect::<PyResult<Vec<_>>>()
+        });
+        scored.unwrap_or_else(|error| {
+            *raised = Some(error);
+            Vec::new()
+        })
+    }
+
+    fn score(&self, py: Python<'_>, model: Py<PyAny>) -> PyResult<Arc<Scored>> {
+        let errors = self.errors.bind(py).call1((&model,))?;
+        let errors = py
+            .import("numpy")?
+            .call_method1("asarray", (errors, "float64"))?;
+        let errors = errors.cast_into::<PyArray1<f64>>().map_err(|_| {
+            PyValueError::new_err("errors must return an array of shape (num_data,)")
+        })?;
+        let errors_sq: Vec<f64> = errors.to_vec()?.iter().map(|e| e * e).collect();
+        if errors_sq.len() != self.num_data {
+            return Err(PyValueError::new_err(format!(
+                "errors must return an array of shape ({},), but it has length {}",
+                self.num_data,
+                errors_sq.len()
+            )));
+        }
+        Ok(Arc::new(Scored { model, errors_sq }))
+    }
+}
+
+impl Estimator for Callables<'_> {
+    type Model = Arc<Scored>;
+
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            name: "a model",
+            sample_size: self.sample_size,
+            max_models: 1,
+            codimension: 1,
+            data: Data::Other(self.num_data),
+        }
+    }
+
+    fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>) {
+        models.extend(self.scored(|py| {
+            let found = self.fit.bind(py).call1((sample.to_pyarray(py),))?;
+            if let Ok(list) = found.cast::<PyList>() {
+                return Ok(list.iter().map(Bound::unbind).collect());
+            }
+            Ok(if found.is_none() {
+                Vec::new()
+            } else {
+                vec![found.unbind()]
+            })
+        }));
+    }
+
+    fn error_sq(&self, model: &Self::Model, index: usize) -> f64 {
+        model.errors_sq[index]
+    }
+
+    fn refine(&mut self, model: &Self::Model, inliers: &[usize], _: f64) -> Option<Self::Model> {
+        let refine = self.refine?;
+        let refined = self.scored(|py| {
+            let refined = refine
+                .bind(py)
+                .call1((&model.model, inliers.to_pyarray(py)))?;
+            Ok(if refined.is_none() {
+                Vec::new()
+            } else {
+                vec![refined.unbind()]
+            })
+        });
+        refined.into_iter().next()
+    }
+}
+
+/// Model of your own by RANSAC.
+///
+/// Parameters
+/// ----------
+/// num_data : int
+///     Number of data.
+/// sample_size : int
+///     Number of data in a minimal sample.
+/// fit : callable
+///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+/// errors : callable
+///     ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+///     ``max_error_px``.
+/// refine : callable, optional
+///     ``refine(model, indices)`` returns a better model from the inliers, or None.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///
+/// Notes
+/// -----
+/// An exception in a callable ends the run and is raised.
+#[pyfunction]
+#[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, *, progress=None, **options))]
+#[allow(clippy::too_many_arguments)]
+pub(super) fn ransac(
+    py: Python<'_>,
+    num_data: usize,
+    sample_size: usize,
+    fit: Py<PyAny>,
+    errors: Py<PyAny>,
+    refine: Option<Py<PyAny>>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let options = options::read(options)?;
+    let raised = Mutex::new(None);
+    let callables = Callables {
+        num_data,
+        sample_size,
+        fit: &fit,
+        errors: &errors,
+        refine: refine.as_ref(),
+        raised: &raised,
+    };
+    let work = |monitor: &mut dyn Monitor| {
+        let mut watch = |status: Status| match raised.lock() {
+            Ok(raised) if raised.is_none() => monitor.report(status),
+            _ => ControlFlow::Break(()),
+        };
+        robust::ransac(callables, &options, &mut watch)
+    };
+    let report = estimate(py, progress, work, |best| {
+        Ok(best.model.clone_ref(py).into_bound(py))
+    });
+    match raised.into_inner() {
+        Ok(Some(error)) => Err(error),
+        _ => report,
+    }
+}

@@ -1,0 +1,100 @@
+//! Report of a robust estimation.
+
+use crate::progress;
+use crate::record::record;
+use epipole::progress::Monitor;
+use epipole::robust::{self, StopReason};
+use numpy::PyArray1;
+use numpy::prelude::*;
+use pyo3::prelude::*;
+
+record! {
+    /// Result of a robust estimation.
+    "epipole.robust" RansacReport {
+        /// Best model.
+        model: Py<PyAny>,
+        /// Whether each datum is an inlier, boolean array of shape (N,).
+        inliers: Py<PyArray1<bool>>,
+        /// Number of inliers.
+        num_inliers: usize,
+        /// Number of inliers, equal data counted once: the support of the model.
+        num_unique_inliers: usize,
+        /// Number of data left out: a coordinate that is infinite or beyond 1e9 pixels.
+        num_left_out: usize,
+        /// Samples drawn.
+        iterations: usize,
+        /// Number of samples required by the final inlier ratio.
+        required_iterations: u64,
+        /// Threshold of inliers, pixels.
+        max_error_px: f64,
+        /// Score of the model.
+        score: f64,
+        /// Expected number of such models in data without structure, as log10; None if unknown.
+        log10_false_alarms: Option<f64>,
+        /// Number of times a model was improved from its inliers.
+        refinements: usize,
+        /// Why the search ended: "confident", "exhausted" or "interrupted".
+        stop: String,
+    }
+}
+
+#[pymethods]
+impl RansacReport {
+    /// Whether unrelated data might show as much support: the model is then not significant.
+    fn could_be_chance(&self) -> bool {
+        let report = robust::RansacReport {
+            model: (),
+            inliers: Vec::new(),
+            num_inliers: self.num_inliers,
+            num_unique_inliers: self.num_unique_inliers,
+            num_left_out: self.num_left_out,
+            iterations: self.iterations,
+            required_iterations: self.required_iterations,
+            max_error_px: self.max_error_px,
+            score: self.score,
+            log10_false_alarms: self.log10_false_alarms,
+            refinements: self.refinements,
+            stop: StopReason::Confident,
+        };
+        report.could_be_chance()
+    }
+}
+
+/// Name of the reason.
+pub(crate) fn stop_reason(stop: StopReason) -> String {
+    let name = match stop {
+        StopReason::Confident => "confident",
+        StopReason::Exhausted => "exhausted",
+        StopReason::Interrupted => "interrupted",
+    };
+    name.to_owned()
+}
+
+/// Runs a robust estimation without the GIL, and reports in Python's terms.
+///
+/// * `model`: the Python object of a model
+///
+/// # Errors
+/// As [`progress::run`].
+pub(crate) fn estimate<'py, M: Send>(
+    py: Python<'py>,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(&mut dyn Monitor) -> epipole::Result<robust::RansacReport<M>> + Send,
+    model: impl FnOnce(M) -> PyResult<Bound<'py, PyAny>>,
+) -> PyResult<RansacReport> {
+    let report = progress::run(py, progress, work)?;
+    Ok(RansacReport {
+        model: model(report.model)?.unbind(),
+        inliers: report.inliers.to_pyarray(py).unbind(),
+        num_inliers: report.num_inliers,
+        num_unique_inliers: report.num_unique_inliers,
+        num_left_out: report.num_left_out,
+        iterations: report.iterations,
+        required_iterations: report.required_iterations,
+        max_error_px: report.max_error_px,
+        score: report.score,
+        log10_false_alarms: report.log10_false_alarms,
+        refinements: report.refinements,
+        stop: stop_reason(report.stop),
+    })
+}

@@ -1,0 +1,128 @@
+//! Similarities of the plane.
+
+use super::{RansacReport, estimate};
+use crate::arrays::{Batch, from_matrix, points2};
+use crate::errors::OrRaise;
+use crate::options;
+use crate::record::record;
+use epipole::nalgebra::Point2;
+use epipole::robust;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
+    "epipole.robust" PlaneSimilarity {
+        /// Scale times the cosine of the turn.
+        a: f64,
+        /// Scale times the sine of the turn.
+        b: f64,
+        /// Shift along u, pixels.
+        tu: f64,
+        /// Shift along v, pixels.
+        tv: f64,
+    }
+}
+
+impl PlaneSimilarity {
+    fn core(&self) -> robust::PlaneSimilarity {
+        robust::PlaneSimilarity {
+            a: self.a,
+            b: self.b,
+            tu: self.tu,
+            tv: self.tv,
+        }
+    }
+}
+
+impl From<robust::PlaneSimilarity> for PlaneSimilarity {
+    fn from(s: robust::PlaneSimilarity) -> Self {
+        Self {
+            a: s.a,
+            b: s.b,
+            tu: s.tu,
+            tv: s.tv,
+        }
+    }
+}
+
+#[pymethods]
+impl PlaneSimilarity {
+    /// Images of points of shape (2,) or (N, 2).
+    fn apply<'py>(&self, p: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let similarity = self.core();
+        let apply = |p: &_| Ok(similarity.apply(&Point2::from(*p)).coords);
+        Batch::<2>::read("p", p)?.vectors(p.py(), apply)
+    }
+
+    /// Scale.
+    fn scale(&self) -> f64 {
+        self.core().scale()
+    }
+
+    /// Angle of the turn from u towards v, radians.
+    fn angle_rad(&self) -> f64 {
+        self.core().angle_rad()
+    }
+
+    /// Homogeneous matrix, shape (3, 3).
+    fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_matrix(py, &self.core().matrix())
+    }
+}
+
+/// Similarity of matches by least squares, without outliers.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches, N >= 2.
+///
+/// Returns
+/// -------
+/// PlaneSimilarity
+#[pyfunction]
+pub(super) fn fit_similarity(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+) -> PyResult<PlaneSimilarity> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    Ok(robust::fit_similarity(&pixels1, &pixels2)
+        .or_raise()?
+        .into())
+}
+
+/// Similarity of matches with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is a `PlaneSimilarity`.
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
+pub(super) fn estimate_similarity(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    estimate(
+        py,
+        progress,
+        |monitor| robust::estimate_similarity(&pixels1, &pixels2, &options, monitor),
+        |model| Ok(Bound::new(py, PlaneSimilarity::from(model))?.into_any()),
+    )
+}

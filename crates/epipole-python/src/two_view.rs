@@ -1,0 +1,392 @@
+//! Two views whose configuration is unknown: F, E, H or a rotation.
+
+use crate::arrays::{from_matrix, mask, points2};
+use crate::camera::{Camera, RigidTransform};
+use crate::errors::OrRaise;
+use crate::options;
+use crate::progress;
+use crate::record::record;
+use crate::robust::{RansacReport, estimate, stop_reason};
+use epipole::nalgebra::Matrix3;
+use epipole::two_view::{self, Configuration, TwoViewModel, TwoViewOptions};
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Geometry of two views.
+    "epipole.two_view" TwoViewReport {
+        /// "general", "planar", "panoramic" or "degenerate".
+        configuration: String,
+        /// Kind of the model: "fundamental", "essential" or "homography".
+        kind: String,
+        /// Chosen matrix, shape (3, 3).
+        model: Py<PyArray2<f64>>,
+        /// Whether model and homography are of rays, not of pixels: lenses with distortion.
+        is_of_rays: bool,
+        /// F, shape (3, 3), or None.
+        fundamental: Option<Py<PyArray2<f64>>>,
+        /// H, shape (3, 3), or None.
+        homography: Option<Py<PyArray2<f64>>>,
+        /// Motion of calibrated views, translation of length 1, or 0 for a rotation; or None.
+        cam2_from_cam1: Option<RigidTransform>,
+        /// Second motion that explains a plane as well, or None.
+        other_cam2_from_cam1: Option<RigidTransform>,
+        /// Whether each match is an inlier, boolean array of shape (N,).
+        inliers: Py<PyArray1<bool>>,
+        /// Number of inliers.
+        num_inliers: usize,
+        /// Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels.
+        num_left_out: usize,
+        /// Threshold of F and E, pixels.
+        max_error_px: f64,
+        /// Samples drawn, over all models tried.
+        iterations: usize,
+        /// Number of samples required for the model.
+        required_iterations: u64,
+        /// Why the search ended: "confident", "exhausted" or "interrupted".
+        stop: String,
+        /// Median angle at which rays of inliers meet, radians, or None.
+        median_triangulation_angle_rad: Option<f64>,
+    }
+}
+
+fn report(py: Python<'_>, found: two_view::TwoViewReport) -> PyResult<TwoViewReport> {
+    let (kind, model) = match found.model {
+        TwoViewModel::Fundamental(f) => ("fundamental", f),
+        TwoViewModel::Essential(e) => ("essential", e),
+        TwoViewModel::Homography(h) => ("homography", h),
+    };
+    let configuration = match found.configuration {
+        Configuration::General => "general",
+        Configuration::Planar => "planar",
+        Configuration::Panoramic => "panoramic",
+        Configuration::Degenerate => "degenerate",
+    };
+    let array = |m: &Matrix3<f64>| Ok::<_, PyErr>(from_matrix(py, m)?.unbind());
+    Ok(TwoViewReport {
+        configuration: configuration.to_owned(),
+        kind: kind.to_owned(),
+        model: array(&model)?,
+        is_of_rays: found.is_of_rays,
+        fundamental: found.fundamental.as_ref().map(array).transpose()?,
+        homography: found.homography.as_ref().map(array).transpose()?,
+        cam2_from_cam1: found.cam2_from_cam1.map(RigidTransform::from),
+        other_cam2_from_cam1: found.other_cam2_from_cam1.map(RigidTransform::from),
+        inliers: found.inliers.to_pyarray(py).unbind(),
+        num_inliers: found.num_inliers,
+        num_left_out: found.num_left_out,
+        max_error_px: found.max_error_px,
+        iterations: found.iterations,
+        required_iterations: found.required_iterations,
+        stop: stop_reason(found.stop),
+        median_triangulation_angle_rad: found.median_triangulation_angle_rad,
+    })
+}
+
+record! {
+    /// Rotation that explains nearly all inliers.
+    "epipole.two_view" ExplainingTurn {
+        /// Rotation, with a translation of 0.
+        cam2_from_cam1: RigidTransform,
+        /// Number of inliers that it explains.
+        num_explained: usize,
+        /// Number of inliers.
+        num_inliers: usize,
+    }
+}
+
+record! {
+    /// Rotation and change of the focal length that explain nearly all inliers.
+    "epipole.two_view" TurnAndFocal {
+        /// Rotation, with a translation of 0.
+        cam2_from_cam1: RigidTransform,
+        /// Factor by which both focal lengths differ from those given.
+        focal_factor: f64,
+        /// Number of different matches that it explains.
+        num_explained: usize,
+        /// Number of different matches.
+        num_inliers: usize,
+    }
+}
+
+record! {
+    /// Why inliers do not determine F.
+    "epipole.two_view" Degeneracy {
+        /// "unmoved" or "homography".
+        kind: String,
+        /// Number of inliers that did not move, or that a homography explains.
+        num_explained: usize,
+        /// Number of inliers.
+        num_inliers: usize,
+    }
+}
+
+fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
+    let (kind, num_explained, num_inliers) = match found {
+        two_view::Degeneracy::Unmoved {
+            num_unmoved,
+            num_inliers,
+        } => ("unmoved", num_unmoved, num_inliers),
+        two_view::Degeneracy::Homography {
+            num_explained,
+            num_inliers,
+        } => ("homography", num_explained, num_inliers),
+    };
+    Degeneracy {
+        kind: kind.to_owned(),
+        num_explained,
+        num_inliers,
+    }
+}
+
+/// Geometry of two views without calibration: F or H.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
+///     ``ransac``, a dict of the options of RANSAC.
+///
+/// Returns
+/// -------
+/// TwoViewReport
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
+fn estimate_two_view(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<TwoViewReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let found = progress::run(py, progress, |monitor| {
+        two_view::estimate_two_view(&pixels1, &pixels2, &options, monitor)
+    })?;
+    report(py, found)
+}
+
+/// Geometry of two calibrated views: E, H or a rotation, and the motion.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     As for `estimate_two_view`.
+///
+/// Returns
+/// -------
+/// TwoViewReport
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
+fn estimate_two_view_calibrated(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<TwoViewReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    let found = progress::run(py, progress, |monitor| {
+        two_view::estimate_two_view_calibrated(&pixels1, &pixels2, cameras, &options, monitor)
+    })?;
+    report(py, found)
+}
+
+/// Rotation between two calibrated views from the same place, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches.
+/// camera1, camera2 : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport
+///     Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
+fn estimate_rotation(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    estimate(
+        py,
+        progress,
+        |monitor| two_view::estimate_rotation(&pixels1, &pixels2, cameras, &options, monitor),
+        |model| Ok(from_matrix(py, &model)?.into_any()),
+    )
+}
+
+/// Why the inliers of F do not determine it: nothing moved, or a homography explains them.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// inliers : array_like of bool, shape (N,)
+/// **options
+///     As for `estimate_two_view`.
+///
+/// Returns
+/// -------
+/// Degeneracy or None
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, inliers, **options))]
+fn find_degeneracy(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    inliers: &Bound<'_, PyAny>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<Degeneracy>> {
+    let py = pixels1.py();
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let inliers = mask("inliers", inliers)?;
+    let options: TwoViewOptions = options::read(options)?;
+    let found = py.detach(|| two_view::find_degeneracy(&pixels1, &pixels2, &inliers, &options));
+    Ok(found.or_raise()?.map(degeneracy))
+}
+
+/// Whether nearly all inliers are at the same pixel in both images.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// inliers : array_like of bool, shape (N,)
+/// **options
+///     As for `estimate_two_view`.
+///
+/// Returns
+/// -------
+/// Degeneracy or None
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, inliers, **options))]
+fn find_unmoved(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    inliers: &Bound<'_, PyAny>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<Degeneracy>> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let inliers = mask("inliers", inliers)?;
+    let options: TwoViewOptions = options::read(options)?;
+    let found = two_view::find_unmoved(&pixels1, &pixels2, &inliers, &options);
+    Ok(found.or_raise()?.map(degeneracy))
+}
+
+/// Rotation that explains nearly all inliers of calibrated views, if there is one.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// camera1, camera2 : Camera
+/// inliers : array_like of bool, shape (N,)
+/// **options
+///     As for `estimate_two_view`.
+///
+/// Returns
+/// -------
+/// ExplainingTurn or None
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
+fn find_explaining_turn(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    inliers: &Bound<'_, PyAny>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<ExplainingTurn>> {
+    let py = inliers.py();
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let inliers = mask("inliers", inliers)?;
+    let options: TwoViewOptions = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    let found = py
+        .detach(|| two_view::find_explaining_turn(&pixels1, &pixels2, cameras, &inliers, &options));
+    Ok(found.or_raise()?.map(|turn| ExplainingTurn {
+        cam2_from_cam1: turn.cam2_from_cam1.into(),
+        num_explained: turn.num_explained,
+        num_inliers: turn.num_inliers,
+    }))
+}
+
+/// Rotation and change of the focal length that explain nearly all inliers, if there are any.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// camera1, camera2 : Camera
+/// inliers : array_like of bool, shape (N,)
+/// **options
+///     As for `estimate_two_view`.
+///
+/// Returns
+/// -------
+/// TurnAndFocal or None
+#[pyfunction]
+#[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
+fn find_turn_and_focal(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    inliers: &Bound<'_, PyAny>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<TurnAndFocal>> {
+    let py = inliers.py();
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let inliers = mask("inliers", inliers)?;
+    let options: TwoViewOptions = options::read(options)?;
+    let cameras = [&camera1.0, &camera2.0];
+    let found = py
+        .detach(|| two_view::find_turn_and_focal(&pixels1, &pixels2, cameras, &inliers, &options));
+    Ok(found.or_raise()?.map(|turn| TurnAndFocal {
+        cam2_from_cam1: turn.cam2_from_cam1.into(),
+        focal_factor: turn.focal_factor,
+        num_explained: turn.num_explained,
+        num_inliers: turn.num_inliers,
+    }))
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<TwoViewReport>()?;
+    module.add_class::<ExplainingTurn>()?;
+    module.add_class::<TurnAndFocal>()?;
+    module.add_class::<Degeneracy>()?;
+    module.add_function(wrap_pyfunction!(estimate_two_view, module)?)?;
+    module.add_function(wrap_pyfunction!(estimate_two_view_calibrated, module)?)?;
+    module.add_function(wrap_pyfunction!(estimate_rotation, module)?)?;
+    module.add_function(wrap_pyfunction!(find_degeneracy, module)?)?;
+    module.add_function(wrap_pyfunction!(find_unmoved, module)?)?;
+    module.add_function(wrap_pyfunction!(find_explaining_turn, module)?)?;
+    module.add_function(wrap_pyfunction!(find_turn_and_focal, module)?)?;
+    Ok(())
+}

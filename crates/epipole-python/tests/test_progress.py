@@ -1,0 +1,89 @@
+"""Progress callbacks, exceptions in callables, Ctrl-C, threads."""
+
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import epipole
+
+
+@pytest.fixture
+def long_work():
+    """Matches without structure, and options that keep RANSAC busy for minutes."""
+    pixels1, pixels2 = np.random.default_rng(3).uniform(0, 1000, (2, 20_000, 2))
+    return (pixels1, pixels2), {"max_iterations": 10**9, "min_iterations": 10**9}
+
+
+def test_callback_sees_stage_and_share(outliers):
+    seen = []
+    epipole.estimate_fundamental(*outliers, progress=lambda *status: seen.append(status))
+    assert seen and seen[0][0] == "drawing samples" and 0 <= seen[0][1] <= 1
+
+
+def test_exception_of_a_callback_stops_the_work(long_work):
+    matches, options = long_work
+
+    def stop(stage, share):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        epipole.estimate_fundamental(*matches, progress=stop, **options)
+
+
+def test_interrupt_stops_the_work(long_work):
+    matches, options = long_work
+    sent = []
+
+    def interrupt():
+        time.sleep(0.3)
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        epipole.estimate_fundamental(*matches, **options)
+    assert time.perf_counter() - sent[0] < 0.2
+    thread.join()
+
+
+def test_other_threads_run_meanwhile(long_work):
+    matches, options = long_work
+    counter, done = 0, threading.Event()
+
+    def work():
+        try:
+            epipole.estimate_fundamental(*matches, progress=watch, **options)
+        except TimeoutError:
+            done.set()
+
+    start = time.perf_counter()
+
+    def watch(stage, share):
+        if time.perf_counter() - start > 0.3:
+            raise TimeoutError
+
+    threading.Thread(target=work).start()
+    while not done.is_set():
+        counter += 1
+        time.sleep(0.001)
+    assert counter > 50
+
+
+def test_threads_give_the_same_result(outliers):
+    expected = epipole.estimate_fundamental(*outliers)
+    found = [None] * 8
+
+    def work(i):
+        found[i] = epipole.estimate_fundamental(*outliers)
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(report == expected for report in found)
