@@ -248,10 +248,8 @@ fn numbers(
         _ => (array.call_method1("astype", ("float64",))?).cast_into::<PyArrayDyn<f64>>()?,
     };
     let floats = floats.readonly();
-    let numbers = match floats.as_slice() {
-        Ok(slice) => slice.to_vec(),
-        Err(_) => floats.as_array().iter().copied().collect(),
-    };
+    // `as_slice` would also give the column-major memory of Fortran arrays.
+    let numbers: Vec<f64> = floats.as_array().iter().copied().collect();
     if let Some(place) = numbers.iter().position(|number| number.is_nan()) {
         let row = place / shape.last().copied().unwrap_or(1).max(1);
         let place = if shape.len() > 1 {
@@ -265,7 +263,7 @@ fn numbers(
 }
 
 /// `numpy.asarray`, with an error that names the argument.
-fn as_array<'py>(
+pub(crate) fn as_array<'py>(
     name: &str,
     value: &Bound<'py, PyAny>,
     expected: &str,

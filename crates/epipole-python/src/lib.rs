@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`arrays`] | NumPy arrays to points and matrices, and back |
 //! | [`errors`] | errors of the library as exceptions |
+//! | [`images`] | NumPy images to images of the library, and back |
 //! | [`options`] | keyword options to the library's option structs |
 //! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
 //! | [`record`] | `repr`, equality and pickling of classes |
@@ -18,6 +19,9 @@ mod camera;
 mod epipolar;
 mod errors;
 mod homography;
+// For the modules of images, which are not bound yet.
+#[allow(dead_code)]
+mod images;
 mod options;
 mod progress;
 mod record;

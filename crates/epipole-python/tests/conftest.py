@@ -93,7 +93,8 @@ def plane():
 def outliers(world):
     """Matches of the world, the last third of them wrong."""
     pixels2 = world.pixels2.copy()
-    pixels2[40:] = np.random.default_rng(2).uniform([0, 0], [640, 480], (20, 2))
+    # The camera moves sideways: a shift along v leaves the epipolar line.
+    pixels2[40:, 1] += np.random.default_rng(2).uniform(30, 150, 20)
     return world.pixels1, pixels2
 
 

@@ -62,7 +62,8 @@ impl Callables<'_> {
         let errors = errors.cast_into::<PyArray1<f64>>().map_err(|_| {
             PyValueError::new_err("errors must return an array of shape (num_data,)")
         })?;
-        let errors_sq: Vec<f64> = errors.to_vec()?.iter().map(|e| e * e).collect();
+        let errors = errors.readonly();
+        let errors_sq: Vec<f64> = errors.as_array().iter().map(|e| e * e).collect();
         if errors_sq.len() != self.num_data {
             return Err(PyValueError::new_err(format!(
                 "errors must return an array of shape ({},), but it has length {}",
