@@ -6,6 +6,8 @@ import pytest
 import epipole
 from epipole import epipolar
 
+SHAPE = r"pixels1 must be an array of shape \(N, 2\)"
+
 
 @pytest.mark.parametrize(
     "change",
@@ -38,7 +40,7 @@ def test_dtypes(world, dtype):
 @pytest.mark.parametrize(
     ("pixels1", "error", "message"),
     [
-        (np.zeros((3, 5)), ValueError, r"pixels1 must be an array of shape \(N, 2\), but has shape \(3, 5\)"),
+        (np.zeros((3, 5)), ValueError, SHAPE + r", but has shape \(3, 5\)"),
         (np.zeros(8), ValueError, r"but has shape \(8,\)"),
         (3.0, ValueError, r"pixels1 .* has shape \(\)"),
         ([], ValueError, r"pixels1 .* has shape \(0,\)"),
@@ -85,7 +87,8 @@ def test_errors_have_one_base(world):
 
 
 def test_options(world, outliers):
-    report = epipole.estimate_fundamental(*outliers, score="inlier_count", max_iterations=np.int32(7))
+    given = {"score": "inlier_count", "max_iterations": np.int32(7)}
+    report = epipole.estimate_fundamental(*outliers, **given)
     assert report.iterations == 7 and report.stop == "exhausted"
     for bad, error, message in [
         ({"max_eror_px": 1}, TypeError, "unknown option max_eror_px.*max_error_px.*confidence"),

@@ -49,10 +49,11 @@ def test_absolute_pose(world):
 
 def test_absolute_pose_solvers(world):
     pixels, points, camera = world.pixels2, world.points, world.camera
+    loss = {"cauchy": {"width": 1}}
     for pose in (
         absolute_pose.pose_dlt(points, pixels, world.intrinsics),
         absolute_pose.fit_absolute_pose(points, pixels, camera),
-        absolute_pose.refine_absolute_pose(world.motion, points, pixels, camera, {"cauchy": {"width": 1}}),
+        absolute_pose.refine_absolute_pose(world.motion, points, pixels, camera, loss),
     ):
         np.testing.assert_allclose(pose.matrix(), world.motion.matrix(), atol=1e-6)
     three = absolute_pose.pose_p3p(world.rays2[:3], points[:3])
@@ -121,7 +122,8 @@ def test_rotations(world):
     pixels2 = world.rays1 @ turn.T @ world.k.T
     matches = (world.pixels1, pixels2[:, :2] / pixels2[:, 2:])
     cameras = (world.camera, world.camera)
-    np.testing.assert_allclose(two_view.estimate_rotation(*matches, *cameras).model, turn, atol=1e-6)
+    found = two_view.estimate_rotation(*matches, *cameras).model
+    np.testing.assert_allclose(found, turn, atol=1e-6)
     all_inliers = np.ones(60, bool)
     explaining = two_view.find_explaining_turn(*matches, *cameras, all_inliers)
     assert explaining.num_explained == 60
