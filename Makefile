@@ -7,12 +7,13 @@ MONKEY_SECONDS ?= 20
 FUZZ_SEQUENCES ?= 72000
 VENV := .venv
 PYTHON := $(VENV)/bin/python
+PACKAGE := crates/epipole-python
 # The tools of other sites, and the packages that they install.
 HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -28,7 +29,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
+test: setup check test-rust test-python test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -40,6 +41,12 @@ check: setup-build ## format, lints, types, lock files and licenses, without run
 test-rust: setup-build ## unit tests, documentation tests, Rust listings, figures, layers
 	cargo test --locked --workspace --tests
 	cargo test --locked --workspace --doc
+
+# Without -p, as above. The module's file has the name by which every Python from 3.10 on finds it.
+test-python: setup-test ## the Python package: its native module, and its tests
+	cargo build --locked --workspace --lib
+	cp target/debug/lib_epipole.$(if $(filter Darwin,$(shell uname)),dylib,so) $(PACKAGE)/python/epipole/_epipole.abi3.so
+	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
 
 test-web: setup-build ## unit tests of the elements, without a browser
 	cd web && npm test --silent
@@ -175,8 +182,8 @@ tests/bench/node_modules/.installed: tests/bench/package-lock.json
 	cd tests/bench && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 
-$(VENV)/.installed: tests/listings/requirements.txt
+$(VENV)/.installed: tests/requirements.txt
 	@tests/tools/need.sh python3
 	python3 -m venv $(VENV)
-	$(PYTHON) -m pip install --quiet --disable-pip-version-check -r tests/listings/requirements.txt
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt
 	@touch $@

@@ -29,7 +29,7 @@ const CRATES: &[(&str, &[&str])] = &[
         "epipole-lab",
         &["epipole", "epipole-io", "epipole-scenes", "epipole-canvas"],
     ),
-    ("epipole-python", &["epipole"]),
+    ("epipole-python", &["epipole", "epipole-io"]),
 ];
 
 /// Dependencies that only the given crates may have, to keep their use in one place.

@@ -40,8 +40,8 @@ pub struct VerifiedPair {
 /// * `monitor`: hears from the searches, in the one stage [`Stage::PairVerification`]
 ///
 /// # Errors
-/// [`Error::Canceled`]; [`Error::OutOfRange`] if a match refers to a keypoint that is not there, [`Error::NotFinite`]
-/// for a lens with such a coefficient.
+/// [`Error::Canceled`]; [`Error::OutOfRange`] if a match refers to a keypoint that is not there,
+/// [`Error::NotFinite`] for a lens with such a coefficient.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
 pub fn verify_matches(
