@@ -1,126 +1,320 @@
-//! NumPy images to images of the library, and back.
+//! NumPy arrays to images, and back.
 //!
-//! uint8 images range from 0 to 255, float images from 0 to 1.
+//! Images are uint8 of shape `(H, W)` or `(H, W, 3)`, or float gray of shape `(H, W)` with black
+//! at 0 and white at 1. Objects with `__array_interface__` pass through `numpy.asarray`.
+
+mod elements;
+
+pub(crate) use elements::{column, dtype, elements, kind, table, wrong_shape};
 
 use crate::arrays::as_array;
-use epipole::image::{GrayImage, RgbImage};
-use epipole::imaging::{
-    BT601_WEIGHTS, GrayImage32, gray_to_f32, gray_to_u8, rgb_to_gray, rgb_to_gray_f32,
-};
+use crate::errors::OrRaise;
+use crate::options;
+use elements::{real_array, require_finite, shape_text};
+use epipole::image::{GrayImage, ImageBuffer, Pixel, RgbImage};
+use epipole::imaging::{self, Border, GrayImage32};
+use epipole::stereo::DisparityImage;
 use numpy::prelude::*;
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn};
+use numpy::{Element, PyArray1, PyArray2, PyArray3, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
-/// Shapes in messages.
-const SHAPES: &str = "(H, W) or (H, W, 3)";
+/// Deviation from [0, 1] that passes as the overshoot of a filter.
+const OVERSHOOT: f32 = 0.5;
 
-/// An image as the caller gave it.
+/// Maximum number of pixels of a result: more would exhaust the memory.
+const MAX_PIXELS: u64 = 1 << 32;
+
+/// Image of any kind.
 pub(crate) enum Image {
     /// uint8, shape `(H, W)`.
-    Gray(GrayImage),
+    Gray8(GrayImage),
     /// uint8, shape `(H, W, 3)`.
-    Rgb(RgbImage),
-    /// float, shape `(H, W)`, or the gray of `(H, W, 3)`.
-    Float(GrayImage32),
+    Rgb8(RgbImage),
+    /// float, shape `(H, W)`.
+    Gray32(GrayImage32),
 }
+
+/// Computes an image from one of any kind, of the same kind.
+macro_rules! same_kind {
+    ($image:expr, |$pixels:ident| $run:expr) => {
+        match $image {
+            $crate::images::Image::Gray8($pixels) => $crate::images::Image::Gray8($run),
+            $crate::images::Image::Rgb8($pixels) => $crate::images::Image::Rgb8($run),
+            $crate::images::Image::Gray32($pixels) => $crate::images::Image::Gray32($run),
+        }
+    };
+}
+pub(crate) use same_kind;
 
 impl Image {
-    /// Reads a uint8 or float image of shape `(H, W)` or `(H, W, 3)`.
+    /// Reads an image.
     ///
     /// # Errors
-    /// `TypeError` for another dtype, `ValueError` for another shape, NaN or infinity; both name
-    /// the argument.
+    /// `TypeError` for a dtype without a meaning, `ValueError` for a shape, for an image without
+    /// pixels, and for NaN and infinity.
     pub(crate) fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let array = as_array(name, value, SHAPES)?;
-        let (height, width, channels) = match *array.shape() {
-            [height, width] => (height, width, 1),
-            [height, width, 3] => (height, width, 3),
-            _ => {
-                let shape = PyTuple::new(value.py(), array.shape())?.repr()?;
+        let array = as_array(name, value, "(H, W) or (H, W, 3)")?;
+        let is_bytes = dtype(&array)? == "uint8";
+        if !is_bytes && kind(&array) != 'f' {
+            return Err(wrong_dtype(name, &array)?);
+        }
+        let (height, width, is_color) = match *array.shape() {
+            [height, width] => (height, width, false),
+            [height, width, 3] if is_bytes => (height, width, true),
+            [_, _, 3] => {
                 return Err(PyValueError::new_err(format!(
-                    "{name} must be an image of shape {SHAPES}, but has shape {shape}"
+                    "{name} must be gray if it is float, but has shape {}; color is uint8",
+                    shape_text(&array)?
                 )));
             }
+            _ => return Err(wrong_shape(name, "(H, W) or (H, W, 3)", &array)?),
         };
-        let size = u32::try_from(width).ok().zip(u32::try_from(height).ok());
-        let too_large = || PyValueError::new_err(format!("{name} is too large"));
-        let (width, height) = size.ok_or_else(too_large)?;
-        if let Ok(bytes) = array.cast::<PyArrayDyn<u8>>() {
-            let bytes = bytes.readonly().as_array().iter().copied().collect();
-            let image = match channels {
-                1 => GrayImage::from_raw(width, height, bytes).map(Self::Gray),
-                _ => RgbImage::from_raw(width, height, bytes).map(Self::Rgb),
-            };
-            return image.ok_or_else(too_large);
-        }
-        if u8::from(array.dtype().kind()) != b'f' {
-            let dtype: String = array.dtype().getattr("name")?.extract()?;
-            return Err(PyTypeError::new_err(format!(
-                "{name} must be an image of uint8 or floats, but its dtype is {dtype}"
-            )));
-        }
-        let floats = array.call_method1("astype", ("float32",))?;
-        let floats = floats.cast_into::<PyArrayDyn<f32>>()?;
-        let mut floats: Vec<f32> = floats.readonly().as_array().iter().copied().collect();
-        if floats.iter().any(|value| !value.is_finite()) {
-            return Err(PyValueError::new_err(format!(
-                "{name} contains NaN or infinity"
-            )));
-        }
-        if channels == 3 {
-            let [r, g, b] = BT601_WEIGHTS;
-            let gray = |c: &[f32]| r * c[0] + g * c[1] + b * c[2];
-            floats = floats.chunks_exact(3).map(gray).collect();
-        }
-        GrayImage32::from_raw(width, height, floats)
-            .map(Self::Float)
-            .ok_or_else(too_large)
+        let (width, height) = (side(name, width, &array)?, side(name, height, &array)?);
+        Ok(if !is_bytes {
+            let values: Vec<f32> = elements(&array, "float32")?;
+            require_finite(name, &values, width as usize)?;
+            Self::Gray32(filled(width, height, values))
+        } else if is_color {
+            Self::Rgb8(filled(width, height, elements(&array, "uint8")?))
+        } else {
+            Self::Gray8(filled(width, height, elements(&array, "uint8")?))
+        })
     }
 
-    /// Gray floats.
-    pub(crate) fn into_gray32(self) -> GrayImage32 {
-        match self {
-            Self::Gray(image) => gray_to_f32(&image),
-            Self::Rgb(image) => rgb_to_gray_f32(&image, &BT601_WEIGHTS),
-            Self::Float(image) => image,
+    /// Array of the image's kind.
+    pub(crate) fn give<'py>(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(match self {
+            Self::Gray8(image) => from_gray(py, image)?.into_any(),
+            Self::Rgb8(image) => from_rgb(py, image)?.into_any(),
+            Self::Gray32(image) => from_gray(py, image)?.into_any(),
+        })
+    }
+}
+
+/// Gray image as floats, and whether it came as bytes, which count as value / 255.
+pub(crate) struct Gray {
+    /// The gray values.
+    pub(crate) pixels: GrayImage32,
+    is_bytes: bool,
+}
+
+impl Gray {
+    /// Reads a gray image.
+    ///
+    /// # Errors
+    /// As [`Image::read`], and `ValueError` for a color image.
+    pub(crate) fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        match Image::read(name, value)? {
+            Image::Gray8(image) => Ok(Self {
+                pixels: imaging::gray_to_f32(&image),
+                is_bytes: true,
+            }),
+            Image::Gray32(pixels) => Ok(Self {
+                pixels,
+                is_bytes: false,
+            }),
+            Image::Rgb8(_) => Err(not_gray(name)),
         }
     }
 
-    /// Gray bytes.
-    pub(crate) fn into_gray(self) -> GrayImage {
-        match self {
-            Self::Gray(image) => image,
-            Self::Rgb(image) => rgb_to_gray(&image),
-            Self::Float(image) => gray_to_u8(&image),
+    /// Reads a border, with a constant in the image's own units.
+    pub(crate) fn border(&self, border: Option<&Bound<'_, PyAny>>) -> PyResult<Border> {
+        let border = match border {
+            Some(border) => options::value("border", border)?,
+            None => Border::default(),
+        };
+        Ok(match border {
+            Border::Constant(value) if self.is_bytes => Border::Constant(value / 255.0),
+            other => other,
+        })
+    }
+
+    /// Array of a result, of the dtype that came in.
+    pub(crate) fn give<'py>(
+        &self,
+        py: Python<'py>,
+        result: GrayImage32,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if self.is_bytes {
+            let bytes = py.detach(|| imaging::gray_to_u8(&result));
+            Ok(from_gray(py, bytes)?.into_any())
+        } else {
+            Ok(from_gray(py, result)?.into_any())
         }
     }
 }
 
-/// float32 array of shape `(H, W)`.
-pub(crate) fn from_gray32<'py>(
-    py: Python<'py>,
-    image: GrayImage32,
-) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let shape = [image.height() as usize, image.width() as usize];
-    PyArray1::from_vec(py, image.into_raw()).reshape(shape)
+/// Reads a gray image with values of any range; uint8 counts as value / 255.
+///
+/// # Errors
+/// As [`Gray::read`].
+pub(crate) fn gray(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
+    Ok(Gray::read(name, value)?.pixels)
 }
 
-/// uint8 array of shape `(H, W)`.
-pub(crate) fn from_gray<'py>(
-    py: Python<'py>,
-    image: GrayImage,
-) -> PyResult<Bound<'py, PyArray2<u8>>> {
-    let shape = [image.height() as usize, image.width() as usize];
-    PyArray1::from_vec(py, image.into_raw()).reshape(shape)
+/// Reads a gray image for functions whose thresholds are for gray values in [0, 1].
+///
+/// # Errors
+/// As [`Gray::read`], and `ValueError` for values far outside [0, 1].
+pub(crate) fn unit_gray(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
+    let image = gray(name, value)?;
+    require_unit(name, &image)?;
+    Ok(image)
 }
 
-/// uint8 array of shape `(H, W, 3)`.
-pub(crate) fn from_rgb<'py>(
-    py: Python<'py>,
-    image: RgbImage,
-) -> PyResult<Bound<'py, PyArray3<u8>>> {
-    let shape = [image.height() as usize, image.width() as usize, 3];
-    PyArray1::from_vec(py, image.into_raw()).reshape(shape)
+/// Reads a gray image as bytes; floats in [0, 1] are rounded.
+///
+/// # Errors
+/// As [`unit_gray`].
+pub(crate) fn gray8(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage> {
+    match Image::read(name, value)? {
+        Image::Gray8(image) => Ok(image),
+        Image::Gray32(image) => {
+            require_unit(name, &image)?;
+            Ok(imaging::gray_to_u8(&image))
+        }
+        Image::Rgb8(_) => Err(not_gray(name)),
+    }
+}
+
+/// Reads a color image.
+///
+/// # Errors
+/// As [`Image::read`], and `TypeError` or `ValueError` for a gray image.
+pub(crate) fn rgb(name: &str, value: &Bound<'_, PyAny>) -> PyResult<RgbImage> {
+    match Image::read(name, value)? {
+        Image::Rgb8(image) => Ok(image),
+        Image::Gray8(_) => Err(PyValueError::new_err(format!(
+            "{name} must be a color image of shape (H, W, 3), but is gray"
+        ))),
+        Image::Gray32(_) => Err(PyTypeError::new_err(format!(
+            "{name} must be a uint8 image of shape (H, W, 3), but is float"
+        ))),
+    }
+}
+
+/// Reads numbers of any real dtype on a grid, shape `(H, W)`, as they are.
+///
+/// # Errors
+/// As [`Image::read`].
+pub(crate) fn field(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
+    let field = real_field(name, value)?;
+    require_finite(name, field.as_raw(), field.width() as usize)?;
+    Ok(field)
+}
+
+/// Reads disparities, shape `(H, W)`, NaN where unknown.
+///
+/// # Errors
+/// As [`Image::read`], but NaN is allowed and integers are not.
+pub(crate) fn disparity(name: &str, value: &Bound<'_, PyAny>) -> PyResult<DisparityImage> {
+    let array = as_array(name, value, "(H, W)")?;
+    if kind(&array) != 'f' {
+        return Err(PyTypeError::new_err(format!(
+            "{name} must be float, in pixels, but its dtype is {}; OpenCV's int16 disparities are \
+             16 times the pixels",
+            dtype(&array)?
+        )));
+    }
+    let image = real_field(name, value)?;
+    let (width, height) = image.dimensions();
+    DisparityImage::from_raw(width, height, image.into_raw()).or_raise()
+}
+
+fn real_field(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
+    let array = real_array(name, value, "(H, W)")?;
+    let [height, width] = *array.shape() else {
+        return Err(wrong_shape(name, "(H, W)", &array)?);
+    };
+    let (width, height) = (side(name, width, &array)?, side(name, height, &array)?);
+    Ok(filled(width, height, elements(&array, "float32")?))
+}
+
+/// Array of shape `(H, W)`.
+pub(crate) fn from_gray<P>(
+    py: Python<'_>,
+    image: ImageBuffer<P, Vec<P::Subpixel>>,
+) -> PyResult<Bound<'_, PyArray2<P::Subpixel>>>
+where
+    P: Pixel<Subpixel: Element>,
+{
+    let (width, height) = image.dimensions();
+    PyArray1::from_vec(py, image.into_raw()).reshape([height as usize, width as usize])
+}
+
+/// Array of shape `(H, W, 3)`.
+pub(crate) fn from_rgb(py: Python<'_>, image: RgbImage) -> PyResult<Bound<'_, PyArray3<u8>>> {
+    let (width, height) = image.dimensions();
+    PyArray1::from_vec(py, image.into_raw()).reshape([height as usize, width as usize, 3])
+}
+
+/// Array of disparities, shape `(H, W)`, NaN where unknown.
+pub(crate) fn from_disparity(
+    py: Python<'_>,
+    disparity: DisparityImage,
+) -> PyResult<Bound<'_, PyArray2<f32>>> {
+    from_gray(py, disparity.into_image())
+}
+
+/// Refuses the size of a result that cannot be allocated.
+///
+/// # Errors
+/// `ValueError` naming the size.
+pub(crate) fn require_size(width: u32, height: u32) -> PyResult<()> {
+    if u64::from(width) * u64::from(height) <= MAX_PIXELS {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!(
+        "width and height must be at most {MAX_PIXELS} pixels together, but are {width} and \
+         {height}"
+    )))
+}
+
+fn filled<P: Pixel>(
+    width: u32,
+    height: u32,
+    values: Vec<P::Subpixel>,
+) -> ImageBuffer<P, Vec<P::Subpixel>> {
+    ImageBuffer::from_raw(width, height, values).expect("the shape is that of the array")
+}
+
+fn side(name: &str, length: usize, array: &Bound<'_, PyUntypedArray>) -> PyResult<u32> {
+    match u32::try_from(length) {
+        Ok(0) => Err(PyValueError::new_err(format!(
+            "{name} has no pixels: its shape is {}",
+            shape_text(array)?
+        ))),
+        Ok(length) => Ok(length),
+        Err(_) => Err(PyValueError::new_err(format!("{name} is too large"))),
+    }
+}
+
+fn require_unit(name: &str, image: &GrayImage32) -> PyResult<()> {
+    let range = -OVERSHOOT..=1.0 + OVERSHOOT;
+    match image.as_raw().iter().find(|value| !range.contains(value)) {
+        None => Ok(()),
+        Some(value) => Err(PyValueError::new_err(format!(
+            "{name} must have gray values in [0, 1], but has {value}; divide by the value of white"
+        ))),
+    }
+}
+
+fn not_gray(name: &str) -> PyErr {
+    PyValueError::new_err(format!(
+        "{name} must be gray, shape (H, W), but is a color image; convert it by \
+         epipole.imaging.rgb_to_gray"
+    ))
+}
+
+fn wrong_dtype(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<PyErr> {
+    let dtype = dtype(array)?;
+    let advice = match &*dtype {
+        "uint16" => "; divide by 65535 for floats in [0, 1]",
+        "bool" => "; convert it by astype(float)",
+        _ => "",
+    };
+    Ok(PyTypeError::new_err(format!(
+        "{name} must be uint8 or float, but its dtype is {dtype}{advice}"
+    )))
 }

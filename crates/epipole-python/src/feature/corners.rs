@@ -1,0 +1,146 @@
+//! Corners.
+
+use super::keypoints::Keypoints;
+use crate::arrays::{from_rows, points2};
+use crate::errors::OrRaise;
+use crate::images::{field, from_gray, gray};
+use crate::{options, progress};
+use epipole::feature;
+use epipole::nalgebra::Vector2;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Harris response at each pixel: ``det M - k * trace(M)**2`` of the structure tensor M.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// k : float
+///     In [0, 0.25), usually 0.04 to 0.06.
+/// **options
+///     Those of `structure_tensor`.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     Positive at corners, negative along edges.
+#[pyfunction]
+#[pyo3(signature = (image, k, **options))]
+pub(super) fn harris_response<'py>(
+    image: &Bound<'py, PyAny>,
+    k: f32,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (pixels, options) = (gray("image", image)?, options::read(options)?);
+    let response = (image.py()).detach(|| feature::harris_response(&pixels, k, &options));
+    from_gray(image.py(), response.or_raise()?)
+}
+
+/// Smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// **options
+///     Those of `structure_tensor`.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+#[pyfunction]
+#[pyo3(signature = (image, **options))]
+pub(super) fn min_eigenvalue_response<'py>(
+    image: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (pixels, options) = (gray("image", image)?, options::read(options)?);
+    let response = (image.py()).detach(|| feature::min_eigenvalue_response(&pixels, &options));
+    from_gray(image.py(), response.or_raise()?)
+}
+
+/// Corners of an image, strongest first, at whole pixels.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Such as ``max_corners`` (0 for no limit), ``quality`` (share of the strongest response),
+///     ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows": 3}``.
+///
+/// Returns
+/// -------
+/// Keypoints
+#[pyfunction]
+#[pyo3(signature = (image, *, progress=None, **options))]
+pub(super) fn good_features_to_track(
+    image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Keypoints> {
+    let (pixels, options) = (gray("image", image)?, options::read(options)?);
+    let corners = progress::run(image.py(), progress, |monitor| {
+        feature::good_features_to_track(&pixels, &options, monitor)
+    })?;
+    Keypoints::give(image.py(), &corners)
+}
+
+/// Local maxima of a response, strongest first.
+///
+/// Parameters
+/// ----------
+/// response : array_like, shape (H, W)
+/// radius : int
+///     Pixels, >= 1: the window is ``2 * radius + 1`` wide.
+/// threshold : float
+///     Smaller responses are left out.
+///
+/// Returns
+/// -------
+/// Keypoints
+#[pyfunction]
+pub(super) fn non_maximum_suppression(
+    response: &Bound<'_, PyAny>,
+    radius: usize,
+    threshold: f32,
+) -> PyResult<Keypoints> {
+    let values = field("response", response)?;
+    let peaks =
+        (response.py()).detach(|| feature::non_maximum_suppression(&values, radius, threshold));
+    Keypoints::give(response.py(), &peaks.or_raise()?)
+}
+
+/// Corners located between pixels: gradients around are perpendicular to the directions there.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// corners : array_like, shape (N, 2)
+///     Pixels.
+/// **options
+///     ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
+///
+/// Returns
+/// -------
+/// ndarray, shape (N, 2)
+///     Rows of NaN where the window holds no corner.
+#[pyfunction]
+#[pyo3(signature = (image, corners, **options))]
+pub(super) fn refine_corners<'py>(
+    image: &Bound<'py, PyAny>,
+    corners: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (pixels, options) = (gray("image", image)?, options::read(options)?);
+    let corners = points2("corners", corners)?;
+    let refined = (image.py()).detach(|| feature::refine_corners(&pixels, &corners, &options));
+    let refined = refined.or_raise()?.into_iter();
+    let or_nan = refined.map(|corner| corner.map_or(Vector2::repeat(f64::NAN), |c| c.coords));
+    from_rows(image.py(), &or_nan.collect::<Vec<_>>())
+}

@@ -1,0 +1,205 @@
+//! Detectors and descriptors.
+
+use super::descriptors::{Features, give_descriptors};
+use super::keypoints::keypoints;
+use crate::errors::OrRaise;
+use crate::images::{from_gray, gray, rgb, unit_gray};
+use crate::{options, progress};
+use epipole::feature;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Gray image in [0, 1] of a photo, as the detectors take it.
+///
+/// Parameters
+/// ----------
+/// photo : array_like, shape (H, W, 3)
+///     uint8, red first. Images of `cv2.imread` are blue first: pass ``photo[..., ::-1]``.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+#[pyfunction]
+pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let color = rgb("photo", photo)?;
+    let gray = (photo.py()).detach(|| feature::photo_to_gray(&color));
+    from_gray(photo.py(), gray)
+}
+
+/// Features of an image, strongest first.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``kind``: ``"root_sift"`` (the default), ``"sift"``, ``"orb"`` or ``"harris"``;
+///     ``max_features=8192``, 0 for no limit; ``upright=False``; and others of each kind.
+///
+/// Returns
+/// -------
+/// Features
+///     Descriptors are float32, or bits in uint8 for ORB.
+#[pyfunction]
+#[pyo3(signature = (image, *, progress=None, **options))]
+pub(super) fn detect_features(
+    image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Features> {
+    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
+    let features = progress::run(image.py(), progress, |monitor| {
+        feature::detect_features(&pixels, &options, monitor)
+    })?;
+    Features::give(image.py(), &features)
+}
+
+/// SIFT features of an image, strongest first.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Such as ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
+///     ``upright``, ``normalization="root"`` for RootSIFT.
+///
+/// Returns
+/// -------
+/// Features
+///     Descriptors are float32 of shape (N, 128), whole numbers from 0 to 255.
+#[pyfunction]
+#[pyo3(signature = (image, *, progress=None, **options))]
+pub(super) fn detect_sift(
+    image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Features> {
+    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
+    let features = progress::run(image.py(), progress, |monitor| {
+        feature::detect_sift(&pixels, &options, monitor)
+    })?;
+    Features::give(image.py(), &features)
+}
+
+/// ORB features of an image, strongest first.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Such as ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
+///     values in [0, 1]), ``upright``.
+///
+/// Returns
+/// -------
+/// Features
+///     Descriptors are bits in uint8, shape (N, 32).
+#[pyfunction]
+#[pyo3(signature = (image, *, progress=None, **options))]
+pub(super) fn detect_orb(
+    image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Features> {
+    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
+    let features = progress::run(image.py(), progress, |monitor| {
+        feature::detect_orb(&pixels, &options, monitor)
+    })?;
+    Features::give(image.py(), &features)
+}
+
+/// SIFT descriptors at given places, scales and directions.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// keypoints : Keypoints or array_like, shape (N, 2)
+///     Points alone have a scale of 1 pixel and the direction 0.
+/// **options
+///     Those of `detect_sift`.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (N, 128)
+#[pyfunction]
+#[pyo3(signature = (image, keypoints, **options))]
+pub(super) fn describe_sift<'py>(
+    image: &Bound<'py, PyAny>,
+    keypoints: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
+    let keypoints = self::keypoints("keypoints", keypoints)?;
+    let list = (image.py()).detach(|| feature::describe_sift(&pixels, &keypoints, &options));
+    give_descriptors(image.py(), &list.or_raise()?)
+}
+
+/// Dominant gradient directions around given places.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// keypoints : Keypoints or array_like, shape (N, 2)
+///     Points alone have a scale of 1 pixel.
+/// **options
+///     Those of `detect_sift`.
+///
+/// Returns
+/// -------
+/// list of ndarray of float32
+///     Directions of each keypoint, radians, strongest first.
+#[pyfunction]
+#[pyo3(signature = (image, keypoints, **options))]
+pub(super) fn sift_directions<'py>(
+    image: &Bound<'py, PyAny>,
+    keypoints: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Vec<Bound<'py, PyArray1<f32>>>> {
+    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
+    let keypoints = self::keypoints("keypoints", keypoints)?;
+    let found = (image.py()).detach(|| feature::sift_directions(&pixels, &keypoints, &options));
+    let give = |directions| PyArray1::from_vec(image.py(), directions);
+    Ok(found.or_raise()?.into_iter().map(give).collect())
+}
+
+/// Gray values in a square around each keypoint, less their mean, scaled to unit length.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// keypoints : Keypoints or array_like, shape (N, 2)
+/// size : int
+///     Samples along a side, 2 to 64.
+/// spacing_px : float, optional
+///     Distance between samples, pixels, > 0.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (N, size**2)
+///     Inner products are normalized cross-correlations.
+#[pyfunction]
+#[pyo3(signature = (image, keypoints, size, spacing_px=1.0))]
+pub(super) fn describe_patches<'py>(
+    image: &Bound<'py, PyAny>,
+    keypoints: &Bound<'py, PyAny>,
+    size: usize,
+    spacing_px: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pixels = gray("image", image)?;
+    let keypoints = self::keypoints("keypoints", keypoints)?;
+    let list =
+        (image.py()).detach(|| feature::describe_patches(&pixels, &keypoints, size, spacing_px));
+    give_descriptors(image.py(), &list.or_raise()?)
+}

@@ -1,0 +1,176 @@
+//! Structure tensor and shifts of one window.
+
+use crate::arrays::{vector, vectors};
+use crate::errors::OrRaise;
+use crate::images::{Gray, gray};
+use crate::options;
+use crate::record::record;
+use epipole::feature;
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Matrix ``M = sum [[Iu*Iu, Iu*Iv], [Iu*Iv, Iv*Iv]]`` of one window.
+    "epipole.feature" WindowTensor {
+        /// ``sum Iu*Iu``.
+        uu: f64,
+        /// ``sum Iu*Iv``.
+        uv: f64,
+        /// ``sum Iv*Iv``.
+        vv: f64,
+    }
+}
+
+impl From<feature::WindowTensor> for WindowTensor {
+    fn from(tensor: feature::WindowTensor) -> Self {
+        Self {
+            uu: tensor.uu,
+            uv: tensor.uv,
+            vv: tensor.vv,
+        }
+    }
+}
+
+impl WindowTensor {
+    fn core(&self) -> feature::WindowTensor {
+        feature::WindowTensor {
+            uu: self.uu,
+            uv: self.uv,
+            vv: self.vv,
+        }
+    }
+}
+
+#[pymethods]
+impl WindowTensor {
+    /// Tensor of the gradients (Iu, Iv) of a window's pixels, shape (N, 2).
+    #[staticmethod]
+    fn from_gradients(gradients: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let gradients = vectors::<2>("gradients", gradients)?;
+        Ok(feature::WindowTensor::from_gradients(&gradients).into())
+    }
+
+    /// Tensor at one pixel of an image, as `structure_tensor` has it there.
+    ///
+    /// Parameters
+    /// ----------
+    /// image : array_like, shape (H, W)
+    ///     Gray; uint8 counts as value / 255.
+    /// pixel : tuple of int
+    ///     Column and row.
+    /// **options
+    ///     Those of `structure_tensor`.
+    #[staticmethod]
+    #[pyo3(signature = (image, pixel, **options))]
+    fn at(
+        image: &Bound<'_, PyAny>,
+        pixel: (u32, u32),
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let (pixels, options) = (gray("image", image)?, options::read(options)?);
+        let tensor = feature::WindowTensor::at(&pixels, pixel, &options).or_raise()?;
+        Ok(tensor.into())
+    }
+
+    /// Product of the eigenvalues.
+    fn determinant(&self) -> f64 {
+        self.core().determinant()
+    }
+
+    /// Sum of the eigenvalues.
+    fn trace(&self) -> f64 {
+        self.core().trace()
+    }
+
+    /// Eigenvalues, the larger first.
+    fn eigenvalues(&self) -> (f64, f64) {
+        self.core().eigenvalues()
+    }
+
+    /// Direction of the larger eigenvalue's eigenvector, ``arctan2(v, u)`` with v down, radians.
+    fn direction_rad(&self) -> f64 {
+        self.core().direction_rad()
+    }
+
+    /// Harris response ``det M - k * trace(M)**2``.
+    fn harris(&self, k: f64) -> f64 {
+        self.core().harris(k)
+    }
+
+    /// Approximate squared change of the window under a small shift, pixels, shape (2,).
+    fn change(&self, shift: &Bound<'_, PyAny>) -> PyResult<f64> {
+        Ok(self.core().change(&vector::<2>("shift", shift)?))
+    }
+}
+
+record! {
+    /// Change of a window under every shift by whole pixels up to a reach.
+    "epipole.feature" ShiftSurface {
+        /// Squared change under the shift (du, dv) at ``[reach + dv, reach + du]``, shape
+        /// (2 * reach + 1, 2 * reach + 1).
+        values: Py<PyArray2<f64>>,
+    }
+}
+
+#[pymethods]
+impl ShiftSurface {
+    /// Largest shift to each side, pixels.
+    #[getter]
+    fn reach(&self, py: Python<'_>) -> usize {
+        self.values.bind(py).shape()[0] / 2
+    }
+
+    /// Squared change under the shift by `du` columns and `dv` rows; None beyond the reach.
+    fn at(&self, py: Python<'_>, du: i32, dv: i32) -> Option<f64> {
+        let reach = i32::try_from(self.reach(py)).ok()?;
+        let place = |shift: i32| usize::try_from(shift.checked_add(reach)?).ok();
+        self.values.bind(py).get_owned([place(dv)?, place(du)?])
+    }
+}
+
+/// Squared change of a window of an image under shifts.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// center : tuple of int
+///     Column and row of the window's middle.
+/// half_window : int
+///     The window is ``2 * half_window + 1`` pixels wide; at most 127.
+/// reach : int
+///     Largest shift to each side, pixels, at most 127.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ShiftSurface
+#[pyfunction]
+#[pyo3(signature = (image, center, half_window, reach, border=None))]
+pub(super) fn shift_surface(
+    image: &Bound<'_, PyAny>,
+    center: (u32, u32),
+    half_window: usize,
+    reach: usize,
+    border: Option<&Bound<'_, PyAny>>,
+) -> PyResult<ShiftSurface> {
+    let py = image.py();
+    let gray = Gray::read("image", image)?;
+    let border = gray.border(border)?;
+    let surface = feature::shift_surface(&gray.pixels, center, half_window, reach, border);
+    let surface = surface.or_raise()?;
+    let shifts = |reach: usize| -(reach as i32)..=reach as i32;
+    let mut values = Vec::new();
+    for dv in shifts(surface.reach()) {
+        values.extend(shifts(surface.reach()).filter_map(|du| surface.at(du, dv)));
+    }
+    let side = 2 * surface.reach() + 1;
+    Ok(ShiftSurface {
+        values: PyArray1::from_vec(py, values)
+            .reshape([side, side])?
+            .unbind(),
+    })
+}

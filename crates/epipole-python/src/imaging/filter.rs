@@ -1,0 +1,181 @@
+//! Filters of small kernels.
+
+use crate::errors::OrRaise;
+use crate::images::{Gray, column, field, from_gray};
+use epipole::imaging;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+/// Image correlated with a kernel, which is not flipped.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// kernel : array_like, shape (K, L)
+///     Weights, with odd sides.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+#[pyfunction]
+#[pyo3(signature = (image, kernel, border=None))]
+pub(super) fn correlate<'py>(
+    image: &Bound<'py, PyAny>,
+    kernel: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let gray = Gray::read("image", image)?;
+    let kernel = field("kernel", kernel)?;
+    let border = gray.border(border)?;
+    let result = (image.py()).detach(|| imaging::correlate(&gray.pixels, &kernel, border));
+    from_gray(image.py(), result.or_raise()?)
+}
+
+/// Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// kernel_u, kernel_v : array_like, shape (K,)
+///     Weights along the rows and along the columns, odd numbers of them.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+#[pyfunction]
+#[pyo3(signature = (image, kernel_u, kernel_v, border=None))]
+pub(super) fn separable_filter<'py>(
+    image: &Bound<'py, PyAny>,
+    kernel_u: &Bound<'py, PyAny>,
+    kernel_v: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let gray = Gray::read("image", image)?;
+    let (along_u, along_v) = (column("kernel_u", kernel_u)?, column("kernel_v", kernel_v)?);
+    let border = gray.border(border)?;
+    let result =
+        (image.py()).detach(|| imaging::separable_filter(&gray.pixels, &along_u, &along_v, border));
+    from_gray(image.py(), result.or_raise()?)
+}
+
+/// Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
+///
+/// Parameters
+/// ----------
+/// weights : array_like, shape (N,)
+///
+/// Returns
+/// -------
+/// float
+#[pyfunction]
+pub(super) fn noise_gain(weights: &Bound<'_, PyAny>) -> PyResult<f64> {
+    Ok(imaging::noise_gain(&column("weights", weights)?))
+}
+
+/// Samples of a Gaussian that sum to one.
+///
+/// Parameters
+/// ----------
+/// sigma_px : float
+///     Standard deviation, pixels, in (0, 1000].
+/// size : int
+///     Odd number of samples.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (size,)
+#[pyfunction]
+pub(super) fn gaussian_kernel(
+    py: Python<'_>,
+    sigma_px: f64,
+    size: usize,
+) -> PyResult<Bound<'_, PyArray1<f32>>> {
+    let kernel = imaging::gaussian_kernel(sigma_px, size).or_raise()?;
+    Ok(PyArray1::from_vec(py, kernel))
+}
+
+/// Kernels of `gaussian_derivative`: a Gaussian and its derivative.
+///
+/// Parameters
+/// ----------
+/// sigma_px : float
+///     Standard deviation, pixels, in (0, 1000].
+///
+/// Returns
+/// -------
+/// smooth, slope : ndarray of float32, shape (N,)
+///     ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub(super) fn gaussian_derivative_kernels(
+    py: Python<'_>,
+    sigma_px: f64,
+) -> PyResult<(Bound<'_, PyArray1<f32>>, Bound<'_, PyArray1<f32>>)> {
+    let (smooth, slope) = imaging::gaussian_derivative_kernels(sigma_px).or_raise()?;
+    Ok((
+        PyArray1::from_vec(py, smooth),
+        PyArray1::from_vec(py, slope),
+    ))
+}
+
+/// Image blurred by a Gaussian, cut off at about 4 sigma.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// sigma_px : float
+///     Standard deviation, pixels, in (0, 1000].
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray, shape (H, W)
+///     uint8 for uint8, else float32.
+#[pyfunction]
+#[pyo3(signature = (image, sigma_px, border=None))]
+pub(super) fn gaussian_blur<'py>(
+    image: &Bound<'py, PyAny>,
+    sigma_px: f64,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    let border = gray.border(border)?;
+    let blurred = (image.py()).detach(|| imaging::gaussian_blur(&gray.pixels, sigma_px, border));
+    gray.give(image.py(), blurred.or_raise()?)
+}
+
+/// Mean of the ``size x size`` window around each pixel.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// size : int
+///     Odd number of pixels, at most 1001.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray, shape (H, W)
+///     uint8 for uint8, else float32.
+#[pyfunction]
+#[pyo3(signature = (image, size, border=None))]
+pub(super) fn box_filter<'py>(
+    image: &Bound<'py, PyAny>,
+    size: usize,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    let border = gray.border(border)?;
+    let mean = (image.py()).detach(|| imaging::box_filter(&gray.pixels, size, border));
+    gray.give(image.py(), mean.or_raise()?)
+}

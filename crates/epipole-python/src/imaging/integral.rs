@@ -1,0 +1,36 @@
+//! Integral images.
+
+use crate::images::gray;
+use epipole::imaging;
+use pyo3::prelude::*;
+
+/// Sums of all pixels above and to the left, in double precision.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+#[pyclass(frozen, eq, module = "epipole.imaging")]
+#[derive(PartialEq)]
+pub(super) struct IntegralImage(imaging::IntegralImage);
+
+#[pymethods]
+impl IntegralImage {
+    #[new]
+    fn new(image: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let image_pixels = gray("image", image)?;
+        Ok(Self(
+            (image.py()).detach(|| imaging::IntegralImage::new(&image_pixels)),
+        ))
+    }
+
+    /// Sum over ``image[v0:v1, u0:u1]``.
+    fn sum(&self, u0: usize, v0: usize, u1: usize, v1: usize) -> f64 {
+        self.0.sum(u0, v0, u1, v1)
+    }
+
+    /// Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
+    fn mean(&self, u0: usize, v0: usize, u1: usize, v1: usize) -> f64 {
+        self.0.mean(u0, v0, u1, v1)
+    }
+}

@@ -1,0 +1,144 @@
+//! Pyramids of images.
+
+use crate::images::{Gray, field, from_gray, gray, require_size};
+use epipole::imaging::{self, Border};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Image at half its size, blurred by the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray, shape (ceil(H / 2), ceil(W / 2))
+///     uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
+#[pyfunction]
+#[pyo3(signature = (image, border=None))]
+pub(super) fn pyramid_down<'py>(
+    image: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    let border: Border = gray.border(border)?;
+    let half = (image.py()).detach(|| imaging::pyramid_down(&gray.pixels, border));
+    gray.give(image.py(), half)
+}
+
+/// Image at twice its size, interpolated by the binomial kernel.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// width, height : int
+///     Size of the result, pixels: each twice that of the image, or one less.
+///
+/// Returns
+/// -------
+/// ndarray, shape (height, width)
+///     uint8 for uint8, else float32.
+#[pyfunction]
+pub(super) fn pyramid_up<'py>(
+    image: &Bound<'py, PyAny>,
+    width: u32,
+    height: u32,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    require_size(width, height)?;
+    let double = (image.py()).detach(|| imaging::pyramid_up(&gray.pixels, width, height));
+    gray.give(image.py(), double)
+}
+
+/// Image and its halves by `pyramid_down`, largest first.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// num_levels : int
+///     Maximum number of levels; the last is a single pixel at the latest.
+///
+/// Returns
+/// -------
+/// list of ndarray
+///     uint8 for uint8, else float32.
+#[pyfunction]
+pub(super) fn gaussian_pyramid<'py>(
+    image: &Bound<'py, PyAny>,
+    num_levels: usize,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let gray = Gray::read("image", image)?;
+    let levels = (image.py()).detach(|| imaging::gaussian_pyramid(&gray.pixels, num_levels));
+    let give = |level| gray.give(image.py(), level);
+    levels.into_iter().map(give).collect()
+}
+
+/// Laplacian pyramid: differences of each Gaussian level and the next, and the smallest level.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// num_levels : int
+///     Maximum number of levels; the last is a single pixel at the latest.
+///
+/// Returns
+/// -------
+/// list of ndarray of float32
+#[pyfunction]
+pub(super) fn laplacian_pyramid<'py>(
+    image: &Bound<'py, PyAny>,
+    num_levels: usize,
+) -> PyResult<Vec<Bound<'py, PyArray2<f32>>>> {
+    let pixels = gray("image", image)?;
+    let levels = (image.py()).detach(|| imaging::laplacian_pyramid(&pixels, num_levels));
+    let give = |level| from_gray(image.py(), level);
+    levels.into_iter().map(give).collect()
+}
+
+/// Image of a Laplacian pyramid.
+///
+/// Parameters
+/// ----------
+/// levels : list of array_like
+///     Those of `laplacian_pyramid`, possibly changed.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     Shape (0, 0) without levels.
+#[pyfunction]
+pub(super) fn from_laplacian_pyramid<'py>(
+    py: Python<'py>,
+    levels: Vec<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let named = levels.iter().enumerate();
+    let levels: PyResult<Vec<_>> = named
+        .map(|(k, level)| field(&format!("levels[{k}]"), level))
+        .collect();
+    let levels = levels?;
+    from_gray(py, py.detach(|| imaging::from_laplacian_pyramid(&levels)))
+}
+
+/// Sharpness of a photo: mean square of its details of a few pixels.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+///
+/// Returns
+/// -------
+/// float
+///     Comparable between photos of equal size and similar content, such as frames of a video.
+#[pyfunction]
+pub(super) fn sharpness(image: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let pixels = gray("image", image)?;
+    Ok((image.py()).detach(|| imaging::sharpness(&pixels)))
+}

@@ -1,0 +1,115 @@
+//! Images at other sizes, and between pixels.
+
+use crate::arrays::Batch;
+use crate::errors::OrRaise;
+use crate::images::{Gray, from_rgb, require_size, rgb};
+use epipole::imaging::{self, Border, GrayImage32};
+use numpy::PyArray3;
+use pyo3::prelude::*;
+
+/// Image at another size, without aliasing: means when it shrinks, linear when it grows.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray.
+/// width, height : int
+///     Size of the result, pixels, > 0.
+///
+/// Returns
+/// -------
+/// ndarray, shape (height, width)
+///     uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+#[pyfunction]
+pub(super) fn resize<'py>(
+    image: &Bound<'py, PyAny>,
+    width: u32,
+    height: u32,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    require_size(width, height)?;
+    let resized = (image.py()).detach(|| imaging::resize(&gray.pixels, width, height));
+    gray.give(image.py(), resized.or_raise()?)
+}
+
+/// Color image with at most `max_pixels` pixels, downscaled only if it has more.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W, 3)
+///     uint8.
+/// max_pixels : int
+///
+/// Returns
+/// -------
+/// ndarray of uint8, shape (h, w, 3)
+///     `Intrinsics.resized` gives its intrinsics.
+#[pyfunction]
+pub(super) fn reduce_rgb<'py>(
+    image: &Bound<'py, PyAny>,
+    max_pixels: u64,
+) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    let color = rgb("image", image)?;
+    let reduced = (image.py()).detach(|| imaging::reduce_rgb(color, max_pixels));
+    from_rgb(image.py(), reduced)
+}
+
+/// Gray values between pixels by bilinear interpolation.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// pixel : array_like, shape (2,) or (N, 2)
+///     (u, v), pixel centers at integers.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+#[pyfunction]
+#[pyo3(signature = (image, pixel, border=None))]
+pub(super) fn sample_bilinear<'py>(
+    image: &Bound<'py, PyAny>,
+    pixel: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    sample(image, pixel, border, imaging::sample_bilinear)
+}
+
+/// Gray values between pixels by bicubic interpolation (Catmull-Rom).
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray; uint8 counts as value / 255.
+/// pixel : array_like, shape (2,) or (N, 2)
+///     (u, v), pixel centers at integers.
+/// border : str or dict, optional
+///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+#[pyfunction]
+#[pyo3(signature = (image, pixel, border=None))]
+pub(super) fn sample_bicubic<'py>(
+    image: &Bound<'py, PyAny>,
+    pixel: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    sample(image, pixel, border, imaging::sample_bicubic)
+}
+
+fn sample<'py>(
+    image: &Bound<'py, PyAny>,
+    pixel: &Bound<'py, PyAny>,
+    border: Option<&Bound<'py, PyAny>>,
+    at: fn(&GrayImage32, f64, f64, Border) -> f32,
+) -> PyResult<Bound<'py, PyAny>> {
+    let gray = Gray::read("image", image)?;
+    let border = gray.border(border)?;
+    let value = |p: &epipole::nalgebra::Vector2<f64>| at(&gray.pixels, p.x, p.y, border).into();
+    Batch::<2>::read("pixel", pixel)?.numbers(image.py(), value)
+}

@@ -1,0 +1,92 @@
+//! Images seen through an affine map or a homography.
+
+use crate::arrays::matrix;
+use crate::errors::OrRaise;
+use crate::images::{Image, require_size, same_kind};
+use crate::options;
+use epipole::imaging::{self, WarpOptions};
+use epipole::nalgebra::{Matrix2x3, Matrix3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Image moved by an affine map, as OpenCV's `warpAffine`.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W) or (H, W, 3)
+/// out_from_image : array_like, shape (2, 3)
+///     Pixels of the image to pixels of the result.
+/// **options
+///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray, shape (height, width) or (height, width, 3)
+///     uint8 for uint8, else float32.
+#[pyfunction]
+#[pyo3(signature = (image, out_from_image, **options))]
+pub(super) fn warp_affine<'py>(
+    image: &Bound<'py, PyAny>,
+    out_from_image: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let source = Image::read("image", image)?;
+    let map: Matrix2x3<f64> = matrix("out_from_image", out_from_image)?;
+    let options = warp_options(&source, options)?;
+    let py = image.py();
+    let warped = same_kind!(&source, |pixels| {
+        let warped = py.detach(|| imaging::warp_affine(pixels, &map, &options));
+        warped.or_raise()?
+    });
+    warped.give(py)
+}
+
+/// Image moved by a homography, as OpenCV's `warpPerspective`.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W) or (H, W, 3)
+/// out_from_image : array_like, shape (3, 3)
+///     Pixels of the image to pixels of the result, up to scale.
+/// **options
+///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
+///
+/// Returns
+/// -------
+/// ndarray, shape (height, width) or (height, width, 3)
+///     uint8 for uint8, else float32.
+#[pyfunction]
+#[pyo3(signature = (image, out_from_image, **options))]
+pub(super) fn warp_perspective<'py>(
+    image: &Bound<'py, PyAny>,
+    out_from_image: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let source = Image::read("image", image)?;
+    let map: Matrix3<f64> = matrix("out_from_image", out_from_image)?;
+    let options = warp_options(&source, options)?;
+    let py = image.py();
+    let warped = same_kind!(&source, |pixels| {
+        let warped = py.detach(|| imaging::warp_perspective(pixels, &map, &options));
+        warped.or_raise()?
+    });
+    warped.give(py)
+}
+
+/// Options on top of a result of the image's size.
+fn warp_options(image: &Image, options: Option<&Bound<'_, PyDict>>) -> PyResult<WarpOptions> {
+    let (width, height) = match image {
+        Image::Gray8(image) => image.dimensions(),
+        Image::Rgb8(image) => image.dimensions(),
+        Image::Gray32(image) => image.dimensions(),
+    };
+    let defaults = WarpOptions::new(width, height);
+    let options = match options {
+        Some(options) => options::read_onto(&defaults, options)?,
+        None => defaults,
+    };
+    require_size(options.width, options.height)?;
+    Ok(options)
+}

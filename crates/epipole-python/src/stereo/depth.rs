@@ -1,0 +1,178 @@
+//! Depths and points of disparities.
+
+use crate::arrays::{from_rows, matrix};
+use crate::errors::OrRaise;
+use crate::images::{column, disparity as read, from_gray, rgb};
+use crate::record::record;
+use epipole::nalgebra::Matrix4;
+use epipole::stereo;
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+record! {
+    /// Depths that an uncertain disparity allows.
+    "epipole.stereo" DepthInterval {
+        /// Smallest depth, meters.
+        near_m: f64,
+        /// Largest depth, meters; None if the interval reaches infinity.
+        far_m: Option<f64>,
+    }
+}
+
+record! {
+    /// Points in space.
+    "epipole.stereo" PointCloud {
+        /// Points, shape (N, 3).
+        points: Py<PyArray2<f64>>,
+        /// Colors, uint8 of shape (N, 3), or None.
+        colors: Option<Py<PyArray2<u8>>>,
+    }
+}
+
+#[pymethods]
+impl PointCloud {
+    fn __len__(&self, py: Python<'_>) -> usize {
+        self.points.bind(py).shape()[0]
+    }
+}
+
+/// Depth of a point seen by a rectified pair, ``focal_px * baseline_m / disparity_px``.
+///
+/// Parameters
+/// ----------
+/// focal_px : float
+///     Focal length of both cameras, pixels, > 0.
+/// baseline_m : float
+///     Distance of the cameras, meters, > 0.
+/// disparity_px : float or array_like, shape (N,)
+///     ``u_left - u_right``, pixels; `depth_image` takes images.
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Meters. NaN for disparities <= 0; a single one raises `DegenerateError`.
+#[pyfunction]
+pub(super) fn depth_from_disparity<'py>(
+    py: Python<'py>,
+    focal_px: f64,
+    baseline_m: f64,
+    disparity_px: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let depth = |disparity| stereo::depth_from_disparity(focal_px, baseline_m, disparity);
+    if let Ok(disparity) = disparity_px.extract::<f64>() {
+        return Ok(depth(disparity).or_raise()?.into_pyobject(py)?.into_any());
+    }
+    let disparities = column("disparity_px", disparity_px)?;
+    // An error of the rig is not one of a disparity.
+    depth(1.0).or_raise()?;
+    let depths = disparities
+        .into_iter()
+        .map(|d| depth(f64::from(d)).unwrap_or(f64::NAN));
+    Ok(PyArray1::from_vec(py, depths.collect()).into_any())
+}
+
+/// Depths between ``f * B / (d + error_px)`` and ``f * B / (d - error_px)``.
+///
+/// Parameters
+/// ----------
+/// focal_px : float
+///     Focal length of both cameras, pixels, > 0.
+/// baseline_m : float
+///     Distance of the cameras, meters, > 0.
+/// disparity_px : float
+///     Pixels.
+/// error_px : float
+///     Largest error of the disparity, pixels, >= 0.
+///
+/// Returns
+/// -------
+/// DepthInterval
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     If no depth is possible: ``disparity_px + error_px <= 0``.
+#[pyfunction]
+pub(super) fn depth_interval(
+    focal_px: f64,
+    baseline_m: f64,
+    disparity_px: f64,
+    error_px: f64,
+) -> PyResult<DepthInterval> {
+    let interval = stereo::depth_interval(focal_px, baseline_m, disparity_px, error_px);
+    let interval = interval.or_raise()?;
+    Ok(DepthInterval {
+        near_m: interval.near_m,
+        far_m: interval.far_m,
+    })
+}
+
+/// Depth of every pixel, ``focal_px * baseline_m / disparity``.
+///
+/// Parameters
+/// ----------
+/// disparity : array_like of float, shape (H, W)
+///     Pixels; NaN where unknown.
+/// focal_px : float
+///     Focal length of both cameras, pixels, > 0.
+/// baseline_m : float
+///     Distance of the cameras, meters, > 0.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     Meters; NaN where the disparity is unknown or <= 0.
+#[pyfunction]
+pub(super) fn depth_image<'py>(
+    disparity: &Bound<'py, PyAny>,
+    focal_px: f64,
+    baseline_m: f64,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let py = disparity.py();
+    let disparity = read("disparity", disparity)?;
+    let depth = py.detach(|| stereo::depth_image(&disparity, focal_px, baseline_m));
+    from_gray(py, depth.or_raise()?)
+}
+
+/// Points of a rectified pair, ``(X, Y, Z, W) = Q @ (u, v, d, 1)``, in the first camera's frame.
+///
+/// Parameters
+/// ----------
+/// disparity : array_like of float, shape (H, W)
+///     Pixels; NaN where unknown.
+/// q : array_like, shape (4, 4)
+///     `Rectification.q`, or that of `q_from_rig`.
+/// colors : array_like, shape (H, W, 3), optional
+///     Rectified first image, uint8.
+///
+/// Returns
+/// -------
+/// PointCloud
+///     Without pixels of unknown disparity, points at infinity and points behind the camera.
+#[pyfunction]
+#[pyo3(signature = (disparity, q, colors=None))]
+pub(super) fn point_cloud(
+    disparity: &Bound<'_, PyAny>,
+    q: &Bound<'_, PyAny>,
+    colors: Option<&Bound<'_, PyAny>>,
+) -> PyResult<PointCloud> {
+    let py = disparity.py();
+    let disparity = read("disparity", disparity)?;
+    let q: Matrix4<f64> = matrix("q", q)?;
+    let colors = colors.map(|colors| rgb("colors", colors)).transpose()?;
+    let cloud = py.detach(|| stereo::point_cloud(&disparity, &q, colors.as_ref()));
+    let cloud = cloud.or_raise()?;
+    let points: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
+    let colors = match colors {
+        Some(_) => {
+            let bytes = PyArray1::from_vec(py, cloud.colors.into_flattened());
+            Some(bytes.reshape([points.len(), 3])?.unbind())
+        }
+        None => None,
+    };
+    Ok(PointCloud {
+        points: from_rows(py, &points)?.unbind(),
+        colors,
+    })
+}

@@ -1,0 +1,58 @@
+//! Cleaning and filling of disparities.
+
+use crate::errors::OrRaise;
+use crate::images::{disparity as read, from_disparity, gray8};
+use epipole::stereo;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Disparities without small connected sets.
+///
+/// Parameters
+/// ----------
+/// disparity : array_like of float, shape (H, W)
+///     Pixels; NaN where unknown.
+/// min_size : int
+///     Sets of fewer pixels are removed.
+/// range_px : float
+///     Neighbors are connected if they differ by at most this, pixels, >= 0.
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+#[pyfunction]
+pub(super) fn remove_speckles<'py>(
+    disparity: &Bound<'py, PyAny>,
+    min_size: u32,
+    range_px: f32,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let py = disparity.py();
+    let mut disparity = read("disparity", disparity)?;
+    py.detach(|| stereo::remove_speckles(&mut disparity, min_size, range_px))
+        .or_raise()?;
+    from_disparity(py, disparity)
+}
+
+/// Disparities of every pixel: gaps take those of the background beside them.
+///
+/// Parameters
+/// ----------
+/// disparity : array_like of float, shape (H, W)
+///     Pixels; NaN where unknown.
+/// left : array_like, shape (H, W)
+///     Gray image that the disparities belong to, uint8 or float in [0, 1].
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     NaN everywhere if no disparity is known.
+#[pyfunction]
+pub(super) fn fill_gaps<'py>(
+    disparity: &Bound<'py, PyAny>,
+    left: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let py = disparity.py();
+    let (disparity, left) = (read("disparity", disparity)?, gray8("left", left)?);
+    let filled = py.detach(|| stereo::fill_gaps(&disparity, &left));
+    from_disparity(py, filled.or_raise()?)
+}

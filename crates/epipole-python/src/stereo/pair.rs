@@ -1,0 +1,199 @@
+//! Photos redrawn for a rectified rig.
+
+use super::matcher::{Matcher, StereoBm, StereoSgm};
+use super::rectify::Rectification;
+use crate::errors::OrRaise;
+use crate::images::{disparity as read, from_disparity, from_gray, from_rgb, rgb};
+use crate::progress;
+use crate::record::plain_class;
+use epipole::image::{GrayImage, RgbImage};
+use epipole::stereo::{self, DisparityImage};
+use numpy::{PyArray2, PyArray3};
+use pyo3::prelude::*;
+
+/// Pair of arrays of shape (H, W, 3).
+type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
+
+/// Two photos as a rectified rig sees them.
+///
+/// Borders that no photo fills have no disparities, and vertical rigs are turned for matching.
+///
+/// Parameters
+/// ----------
+/// rig : Rectification
+/// photograph1, photograph2 : array_like, shape (H, W, 3)
+///     uint8, of the sizes of the rig's cameras.
+#[pyclass(frozen, module = "epipole.stereo")]
+pub(super) struct RectifiedPair {
+    rig: Py<Rectification>,
+    photographs: [RgbImage; 2],
+    pictures: [RgbImage; 2],
+    num_shown: usize,
+}
+
+plain_class!(RectifiedPair: rig, photograph1, photograph2);
+
+#[pymethods]
+impl RectifiedPair {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        rig: Py<Rectification>,
+        photograph1: &Bound<'_, PyAny>,
+        photograph2: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let photographs = [
+            rgb("photograph1", photograph1)?,
+            rgb("photograph2", photograph2)?,
+        ];
+        let core = &rig.get().0;
+        let (pictures, num_shown) = py
+            .detach(|| {
+                let pair = stereo::RectifiedPair::new(core, photographs.each_ref())?;
+                Ok((pair.pictures().clone(), pair.num_shown()))
+            })
+            .or_raise()?;
+        Ok(Self {
+            rig,
+            photographs,
+            pictures,
+            num_shown,
+        })
+    }
+
+    /// Rectified rig.
+    #[getter]
+    fn rig(&self, py: Python<'_>) -> Py<Rectification> {
+        self.rig.clone_ref(py)
+    }
+
+    /// First photo, uint8 of shape (H, W, 3).
+    #[getter]
+    fn photograph1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        from_rgb(py, self.photographs[0].clone())
+    }
+
+    /// Second photo, uint8 of shape (H, W, 3).
+    #[getter]
+    fn photograph2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        from_rgb(py, self.photographs[1].clone())
+    }
+
+    /// Redrawn photos, black where they fill nothing, a pair of uint8 arrays of shape (h, w, 3).
+    #[getter]
+    fn pictures<'py>(&self, py: Python<'py>) -> PyResult<Colors<'py>> {
+        let [first, second] = &self.pictures;
+        Ok((from_rgb(py, first.clone())?, from_rgb(py, second.clone())?))
+    }
+
+    /// Number of pixels of the first picture that its photo fills.
+    #[getter]
+    fn num_shown(&self) -> usize {
+        self.num_shown
+    }
+
+    /// Disparities of the first picture, along the columns if the rig is vertical.
+    ///
+    /// Parameters
+    /// ----------
+    /// matching : StereoSgm, StereoBm or callable
+    ///     ``matching(left, right)`` returns the disparities of two uint8 gray images whose matches
+    ///     share a row, float of shape (h, w), NaN where unknown.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share, for a matcher of this module.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray of float32, shape (h, w)
+    ///     Pixels; NaN where unknown.
+    #[pyo3(signature = (matching, *, progress=None))]
+    fn disparity<'py>(
+        &self,
+        matching: &Bound<'py, PyAny>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let py = matching.py();
+        let found = if let Ok(matcher) = matching.cast::<StereoSgm>() {
+            self.matched(py, &matcher.get().0, progress)
+        } else if let Ok(matcher) = matching.cast::<StereoBm>() {
+            self.matched(py, &matcher.get().0, progress)
+        } else {
+            self.called(matching)
+        };
+        from_disparity(py, found?)
+    }
+
+    /// Disparities of every pixel that the first photo fills, as `fill_gaps`.
+    ///
+    /// Parameters
+    /// ----------
+    /// disparity : array_like of float, shape (h, w)
+    ///     Pixels; NaN where unknown.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray of float32, shape (h, w)
+    fn filled<'py>(&self, disparity: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let py = disparity.py();
+        let disparity = read("disparity", disparity)?;
+        let filled = py.detach(|| self.core()?.filled(&disparity));
+        from_disparity(py, filled.or_raise()?)
+    }
+}
+
+impl RectifiedPair {
+    /// Pair of the library. It borrows the rig, so it is made anew for each computation.
+    fn core(&self) -> epipole::Result<stereo::RectifiedPair<'_>> {
+        stereo::RectifiedPair::new(&self.rig.get().0, self.photographs.each_ref())
+    }
+
+    fn matched(
+        &self,
+        py: Python<'_>,
+        matcher: &impl Matcher,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<DisparityImage> {
+        progress::run(py, progress, |monitor| {
+            (self.core()?).disparity(|left, right| matcher.bytes(left, right, monitor))
+        })
+    }
+
+    /// Disparities by a Python callable, whose exception is raised.
+    fn called(&self, matching: &Bound<'_, PyAny>) -> PyResult<DisparityImage> {
+        let py = matching.py();
+        let call = |left: &GrayImage, right: &GrayImage| {
+            let left = from_gray(py, left.clone())?;
+            let right = from_gray(py, right.clone())?;
+            read("the result of matching", &matching.call1((left, right))?)
+        };
+        let mut raised = None;
+        let core = py.detach(|| self.core()).or_raise()?;
+        let found = core.disparity(|left, right| {
+            let size = left.dimensions();
+            call(left, right)
+                .and_then(|found| require_same(size, found))
+                .map_err(|error| {
+                    raised = Some(error);
+                    epipole::Error::Canceled
+                })
+        });
+        match raised {
+            Some(error) => Err(error),
+            None => found.or_raise(),
+        }
+    }
+}
+
+/// Refuses disparities of another size than the images.
+fn require_same(size: (u32, u32), found: DisparityImage) -> PyResult<DisparityImage> {
+    if (found.width(), found.height()) == size {
+        return Ok(found);
+    }
+    Err(pyo3::exceptions::PyValueError::new_err(format!(
+        "the result of matching must have the shape ({}, {}) of its images, but has ({}, {})",
+        size.1,
+        size.0,
+        found.height(),
+        found.width()
+    )))
+}

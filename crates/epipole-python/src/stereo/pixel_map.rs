@@ -1,0 +1,123 @@
+//! Maps of pixels of a result to places in a source image.
+
+use crate::arrays::{as_array, matrix};
+use crate::errors::OrRaise;
+use crate::images::{Image, elements, from_gray, kind, require_size, same_kind, wrong_shape};
+use epipole::nalgebra::{Matrix3, Point2};
+use epipole::stereo;
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2, PyArray3};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+/// Place in a source image that each pixel of a result is read from.
+///
+/// Parameters
+/// ----------
+/// sources : array_like of float, shape (H, W, 2)
+///     (u, v) in the source, pixels; NaN for none. Kept as float32.
+#[pyclass(frozen, module = "epipole.stereo")]
+pub(super) struct PixelMap(pub(super) stereo::PixelMap);
+
+crate::record::plain_class!(PixelMap: sources);
+
+#[pymethods]
+impl PixelMap {
+    #[new]
+    fn new(sources: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let array = as_array("sources", sources, "(H, W, 2)")?;
+        if kind(&array) != 'f' {
+            return Err(PyTypeError::new_err("sources must be an array of floats"));
+        }
+        let [height, width, 2] = *array.shape() else {
+            return Err(wrong_shape("sources", "(H, W, 2)", &array)?);
+        };
+        let values: Vec<f32> = elements(&array, "float32")?;
+        let source = |u: u32, v: u32| {
+            let place = 2 * (v as usize * width + u as usize);
+            let source = Point2::new(values[place], values[place + 1]).cast::<f64>();
+            (source.x.is_finite() && source.y.is_finite()).then_some(source)
+        };
+        let (width, height) = (u32::try_from(width)?, u32::try_from(height)?);
+        Ok(Self(stereo::PixelMap::from_fn(width, height, source)))
+    }
+
+    /// Map of a homography.
+    ///
+    /// Parameters
+    /// ----------
+    /// width, height : int
+    ///     Size of the result, pixels.
+    /// out_from_source : array_like, shape (3, 3)
+    ///     Pixels of the source to pixels of the result, up to scale.
+    #[staticmethod]
+    fn from_homography(
+        width: u32,
+        height: u32,
+        out_from_source: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let map: Matrix3<f64> = matrix("out_from_source", out_from_source)?;
+        require_size(width, height)?;
+        let py = out_from_source.py();
+        let map = py.detach(|| stereo::PixelMap::from_homography(width, height, &map));
+        Ok(Self(map.or_raise()?))
+    }
+
+    /// Width of the result, pixels.
+    #[getter]
+    fn width(&self) -> u32 {
+        self.0.width()
+    }
+
+    /// Height of the result, pixels.
+    #[getter]
+    fn height(&self) -> u32 {
+        self.0.height()
+    }
+
+    /// Places in the source, float32 of shape (H, W, 2); NaN for none.
+    #[getter]
+    fn sources<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let (width, height) = (self.0.width(), self.0.height());
+        let mut values = Vec::with_capacity(2 * width as usize * height as usize);
+        for v in 0..height {
+            for u in 0..width {
+                let source = self.0.source(u, v).map(|p| [p.x as f32, p.y as f32]);
+                values.extend(source.unwrap_or([f32::NAN; 2]));
+            }
+        }
+        PyArray1::from_vec(py, values).reshape([height as usize, width as usize, 2])
+    }
+
+    /// Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
+    fn source<'py>(&self, py: Python<'py>, u: u32, v: u32) -> Option<Bound<'py, PyArray1<f64>>> {
+        let source = self.0.source(u, v)?;
+        Some(PyArray1::from_slice(py, &[source.x, source.y]))
+    }
+
+    /// Redrawn image, bilinear, 0 where nothing is read.
+    ///
+    /// Parameters
+    /// ----------
+    /// source : array_like, shape (h, w) or (h, w, 3)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (H, W) or (H, W, 3)
+    ///     uint8 for uint8, else float32.
+    fn warp<'py>(&self, source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let py = source.py();
+        let image = Image::read("source", source)?;
+        same_kind!(&image, |pixels| py.detach(|| self.0.warp(pixels))).give(py)
+    }
+
+    /// Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
+    fn mask<'py>(
+        &self,
+        py: Python<'py>,
+        source_width: u32,
+        source_height: u32,
+    ) -> PyResult<Bound<'py, PyArray2<u8>>> {
+        from_gray(py, py.detach(|| self.0.mask(source_width, source_height)))
+    }
+}

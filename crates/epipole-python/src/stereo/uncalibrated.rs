@@ -1,0 +1,63 @@
+//! Rectification without calibration.
+
+use super::rectify::PixelRect;
+use crate::arrays::{from_matrices, matrix, points2};
+use crate::errors::OrRaise;
+use crate::record::record;
+use epipole::nalgebra::Matrix3;
+use epipole::stereo;
+use numpy::PyArray3;
+use pyo3::prelude::*;
+
+record! {
+    /// Homographies that put matches into the same row, or column.
+    "epipole.stereo" UncalibratedRectification {
+        /// Homographies from pixels of the photos to rectified pixels, shape (2, 3, 3).
+        homographies: Py<PyArray3<f64>>,
+        /// Whether matches share a column instead of a row.
+        is_vertical: bool,
+        /// Smallest and largest disparity among the matches, pixels.
+        disparity_range_px: (f64, f64),
+        /// Smallest rectangles around the rectified photos, a pair.
+        outlines: (Py<PixelRect>, Py<PixelRect>),
+    }
+}
+
+/// Rectification from a fundamental matrix and matches (Hartley).
+///
+/// Parameters
+/// ----------
+/// fundamental : array_like, shape (3, 3)
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches, inliers of F, N >= 3.
+/// width, height : int
+///     Size of both photos, pixels.
+///
+/// Returns
+/// -------
+/// UncalibratedRectification
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     If an epipole lies in or near its photo, or all matches lie on one line.
+#[pyfunction]
+pub(super) fn rectify_uncalibrated(
+    fundamental: &Bound<'_, PyAny>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    width: u32,
+    height: u32,
+) -> PyResult<UncalibratedRectification> {
+    let py = fundamental.py();
+    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let found = stereo::rectify_uncalibrated(&f, &pixels1, &pixels2, width, height).or_raise()?;
+    let [first, second] = found.outlines.map(PixelRect::from);
+    Ok(UncalibratedRectification {
+        homographies: from_matrices(py, &found.homographies)?.unbind(),
+        is_vertical: found.is_vertical,
+        disparity_range_px: found.disparity_range_px,
+        outlines: (Py::new(py, first)?, Py::new(py, second)?),
+    })
+}
