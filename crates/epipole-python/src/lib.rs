@@ -18,14 +18,15 @@ mod arrays;
 mod camera;
 mod epipolar;
 mod errors;
+mod feature;
 mod homography;
-// For the modules of images, which are not bound yet.
-#[allow(dead_code)]
 mod images;
+mod imaging;
 mod options;
 mod progress;
 mod record;
 mod robust;
+mod stereo;
 mod triangulation;
 mod two_view;
 
@@ -35,7 +36,7 @@ use pyo3::prelude::*;
 type Register = fn(&Bound<'_, PyModule>) -> PyResult<()>;
 
 /// The library's modules, in its order.
-const MODULES: [(&str, Register); 7] = [
+const MODULES: [(&str, Register); 10] = [
     ("camera", camera::register),
     ("robust", robust::register),
     ("epipolar", epipolar::register),
@@ -43,6 +44,9 @@ const MODULES: [(&str, Register); 7] = [
     ("absolute_pose", absolute_pose::register),
     ("triangulation", triangulation::register),
     ("two_view", two_view::register),
+    ("imaging", imaging::register),
+    ("feature", feature::register),
+    ("stereo", stereo::register),
 ];
 
 #[pymodule]

@@ -19,8 +19,11 @@ from epipole._epipole import (
     absolute_pose,
     camera,
     epipolar,
+    feature,
     homography,
+    imaging,
     robust,
+    stereo,
     triangulation,
     two_view,
 )
@@ -33,8 +36,11 @@ from epipole.epipolar import (
     estimate_relative_pose,
     sampson_px,
 )
+from epipole.feature import detect_features, detect_sift, match_descriptors, refine_corners
 from epipole.homography import estimate_homography, transfer
+from epipole.imaging import gray_to_f32, rgb_to_gray, rgb_to_gray_f32, warp_perspective
 from epipole.robust import RansacReport, ransac
+from epipole.stereo import StereoSgm, rectify_calibrated
 from epipole.triangulation import triangulate_dlt, triangulate_nview
 from epipole.two_view import estimate_two_view, estimate_two_view_calibrated
 
@@ -48,11 +54,14 @@ __all__ = [
     "PosedCamera",
     "RansacReport",
     "RigidTransform",
+    "StereoSgm",
     "TooFewError",
     "__version__",
     "absolute_pose",
     "camera",
     "decompose_essential",
+    "detect_features",
+    "detect_sift",
     "epipolar",
     "estimate_absolute_pose",
     "estimate_essential",
@@ -61,13 +70,23 @@ __all__ = [
     "estimate_relative_pose",
     "estimate_two_view",
     "estimate_two_view_calibrated",
+    "feature",
+    "gray_to_f32",
     "homography",
+    "imaging",
+    "match_descriptors",
     "ransac",
+    "rectify_calibrated",
+    "refine_corners",
+    "rgb_to_gray",
+    "rgb_to_gray_f32",
     "robust",
     "sampson_px",
+    "stereo",
     "transfer",
     "triangulate_dlt",
     "triangulate_nview",
     "triangulation",
     "two_view",
+    "warp_perspective",
 ]
