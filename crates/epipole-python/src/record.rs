@@ -36,7 +36,8 @@ fn brief(value: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(format!("<{kind} array of shape {shape}>"))
 }
 
-/// Whether two objects have the same class and equal attributes, arrays by their elements.
+/// Whether two objects have the same class and equal attributes, arrays by their elements. NaN
+/// equals NaN: it marks elements without a value.
 pub(crate) fn equal(
     object: &Bound<'_, PyAny>,
     other: &Bound<'_, PyAny>,
@@ -49,7 +50,7 @@ pub(crate) fn equal(
         let (a, b) = (object.getattr(*field)?, other.getattr(*field)?);
         let is_equal = if a.is_instance_of::<PyUntypedArray>() {
             let numpy = object.py().import("numpy")?;
-            numpy.call_method1("array_equal", (a, b))?.extract()?
+            numpy.call_method1("array_equal", (a, b, true))?.extract()?
         } else {
             a.eq(b)?
         };

@@ -27,8 +27,7 @@ type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
 pub(super) struct RectifiedPair {
     rig: Py<Rectification>,
     photographs: [RgbImage; 2],
-    pictures: [RgbImage; 2],
-    num_shown: usize,
+    pair: stereo::RectifiedPair,
 }
 
 plain_class!(RectifiedPair: rig, photograph1, photograph2);
@@ -47,17 +46,13 @@ impl RectifiedPair {
             rgb("photograph2", photograph2)?,
         ];
         let core = &rig.get().0;
-        let (pictures, num_shown) = py
-            .detach(|| {
-                let pair = stereo::RectifiedPair::new(core, photographs.each_ref())?;
-                Ok((pair.pictures().clone(), pair.num_shown()))
-            })
+        let pair = py
+            .detach(|| stereo::RectifiedPair::new(core, photographs.each_ref()))
             .or_raise()?;
         Ok(Self {
             rig,
             photographs,
-            pictures,
-            num_shown,
+            pair,
         })
     }
 
@@ -82,14 +77,14 @@ impl RectifiedPair {
     /// Redrawn photos, black where they fill nothing, a pair of uint8 arrays of shape (h, w, 3).
     #[getter]
     fn pictures<'py>(&self, py: Python<'py>) -> PyResult<Colors<'py>> {
-        let [first, second] = &self.pictures;
+        let [first, second] = self.pair.pictures();
         Ok((from_rgb(py, first.clone())?, from_rgb(py, second.clone())?))
     }
 
     /// Number of pixels of the first picture that its photo fills.
     #[getter]
     fn num_shown(&self) -> usize {
-        self.num_shown
+        self.pair.num_shown()
     }
 
     /// Disparities of the first picture, along the columns if the rig is vertical.
@@ -136,17 +131,12 @@ impl RectifiedPair {
     fn filled<'py>(&self, disparity: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let py = disparity.py();
         let disparity = read("disparity", disparity)?;
-        let filled = py.detach(|| self.core()?.filled(&disparity));
+        let filled = py.detach(|| self.pair.filled(&disparity));
         from_disparity(py, filled.or_raise()?)
     }
 }
 
 impl RectifiedPair {
-    /// Pair of the library. It borrows the rig, so it is made anew for each computation.
-    fn core(&self) -> epipole::Result<stereo::RectifiedPair<'_>> {
-        stereo::RectifiedPair::new(&self.rig.get().0, self.photographs.each_ref())
-    }
-
     fn matched(
         &self,
         py: Python<'_>,
@@ -154,7 +144,7 @@ impl RectifiedPair {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<DisparityImage> {
         progress::run(py, progress, |monitor| {
-            (self.core()?).disparity(|left, right| matcher.bytes(left, right, monitor))
+            (self.pair).disparity(|left, right| matcher.bytes(left, right, monitor))
         })
     }
 
@@ -167,8 +157,7 @@ impl RectifiedPair {
             read("the result of matching", &matching.call1((left, right))?)
         };
         let mut raised = None;
-        let core = py.detach(|| self.core()).or_raise()?;
-        let found = core.disparity(|left, right| {
+        let found = self.pair.disparity(|left, right| {
             let size = left.dimensions();
             call(left, right)
                 .and_then(|found| require_same(size, found))

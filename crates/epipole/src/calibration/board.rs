@@ -6,6 +6,11 @@ use nalgebra::Point2;
 
 /// Pattern of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Pattern {
     /// Black and white squares; the marks are the inner corners, where four squares meet.
     #[default]

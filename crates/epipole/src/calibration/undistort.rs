@@ -7,6 +7,11 @@ use nalgebra::{Point2, Vector2, Vector3};
 
 /// Area that an undistorted photograph keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Keep {
     /// Only what was photographed: no black borders; something at the edges is lost.
     #[default]

@@ -4,13 +4,16 @@ use super::separable::filter;
 use super::{Border, GrayImage32};
 use crate::{Error, Result};
 
+/// Maximum size of a kernel, ±10 standard deviations of the widest Gaussian.
+const MAX_SIZE: usize = 20_001;
+
 /// Samples of a Gaussian that sum to one: `g[i] ∝ exp(−(i − r)² / 2σ²)`, `size = 2r + 1`.
 ///
 /// * `sigma_px`: standard deviation, pixels, > 0
-/// * `size`: an odd number of samples
+/// * `size`: an odd number of samples, at most 20 001
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for an even size, or for a σ that is not positive and finite.
+/// [`Error::OutOfRange`] for another size, or for a σ outside of (0, 1000].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -21,10 +24,10 @@ use crate::{Error, Result};
 /// ```
 pub fn gaussian_kernel(sigma_px: f64, size: usize) -> Result<Vec<f32>> {
     require_sigma(sigma_px)?;
-    if size.is_multiple_of(2) {
+    if size.is_multiple_of(2) || size > MAX_SIZE {
         return Err(Error::OutOfRange {
             what: "the size of a Gaussian kernel",
-            requirement: "odd",
+            requirement: "odd and at most 20001",
             value: size as f64,
         });
     }
@@ -158,6 +161,7 @@ mod tests {
         }
         assert!(gaussian_kernel(1.0, 4).is_err());
         assert!(gaussian_kernel(1.0, 0).is_err());
+        assert!(gaussian_kernel(1.0, usize::MAX).is_err());
     }
 
     #[test]

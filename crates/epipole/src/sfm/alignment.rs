@@ -8,6 +8,11 @@ use nalgebra::{Matrix3, Point3, Rotation3, Similarity3, Translation3, UnitQuater
 
 /// Transformation between two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum AlignmentKind {
     /// Position and orientation.
     Rigid,

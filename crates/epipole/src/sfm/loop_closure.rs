@@ -149,6 +149,11 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
 
 /// Degrees of freedom of the frames of a path when a loop is closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum LoopMotion {
     /// Position and orientation, SE(3): right where the scale is measured, as by a stereo rig.
     Rigid,

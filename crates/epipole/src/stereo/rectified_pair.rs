@@ -99,8 +99,8 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
 /// those whose match is there, are taken back. Where one camera stands above the other the pictures
 /// are laid on their side before they are matched.
 #[derive(Debug, Clone)]
-pub struct RectifiedPair<'a> {
-    rig: &'a Rectification,
+pub struct RectifiedPair {
+    rig: Rectification,
     pictures: [RgbImage; 2],
     /// Which pixels of the first picture its photograph fills.
     shown: Vec<bool>,
@@ -108,14 +108,14 @@ pub struct RectifiedPair<'a> {
     trusted: [Vec<bool>; 2],
 }
 
-impl<'a> RectifiedPair<'a> {
+impl RectifiedPair {
     /// Redraws two photographs.
     ///
     /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for photographs of different size.
-    pub fn new(rig: &'a Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
+    pub fn new(rig: &Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
             ("the rows of the two photographs", sizes[0].0, sizes[1].0),
@@ -131,7 +131,7 @@ impl<'a> RectifiedPair<'a> {
         }
         let maps = [rig.map(0)?, rig.map(1)?];
         Ok(Self {
-            rig,
+            rig: rig.clone(),
             pictures: [0, 1].map(|index| maps[index].warp(photographs[index])),
             shown: filled(&maps[0], sizes[0], 0.0),
             trusted: maps.map(|map| filled(&map, sizes[0], EDGE_PX)),

@@ -16,6 +16,11 @@ use nalgebra::{Point2, Point3, Vector3};
 
 /// Structure of the points of a world.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Structure {
     /// Anywhere in a cube of this half side, meters.
     Cube {

@@ -9,6 +9,11 @@ use nalgebra::{Point2, Point3, Vector3};
 
 /// Positions of the cameras of a world.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case")
+)]
 pub enum Path {
     /// On an arc around the world's origin, looking at it; `span_rad` = 2π closes the circle.
     Arc {
@@ -28,6 +33,11 @@ pub enum Path {
 
 /// Options of a [`MultiViewProblem`].
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct MultiViewProblemOptions {

@@ -11,6 +11,11 @@ use nalgebra::{Point2, Point3};
 
 /// Options of a [`TwoViewProblem`].
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct TwoViewProblemOptions {
