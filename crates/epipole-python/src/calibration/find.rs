@@ -1,0 +1,301 @@
+//! Boards and markers in photos, and photos of boards.
+
+use super::board::{Board, BoardView};
+use crate::arrays::from_rows;
+use crate::camera::{Camera, RigidTransform};
+use crate::images::{from_gray, require_size, unit_gray};
+use crate::record::record;
+use crate::{options, progress};
+use epipole::calibration;
+use numpy::PyArray2;
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Result of a search for a board.
+    "epipole.calibration" BoardSearch {
+        /// "found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        /// "nothing".
+        kind: String,
+        /// Marks, if the board was found.
+        view: Option<BoardView>,
+        /// Marks along the longer side of a partial board.
+        columns: Option<usize>,
+        /// Marks along the shorter side of a partial board.
+        rows: Option<usize>,
+        /// Number of marks seen of a partial board.
+        num_seen: Option<usize>,
+        /// Number of markers that are placed as on the board.
+        num_of_board: Option<usize>,
+        /// Number of other markers of the dictionary.
+        num_others: Option<usize>,
+    }
+}
+
+#[pymethods]
+impl BoardSearch {
+    /// Why the board was not found, as a sentence; None if it was.
+    fn problem(&self, board: &Board) -> PyResult<Option<String>> {
+        use calibration::BoardSearch as Search;
+        let search = match (&*self.kind, &self.view) {
+            ("found", Some(view)) => Search::Found(view.0.clone()),
+            ("partial", _) => Search::Partial {
+                columns: self.columns.unwrap_or(0),
+                rows: self.rows.unwrap_or(0),
+                num_seen: self.num_seen.unwrap_or(0),
+            },
+            ("markers", _) => Search::Markers {
+                num_of_board: self.num_of_board.unwrap_or(0),
+                num_others: self.num_others.unwrap_or(0),
+            },
+            ("nothing", _) => Search::Nothing,
+            (kind, _) => {
+                return Err(PyValueError::new_err(format!("kind \"{kind}\" is unknown")));
+            }
+        };
+        Ok(search.problem(&board.board))
+    }
+}
+
+impl From<calibration::BoardSearch> for BoardSearch {
+    fn from(search: calibration::BoardSearch) -> Self {
+        use calibration::BoardSearch as Search;
+        let mut found = Self {
+            kind: "nothing".to_owned(),
+            view: None,
+            columns: None,
+            rows: None,
+            num_seen: None,
+            num_of_board: None,
+            num_others: None,
+        };
+        match search {
+            Search::Found(view) => {
+                found.kind = "found".to_owned();
+                found.view = Some(BoardView(view));
+            }
+            Search::Partial {
+                columns,
+                rows,
+                num_seen,
+            } => {
+                found.kind = "partial".to_owned();
+                found.columns = Some(columns);
+                found.rows = Some(rows);
+                found.num_seen = Some(num_seen);
+            }
+            Search::Markers {
+                num_of_board,
+                num_others,
+            } => {
+                found.kind = "markers".to_owned();
+                found.num_of_board = Some(num_of_board);
+                found.num_others = Some(num_others);
+            }
+            Search::Nothing => {}
+        }
+        found
+    }
+}
+
+/// Finds the marks of a board in a photo.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// board : Board
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+///
+/// Returns
+/// -------
+/// BoardSearch
+///     Its `view` has the marks; None if the board was not found.
+#[pyfunction]
+#[pyo3(signature = (image, board, *, progress=None))]
+pub(super) fn find_board(
+    image: &Bound<'_, PyAny>,
+    board: &Board,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<BoardSearch> {
+    let py = image.py();
+    let image = unit_gray("image", image)?;
+    let board = &board.board;
+    let search = progress::run(py, progress, |monitor| {
+        calibration::find_board(&image, board, monitor)
+    })?;
+    Ok(search.into())
+}
+
+/// Set of square markers, with the names and numbers of OpenCV.
+///
+/// Parameters
+/// ----------
+/// name : str
+///     Such as ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
+#[pyclass(frozen, eq, module = "epipole.calibration")]
+#[derive(PartialEq)]
+pub(super) struct MarkerDictionary(calibration::MarkerDictionary);
+
+/// Reads a dictionary by its class or name.
+fn dictionary(name: &str, value: &Bound<'_, PyAny>) -> PyResult<calibration::MarkerDictionary> {
+    if let Ok(dictionary) = value.cast::<MarkerDictionary>() {
+        return Ok(dictionary.get().0);
+    }
+    let given: String = value.extract().unwrap_or_default();
+    let mut all = calibration::MarkerDictionary::ALL.into_iter();
+    match all.find(|dictionary| dictionary.name() == given) {
+        Some(dictionary) => Ok(dictionary),
+        None => options::value(name, value),
+    }
+}
+
+#[pymethods]
+impl MarkerDictionary {
+    #[new]
+    fn new(name: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self(dictionary("name", name)?))
+    }
+
+    /// Dictionaries of all kinds.
+    #[staticmethod]
+    fn all() -> Vec<Self> {
+        let all = calibration::MarkerDictionary::ALL.into_iter();
+        all.map(Self).collect()
+    }
+
+    /// Name as in OpenCV without the prefix, such as "4x4_50".
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    /// Number of markers.
+    #[getter]
+    fn num_markers(&self) -> usize {
+        self.0.num_markers()
+    }
+
+    /// Bits along a side, without the border.
+    #[getter]
+    fn num_bits(&self) -> usize {
+        self.0.num_bits()
+    }
+
+    /// Number of wrong bits up to which markers are accepted by default.
+    #[getter]
+    fn max_hamming(&self) -> u32 {
+        self.0.max_hamming()
+    }
+
+    /// Whether a bit of an upright marker is white.
+    ///
+    /// Parameters
+    /// ----------
+    /// id : int
+    ///     Number of the marker.
+    /// row, column : int
+    ///     From the upper left bit, without the border.
+    fn is_white(&self, id: usize, row: usize, column: usize) -> PyResult<bool> {
+        self.0.is_white(id, row, column).ok_or_else(|| {
+            PyIndexError::new_err(format!("marker {id} has no bit ({row}, {column})"))
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("MarkerDictionary(name='{}')", self.0.name())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (&'static str,))> {
+        Ok((slf.get_type().into_any(), (slf.get().name(),)))
+    }
+}
+
+record! {
+    /// Square marker in a photo.
+    "epipole.calibration" Marker {
+        /// Number in the dictionary.
+        id: usize,
+        /// Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
+        /// left in an upright marker.
+        corners: Py<PyArray2<f64>>,
+        /// Number of bits that differ from the dictionary's.
+        hamming: u32,
+    }
+}
+
+/// Finds ArUco markers and AprilTags.
+///
+/// Parameters
+/// ----------
+/// image : array_like, shape (H, W)
+///     Gray, uint8 or float in [0, 1].
+/// dictionary : str or MarkerDictionary
+///     Such as ``"4x4_50"`` or ``"36h11"``.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``max_hamming``, ``border_bits``, ``min_side_px``.
+///
+/// Returns
+/// -------
+/// list of Marker
+///     By number.
+#[pyfunction]
+#[pyo3(signature = (image, dictionary, *, progress=None, **options))]
+pub(super) fn detect_markers(
+    image: &Bound<'_, PyAny>,
+    dictionary: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Vec<Marker>> {
+    let py = image.py();
+    let image = unit_gray("image", image)?;
+    let dictionary = self::dictionary("dictionary", dictionary)?;
+    let options = options::read(options)?;
+    let markers = progress::run(py, progress, |monitor| {
+        calibration::detect_markers(&image, dictionary, &options, monitor)
+    })?;
+    let give = |marker: &calibration::Marker| {
+        Ok(Marker {
+            id: marker.id,
+            corners: from_rows(py, &marker.corners.map(|corner| corner.coords))?.unbind(),
+            hamming: marker.hamming,
+        })
+    };
+    markers.iter().map(give).collect()
+}
+
+/// Photo of a board, with exact truth.
+///
+/// Parameters
+/// ----------
+/// board : Board
+/// camera : Camera
+/// cam_from_board : RigidTransform
+///     Meters.
+/// noise : float, optional
+///     Standard deviation of the gray values.
+/// seed : int, optional
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     Gray, in [0, 1].
+#[pyfunction]
+#[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0))]
+pub(super) fn photograph_of_board<'py>(
+    py: Python<'py>,
+    board: &Board,
+    camera: &Camera,
+    cam_from_board: &RigidTransform,
+    noise: f64,
+    seed: u64,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (board, camera, pose) = (&board.board, &camera.0, &cam_from_board.0);
+    require_size(camera.width, camera.height)?;
+    let image = py.detach(|| calibration::photograph_of_board(board, camera, pose, noise, seed));
+    from_gray(py, image)
+}

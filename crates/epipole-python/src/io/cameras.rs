@@ -1,0 +1,172 @@
+//! Files of cameras.
+
+use super::{Source, format_of, or_raise, write};
+use crate::camera::{Camera, RigidTransform};
+use crate::sfm::wrapper::wrapper;
+use epipole_io::camera::{self, CameraFormat};
+use pyo3::exceptions::PyKeyError;
+use pyo3::prelude::*;
+
+/// Formats by their names in Python.
+const FORMATS: [(&str, CameraFormat); 8] = [
+    ("epipole", CameraFormat::Epipole),
+    ("opencv", CameraFormat::OpenCv),
+    ("ros", CameraFormat::Ros),
+    ("kalibr", CameraFormat::Kalibr),
+    ("colmap", CameraFormat::Colmap),
+    ("nerfstudio", CameraFormat::NerfStudio),
+    ("metashape", CameraFormat::Metashape),
+    ("matlab", CameraFormat::Matlab),
+];
+
+/// Camera and its name in a file.
+///
+/// Parameters
+/// ----------
+/// name : str
+/// camera : Camera
+/// cam_from_world : RigidTransform, optional
+///     Pose, of a format that has one.
+#[pyclass(frozen, from_py_object, module = "epipole.io")]
+#[derive(Clone)]
+struct NamedCamera(camera::NamedCamera);
+
+wrapper!(NamedCamera: name, camera, cam_from_world);
+
+#[pymethods]
+impl NamedCamera {
+    #[new]
+    #[pyo3(signature = (name, camera, cam_from_world=None))]
+    fn new(name: String, camera: &Camera, cam_from_world: Option<&RigidTransform>) -> Self {
+        Self(camera::NamedCamera {
+            name,
+            camera: camera.0,
+            cam_from_world: cam_from_world.map(|pose| pose.0),
+        })
+    }
+
+    /// Name, number or image that the file gives; "camera", or "left" and "right", without one.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Camera.
+    #[getter]
+    fn camera(&self) -> Camera {
+        self.0.camera.into()
+    }
+
+    /// Pose, or None.
+    #[getter]
+    fn cam_from_world(&self) -> Option<RigidTransform> {
+        self.0.cam_from_world.map(RigidTransform::from)
+    }
+}
+
+/// Content of a file of cameras.
+///
+/// Parameters
+/// ----------
+/// cameras : list of NamedCamera
+/// right_from_left : RigidTransform, optional
+///     Motion of a rig, from the first camera to the second, in the unit of the file.
+#[pyclass(frozen, module = "epipole.io")]
+struct Cameras(camera::Cameras);
+
+wrapper!(Cameras: cameras, right_from_left);
+
+#[pymethods]
+impl Cameras {
+    #[new]
+    #[pyo3(signature = (cameras, right_from_left=None))]
+    fn new(cameras: Vec<NamedCamera>, right_from_left: Option<&RigidTransform>) -> Self {
+        Self(camera::Cameras {
+            cameras: cameras.into_iter().map(|camera| camera.0).collect(),
+            right_from_left: right_from_left.map(|motion| motion.0),
+        })
+    }
+
+    /// Content with one camera.
+    #[staticmethod]
+    fn of(camera: &Camera) -> Self {
+        Self(camera::Cameras::of(camera.0))
+    }
+
+    /// Content with the two cameras of a rig.
+    #[staticmethod]
+    fn of_rig(cameras: [Camera; 2], right_from_left: &RigidTransform) -> Self {
+        let cameras = cameras.map(|camera| camera.0);
+        Self(camera::Cameras::of_rig(cameras, right_from_left.0))
+    }
+
+    /// Cameras in the order of the file, a list of `NamedCamera`.
+    #[getter]
+    fn cameras(&self) -> Vec<NamedCamera> {
+        self.0.cameras.iter().cloned().map(NamedCamera).collect()
+    }
+
+    /// Motion of a rig, from the first camera to the second, or None.
+    #[getter]
+    fn right_from_left(&self) -> Option<RigidTransform> {
+        self.0.right_from_left.map(RigidTransform::from)
+    }
+
+    /// Camera of a name; `KeyError` without one.
+    fn named(&self, name: &str) -> PyResult<Camera> {
+        let camera = self.0.named(name).copied();
+        let missing = || PyKeyError::new_err(name.to_owned());
+        Ok(camera.ok_or_else(missing)?.into())
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.cameras.len()
+    }
+}
+
+/// Reads the cameras of a file; the format follows from its content.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///     File of Epipole, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB.
+/// size : tuple of int, optional
+///     Width and height of the images, pixels, for a file without them.
+///
+/// Returns
+/// -------
+/// format : str
+/// cameras : Cameras
+#[pyfunction]
+#[pyo3(signature = (source, size=None))]
+fn read_cameras(
+    source: &Bound<'_, PyAny>,
+    size: Option<(u32, u32)>,
+) -> PyResult<(&'static str, Cameras)> {
+    let source = Source::read(source)?;
+    let (format, cameras) = source.done(camera::read_cameras(&source.bytes, size))?;
+    let named = FORMATS.iter().find(|(_, other)| *other == format);
+    Ok((named.map_or("other", |(name, _)| name), Cameras(cameras)))
+}
+
+/// Writes cameras with all digits.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// cameras : Cameras
+/// format : {"epipole", "opencv", "ros", "colmap"}, optional
+#[pyfunction]
+#[pyo3(signature = (path, cameras, format="epipole"))]
+fn write_cameras(path: &Bound<'_, PyAny>, cameras: &Cameras, format: &str) -> PyResult<()> {
+    let format = format_of(&FORMATS, format)?;
+    let text = or_raise(camera::write_cameras(format, &cameras.0))?;
+    write(path, text.as_bytes())
+}
+
+pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<NamedCamera>()?;
+    module.add_class::<Cameras>()?;
+    module.add_function(wrap_pyfunction!(read_cameras, module)?)?;
+    module.add_function(wrap_pyfunction!(write_cameras, module)?)
+}

@@ -1,0 +1,188 @@
+//! Files of point clouds, disparities, pose graphs and bundle adjustment problems.
+
+use super::{Source, or_raise, write};
+use crate::arrays::{from_rows, points3};
+use crate::images::{disparity, from_disparity};
+use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
+use crate::sfm::{BalProblem, PoseGraph};
+use epipole::stereo::{DisparityImage, PointCloud};
+use epipole_io::{bundle, cloud, pose_graph};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Python object of a cloud, `epipole.stereo.PointCloud`.
+pub(super) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
+    let rows: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
+    let colors = match cloud.colors.is_empty() {
+        true => None,
+        false => Some(give_colors(py, cloud.colors.iter().copied())?),
+    };
+    object(
+        py,
+        "epipole.stereo",
+        "PointCloud",
+        (from_rows(py, &rows)?, colors),
+    )
+}
+
+/// Reads the points of a PLY file.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// cloud : epipole.stereo.PointCloud
+/// num_left_out : int
+///     Number of points with NaN or infinity, which are left out.
+#[pyfunction]
+fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, usize)> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    let (cloud, num_left_out) = source.done(cloud::read_ply(&source.bytes))?;
+    Ok((give_cloud(py, &cloud)?, num_left_out))
+}
+
+/// Writes points as a binary PLY file.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// cloud : epipole.stereo.PointCloud or array_like, shape (N, 3)
+#[pyfunction]
+fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> {
+    let (points, of_points) = match cloud.getattr_opt("points")? {
+        Some(points) => (points, cloud.getattr_opt("colors")?),
+        None => (cloud.clone(), None),
+    };
+    let of_points = of_points.filter(|colors| !colors.is_none());
+    let cloud = PointCloud {
+        points: points3("cloud", &points)?,
+        colors: colors("cloud.colors", of_points.as_ref())?,
+    };
+    if !cloud.colors.is_empty() {
+        let counts = (cloud.points.len(), cloud.colors.len());
+        require_equal(("cloud.points", counts.0), ("cloud.colors", counts.1))?;
+    }
+    write(path, &cloud::write_ply(&cloud))
+}
+
+fn disparities(source: &Bound<'_, PyAny>, read: Reader) -> PyResult<Py<PyArray2<f32>>> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    Ok(from_disparity(py, source.done(read(&source.bytes))?)?.unbind())
+}
+
+/// Reader of disparities.
+type Reader = fn(&[u8]) -> epipole_io::Result<DisparityImage>;
+
+/// Reads the disparities of a gray PFM file.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// ndarray of float32, shape (H, W)
+///     NaN where unknown.
+#[pyfunction]
+fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
+    disparities(source, epipole_io::disparity::read_pfm)
+}
+
+/// Writes disparities as a gray PFM file, the format of Middlebury.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// disparity : array_like of float, shape (H, W)
+///     NaN where unknown.
+#[pyfunction]
+fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
+    let disparity = self::disparity("disparity", disparity)?;
+    write(path, &epipole_io::disparity::write_pfm(&disparity))
+}
+
+/// Writes disparities times 256 as a 16-bit PNG file, the format of KITTI.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// disparity : array_like of float, shape (H, W)
+///     NaN where unknown. Values outside [1/256, 255.996] are written as unknown.
+#[pyfunction]
+fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
+    let disparity = self::disparity("disparity", disparity)?;
+    write(
+        path,
+        &or_raise(epipole_io::disparity::write_png16(&disparity))?,
+    )
+}
+
+/// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// epipole.sfm.PoseGraph
+#[pyfunction]
+fn read_g2o(source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
+    let source = Source::read(source)?;
+    Ok(PoseGraph(
+        source.done(pose_graph::read_g2o(source.text()?))?,
+    ))
+}
+
+/// Writes a pose graph in the text format of g2o.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// graph : epipole.sfm.PoseGraph
+#[pyfunction]
+fn write_g2o(path: &Bound<'_, PyAny>, graph: &PoseGraph) -> PyResult<()> {
+    write(path, pose_graph::write_g2o(&graph.0).as_bytes())
+}
+
+/// Reads a bundle adjustment problem of the BAL data set.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// epipole.sfm.BalProblem
+#[pyfunction]
+fn read_bal(source: &Bound<'_, PyAny>) -> PyResult<BalProblem> {
+    let source = Source::read(source)?;
+    Ok(BalProblem(source.done(bundle::read_bal(source.text()?))?))
+}
+
+/// Writes a bundle adjustment problem of the BAL data set, with all digits.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// problem : epipole.sfm.BalProblem
+#[pyfunction]
+fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
+    write(path, bundle::write_bal(&problem.0).as_bytes())
+}
+
+pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(read_ply, module)?)?;
+    module.add_function(wrap_pyfunction!(write_ply, module)?)?;
+    module.add_function(wrap_pyfunction!(read_pfm, module)?)?;
+    module.add_function(wrap_pyfunction!(write_pfm, module)?)?;
+    module.add_function(wrap_pyfunction!(write_png16, module)?)?;
+    module.add_function(wrap_pyfunction!(read_g2o, module)?)?;
+    module.add_function(wrap_pyfunction!(write_g2o, module)?)?;
+    module.add_function(wrap_pyfunction!(read_bal, module)?)?;
+    module.add_function(wrap_pyfunction!(write_bal, module)?)
+}

@@ -1,0 +1,124 @@
+//! Files of matches and of points with their pixels.
+
+use super::{Source, format_of, write};
+use crate::arrays::{from_rows, points2};
+use crate::images::column;
+use crate::sfm::wrapper::require_equal;
+use epipole::nalgebra::{Point2, Point3};
+use epipole_io::matches::{self, MatchLayout};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+/// Array of points.
+type Array<'py> = Bound<'py, PyArray2<f64>>;
+
+fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> {
+    from_rows(
+        py,
+        &points.iter().map(|point| point.coords).collect::<Vec<_>>(),
+    )
+}
+
+/// Reads matches of two images: ``u1 v1 u2 v2`` a line, pixels.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///     Numbers between commas, semicolons, tabs or spaces; a first line of names allows any order.
+///
+/// Returns
+/// -------
+/// pixels1, pixels2 : ndarray, shape (N, 2)
+#[pyfunction]
+fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    let [pixels1, pixels2] = source.done(matches::read_matches(&source.bytes))?;
+    Ok((pixels(py, &pixels1)?, pixels(py, &pixels2)?))
+}
+
+/// Reads points of an image: ``u v`` a line, pixels.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// ndarray, shape (N, 2)
+#[pyfunction]
+fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    pixels(py, &source.done(matches::read_points(&source.bytes))?)
+}
+
+/// Reads points of the world with their pixels: ``x y z u v`` a line.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// pixels : ndarray, shape (N, 2)
+/// points : ndarray, shape (N, 3)
+#[pyfunction]
+fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    let found = source.done(matches::read_points_with_pixels(&source.bytes))?;
+    let rows: Vec<_> = found
+        .1
+        .iter()
+        .map(|point: &Point3<f64>| point.coords)
+        .collect();
+    Ok((pixels(py, &found.0)?, from_rows(py, &rows)?))
+}
+
+/// Writes matches: ``u1 v1 u2 v2 distance ratio`` a line.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+/// pixels1, pixels2 : array_like, shape (N, 2)
+/// distances, ratios : array_like, shape (N,), optional
+///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if not given.
+/// layout : {"text", "csv"}, optional
+#[pyfunction]
+#[pyo3(signature = (path, pixels1, pixels2, distances=None, ratios=None, layout="text"))]
+fn write_matches(
+    path: &Bound<'_, PyAny>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    distances: Option<&Bound<'_, PyAny>>,
+    ratios: Option<&Bound<'_, PyAny>>,
+    layout: &str,
+) -> PyResult<()> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let count = pixels1.len();
+    require_equal(("pixels1", count), ("pixels2", pixels2.len()))?;
+    let numbers = |name: &str, value: Option<&Bound<'_, PyAny>>| {
+        let numbers = value.map_or_else(|| Ok(vec![0.0; count]), |value| column(name, value))?;
+        require_equal(("pixels1", count), (name, numbers.len()))?;
+        PyResult::Ok(numbers)
+    };
+    let distances = numbers("distances", distances)?;
+    let ratios = numbers("ratios", ratios)?;
+    let both: Vec<_> = distances
+        .into_iter()
+        .zip(ratios)
+        .map(|(d, r)| [d, r])
+        .collect();
+    let layouts = [("text", MatchLayout::Text), ("csv", MatchLayout::Csv)];
+    let layout = format_of(&layouts, layout)?;
+    let text = matches::write_matches(layout, [&pixels1, &pixels2], &both);
+    write(path, text.as_bytes())
+}
+
+pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(read_matches, module)?)?;
+    module.add_function(wrap_pyfunction!(read_points, module)?)?;
+    module.add_function(wrap_pyfunction!(read_points_with_pixels, module)?)?;
+    module.add_function(wrap_pyfunction!(write_matches, module)?)
+}

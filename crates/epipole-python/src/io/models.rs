@@ -1,0 +1,400 @@
+//! Files of models: cameras, posed images and points.
+
+use super::clouds::give_cloud;
+use super::{Source, format_of, or_raise, os_error, path};
+use crate::arrays::{from_rows, from_vector, points2, points3};
+use crate::camera::{Camera, RigidTransform};
+use crate::record::record;
+use crate::sfm::wrapper::{
+    colors, give_colors, give_index_rows, index_rows, require_equal, wrapper,
+};
+use crate::sfm::{Reconstruction, SfmImage};
+use epipole_io::model::{self, ModelFormat, ModelPoint};
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
+use pyo3::prelude::*;
+use std::path::Path;
+
+/// Formats by their names in Python.
+const FORMATS: [ModelFormat; 7] = [
+    ModelFormat::ColmapText,
+    ModelFormat::ColmapBinary,
+    ModelFormat::Bundler,
+    ModelFormat::Transforms,
+    ModelFormat::OpenMvg,
+    ModelFormat::Ply,
+    ModelFormat::Glb,
+];
+
+fn model_format(name: &str) -> PyResult<ModelFormat> {
+    format_of(&FORMATS.map(|format| (format.name(), format)), name)
+}
+
+/// Image with a known pose.
+///
+/// Parameters
+/// ----------
+/// id : int
+///     Number of the image in files that number them; no two are equal.
+/// name : str
+///     Name, mostly the path of its file within a folder of images.
+/// camera : int
+///     Index of its camera.
+/// cam_from_world : RigidTransform
+/// keypoints : array_like, shape (N, 2)
+///     Pixels.
+#[pyclass(frozen, from_py_object, module = "epipole.io")]
+#[derive(Clone)]
+struct ModelImage(model::ModelImage);
+
+wrapper!(ModelImage: id, name, camera, cam_from_world, keypoints);
+
+#[pymethods]
+impl ModelImage {
+    #[new]
+    fn new(
+        id: u32,
+        name: String,
+        camera: usize,
+        cam_from_world: &RigidTransform,
+        keypoints: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        Ok(Self(model::ModelImage {
+            id,
+            name,
+            camera,
+            cam_from_world: cam_from_world.0,
+            keypoints: points2("keypoints", keypoints)?,
+        }))
+    }
+
+    /// Number of the image.
+    #[getter]
+    fn id(&self) -> u32 {
+        self.0.id
+    }
+
+    /// Name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Index of its camera.
+    #[getter]
+    fn camera(&self) -> usize {
+        self.0.camera
+    }
+
+    /// Pose: ``x_in_cam = cam_from_world @ x_in_world``.
+    #[getter]
+    fn cam_from_world(&self) -> RigidTransform {
+        self.0.cam_from_world.into()
+    }
+
+    /// Keypoints, pixels, shape (N, 2).
+    #[getter]
+    fn keypoints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<_> = self.0.keypoints.iter().map(|pixel| pixel.coords).collect();
+        from_rows(py, &rows)
+    }
+
+    /// Center of the camera in the world, shape (3,).
+    fn center_in_world<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        from_vector(py, &self.0.center_in_world().coords)
+    }
+}
+
+/// Cameras, the images that they took, and points of the scene.
+///
+/// Parameters
+/// ----------
+/// cameras : list of Camera
+/// images : list of ModelImage
+/// points : array_like, shape (P, 3)
+/// tracks : array_like of int, shape (K, 3)
+///     Observations: index of the point, of the image, and of its keypoint.
+/// colors : array_like of uint8, shape (P, 3), optional
+///     Red, green, blue. Gray if not given.
+/// errors_px : list of float or None, optional
+///     Mean reprojection error of each point, pixels.
+#[pyclass(frozen, from_py_object, module = "epipole.io")]
+#[derive(Clone)]
+pub(crate) struct Model(model::Model);
+
+wrapper!(Model: cameras, images, points, tracks, colors, errors_px);
+
+#[pymethods]
+impl Model {
+    #[new]
+    #[pyo3(signature = (cameras, images, points, tracks, colors=None, errors_px=None))]
+    fn new(
+        cameras: Vec<Camera>,
+        images: Vec<ModelImage>,
+        points: &Bound<'_, PyAny>,
+        tracks: &Bound<'_, PyAny>,
+        colors: Option<&Bound<'_, PyAny>>,
+        errors_px: Option<Vec<Option<f64>>>,
+    ) -> PyResult<Self> {
+        let positions = points3("points", points)?;
+        let count = positions.len();
+        let colors = match colors {
+            Some(_) => self::colors("colors", colors)?,
+            None => vec![[128; 3]; count],
+        };
+        let errors = errors_px.unwrap_or_else(|| vec![None; count]);
+        require_equal(("points", count), ("colors", colors.len()))?;
+        require_equal(("points", count), ("errors_px", errors.len()))?;
+        let parts = positions.into_iter().zip(colors).zip(errors);
+        let mut points: Vec<_> = parts
+            .map(|((position, color), error_px)| ModelPoint {
+                position,
+                color,
+                error_px,
+                track: Vec::new(),
+            })
+            .collect();
+        for [point, image, keypoint] in index_rows::<3>("tracks", tracks)? {
+            let Some(point) = points.get_mut(point) else {
+                return Err(PyValueError::new_err(format!(
+                    "tracks has point {point}, but there are {count}"
+                )));
+            };
+            point.track.push((image, keypoint));
+        }
+        Ok(Self(model::Model {
+            cameras: cameras.into_iter().map(|camera| camera.0).collect(),
+            images: images.into_iter().map(|image| image.0).collect(),
+            points,
+        }))
+    }
+
+    /// Model of a reconstruction; `images` are those that it was made from.
+    #[staticmethod]
+    fn from_reconstruction(
+        reconstruction: &Reconstruction,
+        images: Vec<SfmImage>,
+    ) -> PyResult<Self> {
+        let cameras = reconstruction.0.cameras.len();
+        require_equal(("images", images.len()), ("cameras", cameras))?;
+        let images: Vec<_> = images.into_iter().map(|image| image.0).collect();
+        Ok(Self(model::Model::from_reconstruction(
+            &reconstruction.0,
+            &images,
+        )))
+    }
+
+    /// Reconstruction and its images.
+    fn to_reconstruction(&self) -> PyResult<(Reconstruction, Vec<SfmImage>)> {
+        let (reconstruction, images) = or_raise(self.0.to_reconstruction())?;
+        let images = images.into_iter().map(SfmImage).collect();
+        Ok((Reconstruction(reconstruction), images))
+    }
+
+    /// Cameras, a list of `Camera`.
+    #[getter]
+    fn cameras(&self) -> Vec<Camera> {
+        self.0.cameras.iter().map(|&camera| camera.into()).collect()
+    }
+
+    /// Images with a known pose, a list of `ModelImage`.
+    #[getter]
+    fn images(&self) -> Vec<ModelImage> {
+        self.0.images.iter().cloned().map(ModelImage).collect()
+    }
+
+    /// Points, shape (P, 3).
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<_> = self
+            .0
+            .points
+            .iter()
+            .map(|point| point.position.coords)
+            .collect();
+        from_rows(py, &rows)
+    }
+
+    /// Observations: index of the point, of the image, and of its keypoint, int64 of shape (K, 3).
+    #[getter]
+    fn tracks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        let rows = self.0.points.iter().enumerate().flat_map(|(index, point)| {
+            let track = point.track.iter();
+            track.map(move |&(image, keypoint)| [index, image, keypoint])
+        });
+        give_index_rows(py, rows)
+    }
+
+    /// Colors of the points, uint8 of shape (P, 3).
+    #[getter]
+    fn colors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
+        give_colors(py, self.0.points.iter().map(|point| point.color))
+    }
+
+    /// Mean reprojection error of each point, pixels; None if the file has none.
+    #[getter]
+    fn errors_px(&self) -> Vec<Option<f64>> {
+        self.0.points.iter().map(|point| point.error_px).collect()
+    }
+
+    /// Points without observations.
+    ///
+    /// Returns
+    /// -------
+    /// epipole.stereo.PointCloud
+    fn cloud<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        give_cloud(py, &self.0.cloud())
+    }
+
+    /// Number of observations of all points.
+    fn num_observations(&self) -> usize {
+        self.0.num_observations()
+    }
+
+    /// Mean length of all reprojection errors, pixels; None without observations.
+    fn mean_reprojection_px(&self) -> PyResult<Option<f64>> {
+        or_raise(self.0.mean_reprojection_px())
+    }
+
+    /// Oddities of the model, such as points behind cameras, a sentence each.
+    fn oddities(&self) -> PyResult<Vec<String>> {
+        or_raise(self.0.oddities())
+    }
+
+    /// Losses of a format, a sentence each.
+    fn losses(&self, format: &str) -> PyResult<Vec<String>> {
+        Ok(model_format(format)?.losses(&self.0))
+    }
+
+    /// Files of the model.
+    ///
+    /// Parameters
+    /// ----------
+    /// format : str
+    ///     "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg", "ply" or "glb".
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Bytes of each file by its usual name.
+    fn to_files(&self, format: &str) -> PyResult<std::collections::BTreeMap<String, Vec<u8>>> {
+        let files = or_raise(self.0.to_files(model_format(format)?))?;
+        Ok(files
+            .into_iter()
+            .map(|file| (file.name, file.bytes))
+            .collect())
+    }
+
+    /// Writes the files of the model into a folder, which is created if needed.
+    ///
+    /// Parameters
+    /// ----------
+    /// folder : str or os.PathLike
+    /// format : str
+    ///     As in `to_files`.
+    ///
+    /// Returns
+    /// -------
+    /// list of Any
+    ///     Paths of the files, `pathlib.Path`.
+    fn write<'py>(
+        &self,
+        folder: &Bound<'py, PyAny>,
+        format: &str,
+    ) -> PyResult<Vec<std::path::PathBuf>> {
+        let folder = path(folder)?;
+        let files = or_raise(self.0.to_files(model_format(format)?))?;
+        let put = |path: &Path, result: std::io::Result<()>| {
+            result.map_err(|error| os_error(&error, path))
+        };
+        put(&folder, std::fs::create_dir_all(&folder))?;
+        let mut paths = Vec::new();
+        for file in files {
+            let path = folder.join(&file.name);
+            put(&path, std::fs::write(&path, &file.bytes))?;
+            paths.push(path);
+        }
+        Ok(paths)
+    }
+}
+
+record! {
+    /// Model that was read.
+    "epipole.io" ReadModel {
+        /// Format: "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg" or "ply".
+        format: String,
+        /// Model.
+        model: Model,
+        /// Sentences on what was left out or assumed.
+        notes: Vec<String>,
+    }
+}
+
+impl From<model::ReadModel> for ReadModel {
+    fn from(read: model::ReadModel) -> Self {
+        Self {
+            format: read.format.name().to_owned(),
+            model: Model(read.model),
+            notes: read.notes,
+        }
+    }
+}
+
+/// Reads the model in a folder.
+///
+/// Parameters
+/// ----------
+/// folder : str or os.PathLike
+///     Folder with COLMAP's files, or with one of transforms.json, sfm_data.json, bundle.out,
+///     points.ply.
+///
+/// Returns
+/// -------
+/// ReadModel
+///
+/// Raises
+/// ------
+/// FileNotFoundError
+///     If there is no model.
+#[pyfunction]
+fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
+    let path = path(folder)?;
+    std::fs::read_dir(&path).map_err(|error| os_error(&error, &path))?;
+    let file = |name: &str| std::fs::read(path.join(name)).ok();
+    let read = folder.py().detach(|| model::read_model_folder(&file));
+    let located = |error| PyValueError::new_err(format!("{}: {error}", path.display()));
+    match read.map_err(located)? {
+        Some(read) => Ok(read.into()),
+        None => Err(PyFileNotFoundError::new_err(format!(
+            "{}: the folder has no model",
+            path.display()
+        ))),
+    }
+}
+
+/// Reads a model of one file; files beside it are read if the format needs them.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+///
+/// Returns
+/// -------
+/// ReadModel
+#[pyfunction]
+fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
+    let place = super::path(path)?;
+    let source = Source::read(path)?;
+    let name = place.file_name().unwrap_or_default().to_string_lossy();
+    let beside = |name: &str| std::fs::read(place.with_file_name(name)).ok();
+    let read = model::read_model_file(&name, &source.bytes, &beside);
+    Ok(source.done(read)?.into())
+}
+
+pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<ModelImage>()?;
+    module.add_class::<Model>()?;
+    module.add_class::<ReadModel>()?;
+    module.add_function(wrap_pyfunction!(read_model_folder, module)?)?;
+    module.add_function(wrap_pyfunction!(read_model_file, module)?)
+}

@@ -1,0 +1,317 @@
+//! Photos with the EXIF data in their files.
+
+use super::{Source, or_raise};
+use crate::calibration::Undistortion;
+use crate::camera::{Camera, Intrinsics};
+use crate::images::{from_gray, from_rgb, rgb};
+use crate::math::Geodetic;
+use crate::record::record;
+use crate::sfm::wrapper::wrapper;
+use epipole_io::photo::{self, DecodeOptions, PixelRange, PrepareOptions};
+use numpy::PyArray3;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+record! {
+    /// Image and its file's data about the camera.
+    "epipole.io" Decoded {
+        /// Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1].
+        image: Py<PyAny>,
+        /// First guess of the focal length from the EXIF data, pixels of this image, or None.
+        focal_px: Option<f64>,
+        /// Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
+        place: Option<Geodetic>,
+        /// EXIF orientation of the file, 1 to 8, applied or not.
+        orientation: u8,
+        /// Sample values that became black and white, if not those of the format.
+        range: Option<[f64; 2]>,
+    }
+}
+
+/// Reads the range of sample values: "auto", "full", or a pair of numbers.
+fn pixel_range(range: Option<&Bound<'_, PyAny>>) -> PyResult<PixelRange> {
+    let Some(range) = range else {
+        return Ok(PixelRange::default());
+    };
+    if let Ok((black, white)) = range.extract::<(f64, f64)>() {
+        return Ok(PixelRange::Between(black, white));
+    }
+    match range.extract::<String>().as_deref() {
+        Ok("auto") => Ok(PixelRange::Auto),
+        Ok("full") => Ok(PixelRange::Full),
+        _ => Err(PyValueError::new_err(format!(
+            "range must be \"auto\", \"full\" or a pair of numbers, but is {}",
+            range.repr()?
+        ))),
+    }
+}
+
+fn decode_options(
+    max_pixels: Option<u64>,
+    apply_orientation: bool,
+    range: Option<&Bound<'_, PyAny>>,
+) -> PyResult<DecodeOptions> {
+    let defaults = DecodeOptions::default();
+    Ok(defaults
+        .with_max_pixels(max_pixels.unwrap_or(defaults.max_pixels))
+        .with_apply_orientation(apply_orientation)
+        .with_range(pixel_range(range)?))
+}
+
+/// Color image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+/// max_pixels : int, optional
+///     Larger images are refused. 64 million if not given.
+/// apply_orientation : bool, optional
+///     Whether to turn the image upright by its EXIF orientation.
+/// range : {"auto", "full"} or tuple of float, optional
+///     Sample values that become black and white: those in use, all of the format, or these.
+///
+/// Returns
+/// -------
+/// Decoded
+///     Its `image` is uint8 of shape (H, W, 3).
+///
+/// Examples
+/// --------
+/// >>> image = decode_rgb("photo.jpg").image
+#[pyfunction]
+#[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
+fn decode_rgb(
+    source: &Bound<'_, PyAny>,
+    max_pixels: Option<u64>,
+    apply_orientation: bool,
+    range: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Decoded> {
+    let py = source.py();
+    let options = decode_options(max_pixels, apply_orientation, range)?;
+    let source = Source::read(source)?;
+    let decoded = py.detach(|| photo::decode_rgb(&source.bytes, &options));
+    let decoded = source.done(decoded)?;
+    Ok(Decoded {
+        image: from_rgb(py, decoded.image)?.into_any().unbind(),
+        focal_px: decoded.focal_px,
+        place: decoded.place.map(Geodetic),
+        orientation: decoded.orientation.to_exif(),
+        range: decoded.range,
+    })
+}
+
+/// Gray image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+/// max_pixels : int, optional
+///     Larger images are refused. 64 million if not given.
+/// apply_orientation : bool, optional
+///     Whether to turn the image upright by its EXIF orientation.
+/// range : {"auto", "full"} or tuple of float, optional
+///     Sample values that become black and white: those in use, all of the format, or these.
+///
+/// Returns
+/// -------
+/// Decoded
+///     Its `image` is float32 of shape (H, W), in [0, 1].
+#[pyfunction]
+#[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
+fn decode_gray(
+    source: &Bound<'_, PyAny>,
+    max_pixels: Option<u64>,
+    apply_orientation: bool,
+    range: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Decoded> {
+    let py = source.py();
+    let options = decode_options(max_pixels, apply_orientation, range)?;
+    let source = Source::read(source)?;
+    let decoded = py.detach(|| photo::decode_gray(&source.bytes, &options));
+    let decoded = source.done(decoded)?;
+    Ok(Decoded {
+        image: from_gray(py, decoded.image)?.into_any().unbind(),
+        focal_px: decoded.focal_px,
+        place: decoded.place.map(Geodetic),
+        orientation: decoded.orientation.to_exif(),
+        range: decoded.range,
+    })
+}
+
+/// Width and height of an image before its orientation is applied, from the header alone.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///
+/// Returns
+/// -------
+/// tuple of int
+#[pyfunction]
+fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
+    let source = Source::read(source)?;
+    source.done(photo::sensor_size(&source.bytes))
+}
+
+/// Photo that was turned upright, undistorted and downscaled.
+///
+/// Parameters
+/// ----------
+/// image : array_like of uint8, shape (H, W, 3)
+/// focal_px : float, optional
+/// place : epipole.math.Geodetic, optional
+/// intrinsics : Intrinsics, optional
+/// full_size, sensor_size : tuple of int
+/// quarters : int, optional
+/// range : tuple of float, optional
+/// is_as_stored : bool
+#[pyclass(frozen, module = "epipole.io")]
+struct PreparedPhoto(photo::PreparedPhoto);
+
+wrapper!(
+    PreparedPhoto: image, focal_px, place, intrinsics, full_size, sensor_size, quarters, range,
+    is_as_stored
+);
+
+#[pymethods]
+impl PreparedPhoto {
+    #[new]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        image: &Bound<'_, PyAny>,
+        focal_px: Option<f64>,
+        place: Option<Geodetic>,
+        intrinsics: Option<&Intrinsics>,
+        full_size: (u32, u32),
+        sensor_size: (u32, u32),
+        quarters: Option<u8>,
+        range: Option<[f64; 2]>,
+        is_as_stored: bool,
+    ) -> PyResult<Self> {
+        Ok(Self(photo::PreparedPhoto {
+            image: rgb("image", image)?,
+            focal_px,
+            place: place.map(|place| place.0),
+            intrinsics: intrinsics.map(|intrinsics| intrinsics.0),
+            full_size,
+            sensor_size,
+            quarters,
+            range,
+            is_as_stored,
+        }))
+    }
+
+    /// Pixels, upright, uint8 of shape (H, W, 3).
+    #[getter]
+    fn image<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        from_rgb(py, self.0.image.clone())
+    }
+
+    /// First guess of the focal length from the EXIF data, pixels of `image`, or None.
+    #[getter]
+    fn focal_px(&self) -> Option<f64> {
+        self.0.focal_px
+    }
+
+    /// Position of the camera, `epipole.math.Geodetic`, or None.
+    #[getter]
+    fn place(&self) -> Option<Geodetic> {
+        self.0.place.map(Geodetic)
+    }
+
+    /// K, if the distortion of a known lens was removed, or None.
+    #[getter]
+    fn intrinsics(&self) -> Option<Intrinsics> {
+        self.0.intrinsics.map(Intrinsics::from)
+    }
+
+    /// Width and height before it was reduced, upright.
+    #[getter]
+    fn full_size(&self) -> (u32, u32) {
+        self.0.full_size
+    }
+
+    /// Width and height before it was turned upright.
+    #[getter]
+    fn sensor_size(&self) -> (u32, u32) {
+        self.0.sensor_size
+    }
+
+    /// Number of clockwise quarter turns that made it upright; None if it was mirrored.
+    #[getter]
+    fn quarters(&self) -> Option<u8> {
+        self.0.quarters
+    }
+
+    /// Sample values that became black and white, if not those of the format.
+    #[getter]
+    fn range(&self) -> Option<[f64; 2]> {
+        self.0.range
+    }
+
+    /// Whether the pixels are those of the file.
+    #[getter]
+    fn is_as_stored(&self) -> bool {
+        self.0.is_as_stored
+    }
+
+    /// Focal length in pixels of `image`, from one in pixels before it was reduced.
+    fn reduced_focal_px(&self, focal_px: f64) -> f64 {
+        self.0.reduced_focal_px(focal_px)
+    }
+
+    /// Camera of `image`, from that of the sensor; None for another size or a mirrored photo.
+    fn camera(&self, of_sensor: &Camera) -> PyResult<Option<Camera>> {
+        let camera = or_raise(self.0.camera(&of_sensor.0))?;
+        Ok(camera.map(Camera::from))
+    }
+}
+
+/// Color image of a file, undistorted, turned upright and downscaled.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+/// max_pixels : int, optional
+///     Maximum number of pixels of the result.
+/// max_file_pixels : int, optional
+///     Larger files are refused. 64 million if not given.
+/// range : {"auto", "full"} or tuple of float, optional
+///     As in `decode_rgb`.
+/// undistortion : epipole.calibration.Undistortion, optional
+///     Applied to images with the size of its camera.
+///
+/// Returns
+/// -------
+/// PreparedPhoto
+#[pyfunction]
+#[pyo3(signature = (
+    source, *, max_pixels=None, max_file_pixels=None, range=None, undistortion=None
+))]
+fn prepare_photo(
+    source: &Bound<'_, PyAny>,
+    max_pixels: Option<u64>,
+    max_file_pixels: Option<u64>,
+    range: Option<&Bound<'_, PyAny>>,
+    undistortion: Option<&Undistortion>,
+) -> PyResult<PreparedPhoto> {
+    let py = source.py();
+    let defaults = PrepareOptions::default();
+    let options = defaults
+        .with_max_pixels(max_pixels.unwrap_or(defaults.max_pixels))
+        .with_max_file_pixels(max_file_pixels.unwrap_or(defaults.max_file_pixels))
+        .with_range(pixel_range(range)?)
+        .with_undistortion(undistortion.map(Undistortion::core));
+    let source = Source::read(source)?;
+    let prepared = py.detach(|| photo::prepare_photo(&source.bytes, &options));
+    Ok(PreparedPhoto(source.done(prepared)?))
+}
+
+pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Decoded>()?;
+    module.add_class::<PreparedPhoto>()?;
+    module.add_function(wrap_pyfunction!(decode_rgb, module)?)?;
+    module.add_function(wrap_pyfunction!(decode_gray, module)?)?;
+    module.add_function(wrap_pyfunction!(sensor_size, module)?)?;
+    module.add_function(wrap_pyfunction!(prepare_photo, module)?)
+}

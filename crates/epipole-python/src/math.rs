@@ -1,0 +1,298 @@
+//! Lines, places on the earth, singular values, seeded random numbers.
+
+use crate::arrays::{as_array, from_matrix, from_vector, matrix, vector};
+use crate::errors::OrRaise;
+use crate::images::{elements, wrong_shape};
+use crate::record::record;
+use crate::sfm::wrapper::wrapper;
+use epipole::math;
+use epipole::nalgebra::{Point2, Vector3, Vector4};
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Place on the earth (WGS 84).
+///
+/// Parameters
+/// ----------
+/// latitude_deg : float
+///     North of the equator, degrees, -90 to 90.
+/// longitude_deg : float
+///     East of Greenwich, degrees, -180 to 180.
+/// height_m : float
+///     Above the ellipsoid, meters.
+#[pyclass(frozen, from_py_object, module = "epipole.math")]
+#[derive(Clone)]
+pub(crate) struct Geodetic(pub(crate) math::Geodetic);
+
+wrapper!(Geodetic: latitude_deg, longitude_deg, height_m);
+
+#[pymethods]
+impl Geodetic {
+    #[new]
+    fn new(latitude_deg: f64, longitude_deg: f64, height_m: f64) -> Self {
+        Self(math::Geodetic {
+            latitude_deg,
+            longitude_deg,
+            height_m,
+        })
+    }
+
+    /// North of the equator, degrees.
+    #[getter]
+    fn latitude_deg(&self) -> f64 {
+        self.0.latitude_deg
+    }
+
+    /// East of Greenwich, degrees.
+    #[getter]
+    fn longitude_deg(&self) -> f64 {
+        self.0.longitude_deg
+    }
+
+    /// Above the ellipsoid, meters.
+    #[getter]
+    fn height_m(&self) -> f64 {
+        self.0.height_m
+    }
+}
+
+/// East, north and up of a place relative to another.
+///
+/// Parameters
+/// ----------
+/// place, origin : Geodetic
+///
+/// Returns
+/// -------
+/// ndarray, shape (3,)
+///     Meters.
+#[pyfunction]
+fn local_from_geodetic<'py>(
+    py: Python<'py>,
+    place: &Geodetic,
+    origin: &Geodetic,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let local = math::local_from_geodetic(&place.0, &origin.0).or_raise()?;
+    Ok(from_vector(py, &local.coords))
+}
+
+/// Line ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+///
+/// Parameters
+/// ----------
+/// line : array_like, shape (3,)
+///     Homogeneous line, of any scale.
+#[pyclass(frozen, module = "epipole.math")]
+struct Line2(math::Line2);
+
+wrapper!(Line2: line);
+
+#[pymethods]
+impl Line2 {
+    #[new]
+    fn new(line: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let line: Vector3<f64> = vector("line", line)?;
+        // Keeps the bits of a line that has the scale.
+        if (line.x * line.x + line.y * line.y - 1.0).abs() < 1e-15 {
+            let (a, b, c) = (line.x, line.y, line.z);
+            return Ok(Self(math::Line2 { a, b, c }));
+        }
+        Ok(Self(math::Line2::from_homogeneous(&line).or_raise()?))
+    }
+
+    /// Line of a homogeneous vector.
+    ///
+    /// Parameters
+    /// ----------
+    /// line : array_like, shape (3,)
+    ///     Of any scale.
+    #[staticmethod]
+    fn from_homogeneous(line: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::new(line)
+    }
+
+    /// Line through two points.
+    ///
+    /// Parameters
+    /// ----------
+    /// p, q : array_like, shape (2,)
+    #[staticmethod]
+    fn through(p: &Bound<'_, PyAny>, q: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (p, q) = (Point2::from(vector("p", p)?), Point2::from(vector("q", q)?));
+        Ok(Self(math::Line2::through(&p, &q).or_raise()?))
+    }
+
+    /// (a, b, c), shape (3,).
+    #[getter]
+    fn line<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.homogeneous(py)
+    }
+
+    /// The normal's component along u.
+    #[getter]
+    fn a(&self) -> f64 {
+        self.0.a
+    }
+
+    /// The normal's component along v.
+    #[getter]
+    fn b(&self) -> f64 {
+        self.0.b
+    }
+
+    /// Minus the signed distance of the origin along the normal.
+    #[getter]
+    fn c(&self) -> f64 {
+        self.0.c
+    }
+
+    /// (a, b, c), shape (3,).
+    fn homogeneous<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        from_vector(py, &self.0.homogeneous())
+    }
+
+    /// Signed distance of a point.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : array_like, shape (2,)
+    fn signed_distance(&self, point: &Bound<'_, PyAny>) -> PyResult<f64> {
+        let point = Point2::from(vector("point", point)?);
+        Ok(self.0.signed_distance(&point))
+    }
+
+    /// Point of the line nearest to a point.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : array_like, shape (2,)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (2,)
+    fn nearest<'py>(&self, point: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let place = Point2::from(vector("point", point)?);
+        Ok(from_vector(point.py(), &self.0.nearest(&place).coords))
+    }
+
+    /// Angle of the line against u, radians.
+    fn angle_rad(&self) -> f64 {
+        self.0.angle_rad()
+    }
+}
+
+record! {
+    /// Singular value decomposition: ``A = u @ diag(singular_values) @ v.T``.
+    "epipole.math" Svd3 {
+        /// Left singular vectors in its columns, shape (3, 3).
+        u: Py<PyArray2<f64>>,
+        /// Largest first, none negative, shape (3,).
+        singular_values: Py<PyArray1<f64>>,
+        /// Right singular vectors in its columns, shape (3, 3).
+        v: Py<PyArray2<f64>>,
+    }
+}
+
+/// Singular value decomposition of a matrix.
+///
+/// Parameters
+/// ----------
+/// matrix : array_like, shape (3, 3)
+///
+/// Returns
+/// -------
+/// Svd3
+#[pyfunction]
+fn svd3(matrix: &Bound<'_, PyAny>) -> PyResult<Svd3> {
+    let svd = math::svd3(&self::matrix("matrix", matrix)?);
+    let py = matrix.py();
+    Ok(Svd3 {
+        u: from_matrix(py, &svd.u)?.unbind(),
+        singular_values: from_vector(py, &svd.singular_values).unbind(),
+        v: from_matrix(py, &svd.v)?.unbind(),
+    })
+}
+
+/// Length of a vector.
+///
+/// Parameters
+/// ----------
+/// vector : array_like, shape (N,)
+///     N from 1 to 4.
+///
+/// Returns
+/// -------
+/// float
+#[pyfunction]
+fn length(vector: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let array = as_array("vector", vector, "(N,)")?;
+    let numbers: Vec<f64> = elements(&array, "float64")?;
+    if !matches!(*array.shape(), [1..=4]) {
+        return Err(wrong_shape("vector", "(N,) with N <= 4", &array)?);
+    }
+    // Zeros do not change the length.
+    let at = |place: usize| numbers.get(place).copied().unwrap_or(0.0);
+    Ok(math::length(&Vector4::new(at(0), at(1), at(2), at(3))))
+}
+
+/// Seeded stream of random numbers, equal on every platform.
+///
+/// Parameters
+/// ----------
+/// seed : int
+#[pyclass(frozen, module = "epipole.math.random")]
+struct Random(Mutex<math::random::Random>);
+
+impl Random {
+    fn stream(&self) -> MutexGuard<'_, math::random::Random> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[pymethods]
+impl Random {
+    #[new]
+    fn new(seed: u64) -> Self {
+        Self(Mutex::new(math::random::Random::new(seed)))
+    }
+
+    /// Integer below a bound, which is > 0.
+    fn below(&self, bound: usize) -> PyResult<usize> {
+        if bound == 0 {
+            return Err(PyValueError::new_err("bound must be greater than 0"));
+        }
+        Ok(self.stream().below(bound))
+    }
+
+    /// Number in [0, 1).
+    fn unit(&self) -> f64 {
+        self.stream().unit()
+    }
+
+    /// Number in [low, high).
+    fn uniform(&self, low: f64, high: f64) -> f64 {
+        self.stream().uniform(low, high)
+    }
+
+    /// Number of the standard normal distribution.
+    fn normal(&self) -> f64 {
+        self.stream().normal()
+    }
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Geodetic>()?;
+    module.add_class::<Line2>()?;
+    module.add_class::<Svd3>()?;
+    module.add_function(wrap_pyfunction!(local_from_geodetic, module)?)?;
+    module.add_function(wrap_pyfunction!(svd3, module)?)?;
+    module.add_function(wrap_pyfunction!(length, module)?)?;
+    let random = PyModule::new(module.py(), "epipole.math.random")?;
+    random.add_class::<Random>()?;
+    module.add("random", &random)?;
+    let loaded = module.py().import("sys")?.getattr("modules")?;
+    loaded.set_item("epipole.math.random", random)
+}

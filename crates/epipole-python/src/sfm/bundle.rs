@@ -1,0 +1,276 @@
+//! Bundle adjustment.
+
+use super::images::PositionPrior;
+use super::wrapper::{give_index_rows, give_indices, index_rows, indices, require_equal, wrapper};
+use crate::arrays::{from_rows, from_vector, points2, points3};
+use crate::camera::{Camera, PosedCamera, RigidTransform};
+use crate::optim::LmReport;
+use crate::{options, progress};
+use epipole::nalgebra::Vector2;
+use epipole::sfm::{self, BundleObservation};
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// Further camera rigidly mounted on each camera of a bundle, such as the right one of a rig.
+///
+/// Parameters
+/// ----------
+/// sensor_from_camera : RigidTransform
+///     From the frame of the camera to that of the sensor; it is not refined.
+/// camera : Camera
+///     Image size, intrinsics and lens of the sensor.
+/// lens : int
+///     Number of its lens, as in `Bundle.lens_of_camera`.
+#[pyclass(frozen, from_py_object, module = "epipole.sfm")]
+#[derive(Clone)]
+pub(super) struct Sensor(sfm::Sensor);
+
+wrapper!(Sensor: sensor_from_camera, camera, lens);
+
+#[pymethods]
+impl Sensor {
+    #[new]
+    #[pyo3(signature = (sensor_from_camera, camera, lens=0))]
+    fn new(sensor_from_camera: &RigidTransform, camera: &Camera, lens: usize) -> Self {
+        Self(sfm::Sensor {
+            sensor_from_camera: sensor_from_camera.0,
+            camera: camera.0,
+            lens,
+        })
+    }
+
+    /// From the frame of the camera to that of the sensor.
+    #[getter]
+    fn sensor_from_camera(&self) -> RigidTransform {
+        self.0.sensor_from_camera.into()
+    }
+
+    /// Image size, intrinsics and lens.
+    #[getter]
+    fn camera(&self) -> Camera {
+        self.0.camera.into()
+    }
+
+    /// Number of its lens.
+    #[getter]
+    fn lens(&self) -> usize {
+        self.0.lens
+    }
+}
+
+/// Cameras, points and observations.
+///
+/// Parameters
+/// ----------
+/// cameras : list of PosedCamera
+/// points : array_like, shape (P, 3)
+///     Points in the world.
+/// observations : array_like of int, shape (M, 2)
+///     Index of the camera and of the point.
+/// pixels : array_like, shape (M, 2)
+///     Pixel of each observation.
+/// lens_of_camera : array_like of int, optional
+///     Number of the lens of each camera; 0 if missing. Cameras of one lens have equal lenses and
+///     share what is refined of them.
+/// sensors : list of Sensor, optional
+///     Further cameras mounted on each camera.
+/// sensor_of_observation : array_like of int, optional
+///     0 if the camera itself made the observation, k if sensor k - 1 did; 0 if missing.
+#[pyclass(frozen, module = "epipole.sfm")]
+pub(super) struct Bundle(pub(super) sfm::Bundle);
+
+wrapper!(
+    Bundle: cameras, points, observations, pixels, lens_of_camera, sensors, sensor_of_observation
+);
+
+#[pymethods]
+impl Bundle {
+    #[new]
+    #[pyo3(signature = (
+        cameras, points, observations, pixels, lens_of_camera=None, sensors=None,
+        sensor_of_observation=None
+    ))]
+    fn new(
+        cameras: Vec<PosedCamera>,
+        points: &Bound<'_, PyAny>,
+        observations: &Bound<'_, PyAny>,
+        pixels: &Bound<'_, PyAny>,
+        lens_of_camera: Option<&Bound<'_, PyAny>>,
+        sensors: Option<Vec<Sensor>>,
+        sensor_of_observation: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let optional = |name: &str, value: Option<&Bound<'_, PyAny>>| {
+            value.map_or_else(|| Ok(Vec::new()), |value| indices(name, value))
+        };
+        let sensors = sensors.unwrap_or_default();
+        Ok(Self(sfm::Bundle {
+            cameras: cameras.into_iter().map(|camera| camera.0).collect(),
+            lens_of_camera: optional("lens_of_camera", lens_of_camera)?,
+            points: points3("points", points)?,
+            observations: observed(observations, pixels)?,
+            sensors: sensors.into_iter().map(|sensor| sensor.0).collect(),
+            sensor_of_observation: optional("sensor_of_observation", sensor_of_observation)?,
+        }))
+    }
+
+    /// Cameras, a list of `PosedCamera`.
+    #[getter]
+    fn cameras(&self) -> Vec<PosedCamera> {
+        self.0.cameras.iter().map(|&camera| camera.into()).collect()
+    }
+
+    /// Points in the world, shape (P, 3).
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<_> = self.0.points.iter().map(|point| point.coords).collect();
+        from_rows(py, &rows)
+    }
+
+    /// Index of the camera and of the point, int64 of shape (M, 2).
+    #[getter]
+    fn observations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        give_index_rows(py, self.0.observations.iter().map(|o| [o.camera, o.point]))
+    }
+
+    /// Pixel of each observation, shape (M, 2).
+    #[getter]
+    fn pixels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        give_pixels(py, &self.0.observations)
+    }
+
+    /// Number of the lens of each camera, int64 array.
+    #[getter]
+    fn lens_of_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        give_indices(py, &self.0.lens_of_camera)
+    }
+
+    /// Further cameras mounted on each camera, a list of `Sensor`.
+    #[getter]
+    fn sensors(&self) -> Vec<Sensor> {
+        self.0
+            .sensors
+            .iter()
+            .map(|&sensor| Sensor(sensor))
+            .collect()
+    }
+
+    /// Sensor of each observation, int64 array; 0 for the camera itself.
+    #[getter]
+    fn sensor_of_observation<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        give_indices(py, &self.0.sensor_of_observation)
+    }
+
+    /// Reprojection error of an observation, predicted minus observed pixel, shape (2,).
+    fn residual_px<'py>(
+        &self,
+        py: Python<'py>,
+        observation: usize,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let Some(seen) = self.0.observations.get(observation) else {
+            let count = self.0.observations.len();
+            let message = format!("observation is {observation}, but there are {count}");
+            return Err(PyIndexError::new_err(message));
+        };
+        if seen.camera >= self.0.cameras.len() || seen.point >= self.0.points.len() {
+            let message = format!("observation {observation} has no camera or no point");
+            return Err(PyIndexError::new_err(message));
+        }
+        let residual: Vector2<f64> = self.0.residual_px(observation);
+        Ok(from_vector(py, &residual))
+    }
+}
+
+/// Reads observations from indices and pixels.
+pub(super) fn observed(
+    observations: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+) -> PyResult<Vec<BundleObservation>> {
+    let observations = index_rows::<2>("observations", observations)?;
+    let pixels = points2("pixels", pixels)?;
+    require_equal(
+        ("observations", observations.len()),
+        ("pixels", pixels.len()),
+    )?;
+    let pairs = observations.iter().zip(pixels);
+    Ok(pairs
+        .map(|(&[camera, point], pixel)| BundleObservation {
+            camera,
+            point,
+            pixel,
+        })
+        .collect())
+}
+
+/// Array of the pixels of observations, shape (M, 2).
+pub(super) fn give_pixels<'py>(
+    py: Python<'py>,
+    observations: &[BundleObservation],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let rows: Vec<_> = observations.iter().map(|o| o.pixel.coords).collect();
+    from_rows(py, &rows)
+}
+
+/// Options with arrays as lists, and priors as dictionaries.
+pub(super) fn plain_options<'py>(
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let Some(options) = options else {
+        return Ok(None);
+    };
+    let plain = options.copy()?;
+    for (key, value) in options {
+        if value.hasattr("tolist")? {
+            plain.set_item(key, value.call_method0("tolist")?)?;
+        } else if let Ok(list) = value.cast::<PyList>() {
+            let priors = list
+                .iter()
+                .map(|entry| match entry.cast::<PositionPrior>() {
+                    Ok(prior) => Ok(pythonize::pythonize(options.py(), &prior.get().0)?),
+                    Err(_) => Ok(entry),
+                });
+            let priors = priors.collect::<PyResult<Vec<_>>>()?;
+            plain.set_item(key, priors)?;
+        }
+    }
+    Ok(Some(plain))
+}
+
+/// Refines cameras and points, and their lenses if asked, by the reprojection errors.
+///
+/// Parameters
+/// ----------
+/// bundle : Bundle
+///     It is not changed.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``loss``, of pixels; ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
+///     ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``; ``held_cameras`` and
+///     ``held_points``, lists of bool; ``position_priors``, a list of `PositionPrior` or None;
+///     ``position_loss``; ``lm``, a dict such as ``{"max_iterations": 50}``.
+///
+/// Returns
+/// -------
+/// bundle : Bundle
+/// report : epipole.optim.LmReport
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.DegenerateError
+#[pyfunction]
+#[pyo3(signature = (bundle, *, progress=None, **options))]
+pub(super) fn adjust_bundle(
+    py: Python<'_>,
+    bundle: &Bundle,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<(Bundle, LmReport)> {
+    let options = options::read(plain_options(options)?.as_ref())?;
+    let mut bundle = bundle.0.clone();
+    let report = progress::run(py, progress, |monitor| {
+        sfm::adjust_bundle(&mut bundle, &options, monitor)
+    })?;
+    Ok((Bundle(bundle), LmReport::give(py, report)?))
+}

@@ -1,0 +1,285 @@
+//! Odometry.
+
+use super::images::{SfmImage, SfmInput, matches};
+use super::incremental::{SfmStep, take, with};
+use super::reconstruction::Reconstruction;
+use super::wrapper::wrapper;
+use crate::camera::{Camera, RigidTransform};
+use crate::{options, progress};
+use epipole::feature::Match;
+use epipole::sfm;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Mutex;
+
+/// Path of a camera.
+///
+/// Parameters
+/// ----------
+/// world_from_cam : list of RigidTransform or None
+/// keyframes, lost : list of int
+/// reconstruction : Reconstruction
+/// is_complete : bool
+#[pyclass(frozen, module = "epipole.sfm")]
+pub(super) struct OdometryResult(sfm::OdometryResult);
+
+wrapper!(OdometryResult: world_from_cam, keyframes, lost, reconstruction, is_complete);
+
+#[pymethods]
+impl OdometryResult {
+    #[new]
+    fn new(
+        world_from_cam: Vec<Option<RigidTransform>>,
+        keyframes: Vec<usize>,
+        lost: Vec<usize>,
+        reconstruction: &Reconstruction,
+        is_complete: bool,
+    ) -> Self {
+        Self(sfm::OdometryResult {
+            world_from_cam: world_from_cam
+                .into_iter()
+                .map(|pose| Some(pose?.0))
+                .collect(),
+            keyframes,
+            lost,
+            reconstruction: reconstruction.0.clone(),
+            is_complete,
+        })
+    }
+
+    /// ``world_from_cam`` of each frame, None if it was lost. The first frame found is the origin.
+    #[getter]
+    fn world_from_cam(&self) -> Vec<Option<RigidTransform>> {
+        let poses = self.0.world_from_cam.iter();
+        poses.map(|&pose| Some(pose?.into())).collect()
+    }
+
+    /// Frames that gave points.
+    #[getter]
+    fn keyframes(&self) -> Vec<usize> {
+        self.0.keyframes.clone()
+    }
+
+    /// Frames that could not be placed.
+    #[getter]
+    fn lost(&self) -> Vec<usize> {
+        self.0.lost.clone()
+    }
+
+    /// Cameras and points; of a stereo rig the left cameras, then the right ones.
+    #[getter]
+    fn reconstruction(&self) -> Reconstruction {
+        Reconstruction(self.0.reconstruction.clone())
+    }
+
+    /// Whether every frame was tried.
+    #[getter]
+    fn is_complete(&self) -> bool {
+        self.0.is_complete
+    }
+}
+
+/// Arguments of the functions for stereo rigs.
+struct Right {
+    images: Vec<sfm::SfmImage>,
+    left_right: Vec<Vec<Match>>,
+}
+
+impl Right {
+    fn read(right: Vec<SfmImage>, left_right: Vec<Bound<'_, PyAny>>) -> PyResult<Self> {
+        let frames = left_right.iter().enumerate();
+        let left_right = frames.map(|(k, frame)| matches(&format!("left_right[{k}]"), frame));
+        Ok(Self {
+            images: right.into_iter().map(|image| image.0).collect(),
+            left_right: left_right.collect::<PyResult<_>>()?,
+        })
+    }
+}
+
+/// Path of a single camera, up to scale.
+///
+/// Parameters
+/// ----------
+/// input : SfmInput
+///     Frames in order of time, and matches between frames that are near in time.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes that
+///     are refined together; ``final_adjustment``.
+///
+/// Returns
+/// -------
+/// OdometryResult
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.DegenerateError
+#[pyfunction]
+#[pyo3(signature = (input, *, progress=None, **options))]
+pub(super) fn monocular_odometry(
+    py: Python<'_>,
+    input: &SfmInput,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<OdometryResult> {
+    let options = options::read(options)?;
+    let input = &input.0;
+    let result = progress::run(py, progress, |monitor| {
+        sfm::monocular_odometry(input, &options, monitor)
+    })?;
+    Ok(OdometryResult(result))
+}
+
+/// Path of a stereo rig, in the unit of its baseline.
+///
+/// Parameters
+/// ----------
+/// left : SfmInput
+///     Frames of the left camera in order of time, and matches between them.
+/// right : list of SfmImage
+///     The same frames of the right camera.
+/// left_right : list of epipole.feature.Matches or array_like of int, shape (M, 2)
+///     Matches between the two images of each frame, left first.
+/// right_from_left : RigidTransform
+/// right_camera : Camera
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     Those of `monocular_odometry`.
+///
+/// Returns
+/// -------
+/// OdometryResult
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.DegenerateError
+#[pyfunction]
+#[pyo3(signature = (
+    left, right, left_right, right_from_left, right_camera, *, progress=None, **options
+))]
+#[allow(clippy::too_many_arguments)]
+pub(super) fn stereo_odometry(
+    py: Python<'_>,
+    left: &SfmInput,
+    right: Vec<SfmImage>,
+    left_right: Vec<Bound<'_, PyAny>>,
+    right_from_left: &RigidTransform,
+    right_camera: &Camera,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<OdometryResult> {
+    let options = options::read(options)?;
+    let Right { images, left_right } = Right::read(right, left_right)?;
+    let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
+    let result = progress::run(py, progress, |monitor| {
+        sfm::stereo_odometry(
+            left,
+            &images,
+            &left_right,
+            motion,
+            camera,
+            &options,
+            monitor,
+        )
+    })?;
+    Ok(OdometryResult(result))
+}
+
+/// `monocular_odometry` or `stereo_odometry`, step by step.
+#[pyclass(frozen, module = "epipole.sfm")]
+pub(super) struct Odometry(Mutex<Option<sfm::Odometry>>);
+
+#[pymethods]
+impl Odometry {
+    /// Start with a single camera.
+    ///
+    /// Parameters
+    /// ----------
+    /// input : SfmInput
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    /// **options
+    ///     Those of `monocular_odometry`.
+    #[staticmethod]
+    #[pyo3(signature = (input, *, progress=None, **options))]
+    fn monocular(
+        py: Python<'_>,
+        input: &SfmInput,
+        progress: Option<Py<PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let options = options::read(options)?;
+        let input = &input.0;
+        let started = progress::run(py, progress, |monitor| {
+            sfm::Odometry::monocular(input, &options, monitor)
+        })?;
+        Ok(Self(Mutex::new(Some(started))))
+    }
+
+    /// Start with a stereo rig; see `stereo_odometry`.
+    ///
+    /// Parameters
+    /// ----------
+    /// left : SfmInput
+    /// right : list of SfmImage
+    /// left_right : list of epipole.feature.Matches or array_like of int, shape (M, 2)
+    /// right_from_left : RigidTransform
+    /// right_camera : Camera
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    /// **options
+    ///     Those of `monocular_odometry`.
+    #[staticmethod]
+    #[pyo3(signature = (
+        left, right, left_right, right_from_left, right_camera, *, progress=None, **options
+    ))]
+    #[allow(clippy::too_many_arguments)]
+    fn stereo(
+        py: Python<'_>,
+        left: &SfmInput,
+        right: Vec<SfmImage>,
+        left_right: Vec<Bound<'_, PyAny>>,
+        right_from_left: &RigidTransform,
+        right_camera: &Camera,
+        progress: Option<Py<PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let options = options::read(options)?;
+        let Right { images, left_right } = Right::read(right, left_right)?;
+        let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
+        let started = progress::run(py, progress, |monitor| {
+            sfm::Odometry::stereo(
+                left,
+                &images,
+                &left_right,
+                motion,
+                camera,
+                &options,
+                monitor,
+            )
+        })?;
+        Ok(Self(Mutex::new(Some(started))))
+    }
+
+    /// Takes the next step and returns an `SfmStep`; None after the last.
+    ///
+    /// After an interruption the next call continues from there.
+    ///
+    /// Parameters
+    /// ----------
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    #[pyo3(signature = (*, progress=None))]
+    fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
+        with(&self.0, |work| {
+            Ok(progress::run(py, progress, |monitor| work.step(monitor))?.map(SfmStep))
+        })
+    }
+
+    /// Path so far, an `OdometryResult`. Ends the work.
+    fn finish(&self) -> PyResult<OdometryResult> {
+        Ok(OdometryResult(take(&self.0)?.finish()))
+    }
+}

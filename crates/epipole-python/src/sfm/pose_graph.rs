@@ -1,0 +1,344 @@
+//! Pose graphs, with poses as rows of numbers.
+
+use super::pose_rows::Row;
+use super::wrapper::{give_index_rows, give_indices, index_rows, indices, require_equal, wrapper};
+use crate::arrays::{as_array, vectors};
+use crate::images::{elements, wrong_shape};
+use crate::optim::termination;
+use crate::record::record;
+use crate::{options, progress};
+use epipole::nalgebra::{SMatrix, SVector};
+use epipole::sfm::{self, Edge, Graph};
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2, PyArray3};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Poses, joined by measured relative poses.
+///
+/// A pose is a row of an array: (x, y, angle) in the plane; (x, y, z, qw, qx, qy, qz) in space; the
+/// same with a scale behind it for similarities.
+///
+/// Parameters
+/// ----------
+/// kind : {"se2", "se3", "sim3"}
+/// vertices : array_like, shape (V, 3), (V, 7) or (V, 8)
+///     ``world_from_vertex`` of each vertex.
+/// edges : array_like of int, shape (E, 2)
+///     Indices of the vertices where each edge starts and ends.
+/// measurements : array_like, shape (E, 3), (E, 7) or (E, 8)
+///     Pose of the end in the frame of the start.
+/// information : array_like, shape (E, D, D), optional
+///     Inverse covariances of translation, rotation, log scale: D is 3, 6 or 7. Identities if not
+///     given.
+/// fixed : array_like of int, optional
+///     Vertices that stay. In a connected part without one, its first vertex stays.
+/// ids : array_like of int, shape (V,), optional
+///     Number of each vertex in a file.
+#[pyclass(frozen, module = "epipole.sfm")]
+pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
+
+wrapper!(PoseGraph: kind, vertices, edges, measurements, information, fixed, ids);
+
+/// Arguments of the constructor.
+struct Parts<'a, 'py> {
+    vertices: &'a Bound<'py, PyAny>,
+    edges: Vec<[usize; 2]>,
+    measurements: &'a Bound<'py, PyAny>,
+    information: Option<&'a Bound<'py, PyAny>>,
+    fixed: Vec<usize>,
+    ids: Option<Vec<usize>>,
+}
+
+impl Parts<'_, '_> {
+    fn graph<T: Row, const N: usize, const D: usize>(self) -> PyResult<Graph<T, D>> {
+        let poses = |name: &str, value: &Bound<'_, PyAny>| {
+            let rows: Vec<SVector<f64, N>> = vectors::<N>(name, value)?;
+            rows.iter()
+                .map(|row| T::read(row.as_slice()))
+                .collect::<PyResult<Vec<T>>>()
+        };
+        let vertices = poses("vertices", self.vertices)?;
+        let measurements = poses("measurements", self.measurements)?;
+        let count = self.edges.len();
+        require_equal(("edges", count), ("measurements", measurements.len()))?;
+        let information = match self.information {
+            Some(information) => matrices::<D>("information", information)?,
+            None => vec![SMatrix::identity(); count],
+        };
+        require_equal(("edges", count), ("information", information.len()))?;
+        let mut used = self.edges.iter().flatten().chain(&self.fixed);
+        if let Some(index) = used.find(|&&index| index >= vertices.len()) {
+            return Err(PyValueError::new_err(format!(
+                "edges and fixed must have indices of vertices, but there is {index} for {} \
+                 vertices",
+                vertices.len()
+            )));
+        }
+        let ids = match self.ids {
+            Some(ids) => ids.into_iter().map(|id| id as u64).collect(),
+            None => (0..vertices.len() as u64).collect::<Vec<_>>(),
+        };
+        require_equal(("vertices", vertices.len()), ("ids", ids.len()))?;
+        let edges = self.edges.into_iter().zip(measurements).zip(information);
+        Ok(Graph {
+            ids,
+            vertices,
+            edges: edges
+                .map(|(([from, to], from_from_to), information)| Edge {
+                    from,
+                    to,
+                    from_from_to,
+                    information,
+                })
+                .collect(),
+            fixed: self.fixed,
+        })
+    }
+}
+
+fn matrices<const D: usize>(
+    name: &str,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<Vec<SMatrix<f64, D, D>>> {
+    let expected = format!("(E, {D}, {D})");
+    let array = as_array(name, value, &expected)?;
+    match *array.shape() {
+        [_, rows, columns] if rows == D && columns == D => {}
+        _ => return Err(wrong_shape(name, &expected, &array)?),
+    }
+    let numbers: Vec<f64> = elements(&array, "float64")?;
+    Ok(numbers
+        .chunks_exact(D * D)
+        .map(SMatrix::from_row_slice)
+        .collect())
+}
+
+fn table<'py, T: Row>(
+    py: Python<'py>,
+    poses: impl Iterator<Item = T>,
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let mut numbers = Vec::new();
+    poses.for_each(|pose| pose.give(&mut numbers));
+    let count = numbers.len() / columns;
+    PyArray1::from_vec(py, numbers).reshape([count, columns])
+}
+
+fn give_information<'py, T, const D: usize>(
+    py: Python<'py>,
+    edges: &[Edge<T, D>],
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let rows = edges
+        .iter()
+        .flat_map(|edge| edge.information.transpose().as_slice().to_vec());
+    PyArray1::from_vec(py, rows.collect()).reshape([edges.len(), D, D])
+}
+
+/// Evaluates an expression for the graph of each kind.
+macro_rules! each {
+    ($graph:expr, |$name:ident, $columns:ident| $value:expr) => {
+        match $graph {
+            sfm::PoseGraph::Se2($name) => {
+                let $columns = 3;
+                $value
+            }
+            sfm::PoseGraph::Se3($name) => {
+                let $columns = 7;
+                $value
+            }
+            sfm::PoseGraph::Sim3($name) => {
+                let $columns = 8;
+                $value
+            }
+        }
+    };
+}
+
+#[pymethods]
+impl PoseGraph {
+    #[new]
+    #[pyo3(signature = (
+        kind, vertices, edges, measurements, information=None, fixed=None, ids=None
+    ))]
+    fn new(
+        kind: &str,
+        vertices: &Bound<'_, PyAny>,
+        edges: &Bound<'_, PyAny>,
+        measurements: &Bound<'_, PyAny>,
+        information: Option<&Bound<'_, PyAny>>,
+        fixed: Option<&Bound<'_, PyAny>>,
+        ids: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let parts = Parts {
+            vertices,
+            edges: index_rows::<2>("edges", edges)?,
+            measurements,
+            information,
+            fixed: fixed.map_or_else(|| Ok(Vec::new()), |fixed| indices("fixed", fixed))?,
+            ids: ids.map(|ids| indices("ids", ids)).transpose()?,
+        };
+        Ok(Self(match kind {
+            "se2" => sfm::PoseGraph::Se2(parts.graph::<_, 3, 3>()?),
+            "se3" => sfm::PoseGraph::Se3(parts.graph::<_, 7, 6>()?),
+            "sim3" => sfm::PoseGraph::Sim3(parts.graph::<_, 8, 7>()?),
+            _ => {
+                return Err(PyValueError::new_err(format!(
+                    "kind must be \"se2\", \"se3\" or \"sim3\", but is \"{kind}\""
+                )));
+            }
+        }))
+    }
+
+    /// "se2", "se3" or "sim3".
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match self.0 {
+            sfm::PoseGraph::Se2(_) => "se2",
+            sfm::PoseGraph::Se3(_) => "se3",
+            sfm::PoseGraph::Sim3(_) => "sim3",
+        }
+    }
+
+    /// ``world_from_vertex`` of each vertex, shape (V, 3), (V, 7) or (V, 8).
+    #[getter]
+    fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        each!(&self.0, |graph, columns| table(
+            py,
+            graph.vertices.iter().copied(),
+            columns
+        ))
+    }
+
+    /// Vertices where each edge starts and ends, int64 of shape (E, 2).
+    #[getter]
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        each!(&self.0, |graph, _columns| {
+            give_index_rows(py, graph.edges.iter().map(|edge| [edge.from, edge.to]))
+        })
+    }
+
+    /// Pose of the end in the frame of the start of each edge, shape (E, 3), (E, 7) or (E, 8).
+    #[getter]
+    fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        each!(&self.0, |graph, columns| {
+            table(
+                py,
+                graph.edges.iter().map(|edge| edge.from_from_to),
+                columns,
+            )
+        })
+    }
+
+    /// Inverse covariances of the measurements, shape (E, D, D).
+    #[getter]
+    fn information<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        each!(&self.0, |graph, _columns| give_information(
+            py,
+            &graph.edges
+        ))
+    }
+
+    /// Vertices that stay, int64 array.
+    #[getter]
+    fn fixed<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        each!(&self.0, |graph, _columns| give_indices(py, &graph.fixed))
+    }
+
+    /// Number of each vertex in a file, int64 of shape (V,).
+    #[getter]
+    fn ids<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        each!(&self.0, |graph, _columns| {
+            PyArray1::from_iter(py, graph.ids.iter().map(|&id| id as i64))
+        })
+    }
+
+    /// Sum of the squared errors, weighted by their information.
+    fn chi2(&self) -> f64 {
+        self.0.chi2()
+    }
+
+    /// Number of vertices and of edges.
+    fn size(&self) -> (usize, usize) {
+        self.0.size()
+    }
+
+    /// Graph with vertices computed from the measurements alone.
+    ///
+    /// Parameters
+    /// ----------
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    ///
+    /// Returns
+    /// -------
+    /// PoseGraph
+    #[pyo3(signature = (*, progress=None))]
+    fn initialize(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
+        let mut graph = self.0.clone();
+        progress::run(py, progress, |monitor| graph.initialize(monitor))?;
+        Ok(Self(graph))
+    }
+
+    /// Graph with the least sum of squared errors.
+    ///
+    /// Parameters
+    /// ----------
+    /// loss : str or dict, optional
+    ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    /// **options
+    ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
+    ///     ``initial_damping``, ``patience``.
+    ///
+    /// Returns
+    /// -------
+    /// graph : PoseGraph
+    /// report : PoseGraphReport
+    #[pyo3(signature = (*, loss=None, progress=None, **options))]
+    fn optimize(
+        &self,
+        py: Python<'_>,
+        loss: Option<&Bound<'_, PyAny>>,
+        progress: Option<Py<PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<(Self, PoseGraphReport)> {
+        let loss = options::loss(loss)?;
+        let options = options::read(options)?;
+        let mut graph = self.0.clone();
+        let report = progress::run(py, progress, |monitor| {
+            graph.optimize(&options, loss, monitor)
+        })?;
+        Ok((Self(graph), report.into()))
+    }
+}
+
+record! {
+    /// Report of the optimization of a pose graph.
+    "epipole.sfm" PoseGraphReport {
+        /// Sum of the weighted squared errors at the start.
+        initial_chi2: f64,
+        /// Sum of the weighted squared errors at the end.
+        final_chi2: f64,
+        /// Steps tried.
+        iterations: usize,
+        /// Why the loop ended, as in `epipole.optim.LmReport`.
+        termination: String,
+        /// Number of connected parts.
+        num_components: usize,
+    }
+}
+
+impl From<sfm::PoseGraphReport> for PoseGraphReport {
+    fn from(report: sfm::PoseGraphReport) -> Self {
+        Self {
+            initial_chi2: report.initial_chi2,
+            final_chi2: report.final_chi2,
+            iterations: report.iterations,
+            termination: termination(report.termination),
+            num_components: report.num_components,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Reconstruction of two views.
+
+use super::bundle::plain_options;
+use super::wrapper::give_indices;
+use crate::arrays::{from_rows, points2};
+use crate::camera::{Camera, RigidTransform};
+use crate::optim::LmReport;
+use crate::record::record;
+use crate::{options, progress};
+use epipole::nalgebra::Point3;
+use epipole::sfm;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Two cameras and their points, in the frame of camera 1; the cameras have distance 1.
+    "epipole.sfm" TwoViewReconstruction {
+        /// Refined motion, ``|t| == 1``.
+        cam2_from_cam1: RigidTransform,
+        /// Points, shape (P, 3).
+        points: Py<PyArray2<f64>>,
+        /// The same points as first triangulated, shape (P, 3).
+        triangulated: Py<PyArray2<f64>>,
+        /// Index of the match of each point, increasing, int64 of shape (P,).
+        match_of_point: Py<PyArray1<i64>>,
+        /// Number of matches in front of both cameras by each of the four motions of E, most first.
+        num_in_front: [usize; 4],
+        /// Root mean square of the reprojection errors as first triangulated, pixels.
+        rms_before_px: f64,
+        /// Root mean square after the refinement, pixels.
+        rms_px: f64,
+        /// `epipole.optim.LmReport` of the last refinement.
+        report: Py<LmReport>,
+    }
+}
+
+/// Points of the matches of two views, refined together with the motion.
+///
+/// Parameters
+/// ----------
+/// pixels1, pixels2 : array_like, shape (N, 2)
+///     Matches without outliers.
+/// camera1, camera2 : Camera
+/// cam2_from_cam1 : RigidTransform
+///     Motion to start from; the length of its translation does not matter.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options
+///     ``min_angle_rad``, ``max_error_px``, ``min_num_points``; ``bundle``, a dict of the options
+///     of `adjust_bundle`.
+///
+/// Returns
+/// -------
+/// TwoViewReconstruction
+///
+/// Raises
+/// ------
+/// epipole.TooFewError, epipole.DegenerateError
+#[pyfunction]
+#[pyo3(signature = (
+    pixels1, pixels2, camera1, camera2, cam2_from_cam1, *, progress=None, **options
+))]
+#[allow(clippy::too_many_arguments)]
+pub(super) fn two_view_reconstruction(
+    py: Python<'_>,
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+    camera1: &Camera,
+    camera2: &Camera,
+    cam2_from_cam1: &RigidTransform,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<TwoViewReconstruction> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let options = options::read(plain_options(options)?.as_ref())?;
+    let (cameras, motion) = ([&camera1.0, &camera2.0], &cam2_from_cam1.0);
+    let found = progress::run(py, progress, |monitor| {
+        sfm::two_view_reconstruction(&pixels1, &pixels2, cameras, motion, &options, monitor)
+    })?;
+    let rows = |points: &[Point3<f64>]| {
+        let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
+        PyResult::Ok(from_rows(py, &rows)?.unbind())
+    };
+    Ok(TwoViewReconstruction {
+        cam2_from_cam1: found.cam2_from_cam1.into(),
+        points: rows(&found.points)?,
+        triangulated: rows(&found.triangulated)?,
+        match_of_point: give_indices(py, &found.match_of_point).unbind(),
+        num_in_front: found.num_in_front,
+        rms_before_px: found.rms_before_px,
+        rms_px: found.rms_px,
+        report: Py::new(py, LmReport::give(py, found.report)?)?,
+    })
+}

@@ -1,0 +1,224 @@
+//! Random points seen by known cameras, with ground truth.
+
+use crate::arrays::from_rows;
+use crate::camera::PosedCamera;
+use crate::errors::OrRaise;
+use crate::options;
+use crate::record::record;
+use crate::sfm::wrapper::give_index_rows;
+use epipole::nalgebra::{Point2, Point3};
+use epipole::synthetic;
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyTuple};
+
+/// Array of shape (N, 2).
+fn pixels(py: Python<'_>, points: &[Point2<f64>]) -> PyResult<Py<PyArray2<f64>>> {
+    let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
+    Ok(from_rows(py, &rows)?.unbind())
+}
+
+/// Array of shape (N, 3).
+fn places(py: Python<'_>, points: &[Point3<f64>]) -> PyResult<Py<PyArray2<f64>>> {
+    let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
+    Ok(from_rows(py, &rows)?.unbind())
+}
+
+/// Class and options that make a problem again, for pickling.
+fn reduce<'py, T: serde::Serialize>(
+    object: &Bound<'py, PyAny>,
+    options: &T,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    let py = object.py();
+    let options = pythonize::pythonize(py, options)?;
+    let make = py.import("functools")?.getattr("partial")?;
+    let make = make.call((object.get_type(),), Some(options.cast::<PyDict>()?))?;
+    Ok((make, PyTuple::empty(py)))
+}
+
+/// Matches between two images of 640 x 480 pixels, with the truth about them.
+///
+/// Parameters
+/// ----------
+/// **options
+///     ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``, ``"plane"`` or
+///     ``"corner"`` likewise; ``baseline_m``, ``distance_m``, ``noise_px``,
+///     ``outlier_fraction``, ``seed``.
+#[pyclass(frozen, module = "epipole.synthetic")]
+struct TwoViewProblem {
+    options: synthetic::TwoViewProblemOptions,
+    problem: synthetic::TwoViewProblem,
+}
+
+#[pymethods]
+impl TwoViewProblem {
+    #[new]
+    #[pyo3(signature = (**options))]
+    fn new(options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let options = options::read(options)?;
+        let problem = synthetic::TwoViewProblem::new(&options).or_raise()?;
+        Ok(Self { options, problem })
+    }
+
+    /// First camera, at (0, 0, -distance), which looks along +z.
+    #[getter]
+    fn camera1(&self) -> PosedCamera {
+        self.problem.camera1.into()
+    }
+
+    /// Second camera, to the right of it, which looks at the world's origin.
+    #[getter]
+    fn camera2(&self) -> PosedCamera {
+        self.problem.camera2.into()
+    }
+
+    /// Measured pixels in the first image, shape (N, 2).
+    #[getter]
+    fn pixels1(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        pixels(py, &self.problem.pixels1)
+    }
+
+    /// Their matches in the second image, shape (N, 2).
+    #[getter]
+    fn pixels2(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        pixels(py, &self.problem.pixels2)
+    }
+
+    /// Whether a match is right up to noise, boolean array of shape (N,).
+    #[getter]
+    fn is_inlier<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.problem.is_inlier.to_pyarray(py)
+    }
+
+    /// Points in the world, shape (N, 3).
+    #[getter]
+    fn points(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        places(py, &self.problem.points)
+    }
+
+    fn __repr__(&self) -> String {
+        let count = self.problem.points.len();
+        format!(
+            "TwoViewProblem({count} matches, seed={})",
+            self.options.seed
+        )
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other
+            .cast::<Self>()
+            .is_ok_and(|other| other.get().problem == self.problem)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        reduce(slf, &slf.get().options)
+    }
+}
+
+/// Cameras, points and observations, in images of 640 x 480 pixels, with the truth about them.
+///
+/// Parameters
+/// ----------
+/// **options
+///     ``num_cameras``, ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``,
+///     ``"plane"`` or ``"corner"`` likewise; ``path``, such as
+///     ``{"arc": {"radius_m": 6.0, "span_rad": 1.0}}`` or
+///     ``{"line": {"distance_m": 6.0, "spacing_m": 0.5}}``; ``visible_fraction``, ``noise_px``,
+///     ``outlier_fraction``, ``seed``.
+#[pyclass(frozen, module = "epipole.synthetic")]
+struct MultiViewProblem {
+    options: synthetic::MultiViewProblemOptions,
+    problem: synthetic::MultiViewProblem,
+}
+
+#[pymethods]
+impl MultiViewProblem {
+    #[new]
+    #[pyo3(signature = (**options))]
+    fn new(options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let options = options::read(options)?;
+        let problem = synthetic::MultiViewProblem::new(&options).or_raise()?;
+        Ok(Self { options, problem })
+    }
+
+    /// True cameras, a list of `epipole.camera.PosedCamera`.
+    #[getter]
+    fn cameras(&self) -> Vec<PosedCamera> {
+        let cameras = self.problem.cameras.iter();
+        cameras.map(|&camera| camera.into()).collect()
+    }
+
+    /// True points, in the world, shape (P, 3).
+    #[getter]
+    fn points(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        places(py, &self.problem.points)
+    }
+
+    /// All observations, by point, and of one point by camera.
+    #[getter]
+    fn observations(&self, py: Python<'_>) -> PyResult<Sightings> {
+        let seen = &self.problem.observations;
+        let at: Vec<_> = seen.iter().map(|sighting| sighting.pixel).collect();
+        let is_inlier = seen.iter().map(|sighting| sighting.is_inlier);
+        let rows = seen
+            .iter()
+            .map(|sighting| [sighting.camera, sighting.point]);
+        Ok(Sightings {
+            indices: give_index_rows(py, rows)?.unbind(),
+            pixels: pixels(py, &at)?,
+            is_inlier: PyArray1::from_iter(py, is_inlier).unbind(),
+        })
+    }
+
+    /// Observations of each point.
+    ///
+    /// Returns
+    /// -------
+    /// list of Any
+    ///     Slices into the observations.
+    fn tracks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let slice = |range: std::ops::Range<usize>| {
+            pyo3::types::PySlice::new(py, range.start as isize, range.end as isize, 1)
+        };
+        PyList::new(py, self.problem.tracks().into_iter().map(slice))
+    }
+
+    fn __repr__(&self) -> String {
+        let (cameras, points) = (self.problem.cameras.len(), self.problem.points.len());
+        let seed = self.options.seed;
+        format!("MultiViewProblem({cameras} cameras, {points} points, seed={seed})")
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other
+            .cast::<Self>()
+            .is_ok_and(|other| other.get().problem == self.problem)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        reduce(slf, &slf.get().options)
+    }
+}
+
+record! {
+    /// Points seen by cameras; row k of each array belongs to observation k.
+    "epipole.synthetic" Sightings {
+        /// Index of the camera and of the point, int64 of shape (M, 2).
+        indices: Py<PyArray2<i64>>,
+        /// Measured pixels, shape (M, 2).
+        pixels: Py<PyArray2<f64>>,
+        /// Whether an observation is right up to noise, boolean array of shape (M,).
+        is_inlier: Py<PyArray1<bool>>,
+    }
+}
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<TwoViewProblem>()?;
+    module.add_class::<MultiViewProblem>()?;
+    module.add_class::<Sightings>()
+}
