@@ -15,6 +15,7 @@
 
 mod absolute_pose;
 mod arrays;
+mod calibration;
 mod camera;
 mod epipolar;
 mod errors;
@@ -22,11 +23,17 @@ mod feature;
 mod homography;
 mod images;
 mod imaging;
+mod io;
+mod math;
+mod optim;
 mod options;
 mod progress;
 mod record;
 mod robust;
+mod sfm;
 mod stereo;
+mod stitch;
+mod synthetic;
 mod triangulation;
 mod two_view;
 
@@ -36,7 +43,7 @@ use pyo3::prelude::*;
 type Register = fn(&Bound<'_, PyModule>) -> PyResult<()>;
 
 /// The library's modules, in its order.
-const MODULES: [(&str, Register); 10] = [
+const MODULES: [(&str, Register); 17] = [
     ("camera", camera::register),
     ("robust", robust::register),
     ("epipolar", epipolar::register),
@@ -47,6 +54,13 @@ const MODULES: [(&str, Register); 10] = [
     ("imaging", imaging::register),
     ("feature", feature::register),
     ("stereo", stereo::register),
+    ("calibration", calibration::register),
+    ("sfm", sfm::register),
+    ("stitch", stitch::register),
+    ("math", math::register),
+    ("optim", optim::register),
+    ("synthetic", synthetic::register),
+    ("io", io::register),
 ];
 
 #[pymodule]

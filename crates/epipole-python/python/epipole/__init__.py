@@ -17,17 +17,25 @@ from epipole._epipole import (
     TooFewError,
     __version__,
     absolute_pose,
+    calibration,
     camera,
     epipolar,
     feature,
     homography,
     imaging,
+    io,
+    math,
+    optim,
     robust,
+    sfm,
     stereo,
+    stitch,
+    synthetic,
     triangulation,
     two_view,
 )
 from epipole.absolute_pose import estimate_absolute_pose
+from epipole.calibration import Board, calibrate, calibrate_rig, find_board
 from epipole.camera import Camera, Intrinsics, Lens, PosedCamera, RigidTransform
 from epipole.epipolar import (
     decompose_essential,
@@ -40,11 +48,13 @@ from epipole.feature import detect_features, detect_sift, match_descriptors, ref
 from epipole.homography import estimate_homography, transfer
 from epipole.imaging import gray_to_f32, rgb_to_gray, rgb_to_gray_f32, warp_perspective
 from epipole.robust import RansacReport, ransac
+from epipole.sfm import reconstruct_photos
 from epipole.stereo import StereoSgm, rectify_calibrated
 from epipole.triangulation import triangulate_dlt, triangulate_nview
 from epipole.two_view import estimate_two_view, estimate_two_view_calibrated
 
 __all__ = [
+    "Board",
     "Camera",
     "DegenerateError",
     "Error",
@@ -58,6 +68,9 @@ __all__ = [
     "TooFewError",
     "__version__",
     "absolute_pose",
+    "calibrate",
+    "calibrate_rig",
+    "calibration",
     "camera",
     "decompose_essential",
     "detect_features",
@@ -71,18 +84,26 @@ __all__ = [
     "estimate_two_view",
     "estimate_two_view_calibrated",
     "feature",
+    "find_board",
     "gray_to_f32",
     "homography",
     "imaging",
+    "io",
     "match_descriptors",
+    "math",
+    "optim",
     "ransac",
+    "reconstruct_photos",
     "rectify_calibrated",
     "refine_corners",
     "rgb_to_gray",
     "rgb_to_gray_f32",
     "robust",
     "sampson_px",
+    "sfm",
     "stereo",
+    "stitch",
+    "synthetic",
     "transfer",
     "triangulate_dlt",
     "triangulate_nview",
