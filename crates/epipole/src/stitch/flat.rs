@@ -1,7 +1,7 @@
 //! Photos of one plane.
 
 use super::overlap::Overlap;
-use super::panorama::{NO_OVERLAP, Panorama};
+use super::panorama::Panorama;
 use super::tree::largest_tree;
 use crate::Result;
 use nalgebra::{Matrix3, Vector3};
@@ -14,7 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 /// * `overlaps`: pairs of photos; photos that they do not join to the largest set have no place
 ///
 /// # Errors
-/// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap.
+/// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an overlap of a photo that is not there.
 ///
 /// Source: Szeliski 2022, §8.2.
 ///
@@ -32,10 +33,7 @@ use nalgebra::{Matrix3, Vector3};
 /// # Ok(()) }
 /// ```
 pub fn chain_homographies(num_images: usize, overlaps: &[Overlap]) -> Result<Panorama> {
-    let tree = largest_tree(num_images, overlaps);
-    if tree.edges.is_empty() {
-        return Err(NO_OVERLAP);
-    }
+    let tree = largest_tree(num_images, overlaps)?;
     // About the size of a photo, so that directions are as far from z as those of a camera.
     let pixels = overlaps
         .iter()

@@ -3,10 +3,10 @@
 use super::overlap::Overlap;
 use super::tree::largest_tree;
 use super::turns::estimate_turns;
+use crate::Result;
 use crate::camera::Intrinsics;
 use crate::math::svd3;
 use crate::progress::Monitor;
-use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
 /// A share of the spread of horizontal axes that tells which way is up.
@@ -26,11 +26,6 @@ pub struct Panorama {
     pub focal_factor: Option<f64>,
 }
 
-pub(super) const NO_OVERLAP: Error = Error::Degenerate {
-    what: "a panorama",
-    why: "no two photos overlap",
-};
-
 /// The rotations of photos that were taken from one place, with one factor of their focal lengths.
 ///
 /// Overlaps are joined to a tree; the factor of least cost on a grid and the rotation that aligns
@@ -42,7 +37,9 @@ pub(super) const NO_OVERLAP: Error = Error::Degenerate {
 /// * `find_focal`: whether one factor of all focal lengths is looked for, from ¼ to 4
 ///
 /// # Errors
-/// [`Error::Degenerate`] if no photos overlap or matches meet in a point, [`Error::Canceled`].
+/// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap or matches meet in a point,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an overlap of a photo that is not there,
+/// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: Brown & Lowe 2007, §4 and 5.
 ///
@@ -68,10 +65,7 @@ pub fn estimate_panorama(
     find_focal: bool,
     monitor: &mut dyn Monitor,
 ) -> Result<Panorama> {
-    let tree = largest_tree(intrinsics.len(), overlaps);
-    if tree.edges.is_empty() {
-        return Err(NO_OVERLAP);
-    }
+    let tree = largest_tree(intrinsics.len(), overlaps)?;
     let (rotations, focal_factor) =
         estimate_turns(intrinsics, overlaps, &tree, find_focal, monitor)?;
     let level = leveled(&rotations);

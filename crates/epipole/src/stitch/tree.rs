@@ -2,6 +2,7 @@
 
 use super::overlap::Overlap;
 use crate::math::UnionFind;
+use crate::{Error, Result};
 
 /// A tree of overlaps.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +14,19 @@ pub(super) struct Tree {
 
 /// The tree with the most matches over the largest connected set of photos. Its root is in the
 /// middle, so that chains of homographies are short.
-pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Tree {
+///
+/// # Errors
+/// [`Error::OutOfRange`] for an overlap of a photo that is not there, [`Error::Degenerate`] if no
+/// photos overlap.
+pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Result<Tree> {
+    let images = overlaps.iter().flat_map(|overlap| overlap.images);
+    if let Some(image) = images.max().filter(|&image| image >= num_images) {
+        return Err(Error::OutOfRange {
+            what: "the image of an overlap",
+            requirement: "the index of one of the photos",
+            value: image as f64,
+        });
+    }
     let mut order: Vec<usize> = (0..overlaps.len()).collect();
     order.sort_by_key(|&index| (usize::MAX - overlaps[index].pixels[0].len(), index));
     let mut sets = UnionFind::new(num_images);
@@ -28,13 +41,12 @@ pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Tree {
     let trees = (0..num_images).map(|root| from_root(root, &neighbors));
     // Most photos first, then the lowest tree, then the first root.
     let best = trees.min_by_key(|(tree, depth)| (usize::MAX - tree.edges.len(), *depth, tree.root));
-    best.map_or(
-        Tree {
-            root: 0,
-            edges: Vec::new(),
-        },
-        |(tree, _)| tree,
-    )
+    best.map(|(tree, _)| tree)
+        .filter(|tree| !tree.edges.is_empty())
+        .ok_or(Error::Degenerate {
+            what: "a panorama",
+            why: "no two photos overlap",
+        })
 }
 
 /// The tree below a root, and its depth.
@@ -85,11 +97,13 @@ mod tests {
             overlap([3, 4], 30),
             overlap([5, 6], 900),
         ];
-        let tree = largest_tree(8, &overlaps);
+        let tree = largest_tree(8, &overlaps).unwrap();
         assert_eq!(tree.root, 2);
         let mut joined: Vec<usize> = tree.edges.iter().map(|edge| edge[2]).collect();
         joined.sort_unstable();
         assert_eq!(joined, [0, 1, 3, 4]);
-        assert!(largest_tree(3, &[]).edges.is_empty());
+        for (num_images, overlaps) in [(3, &[][..]), (0, &[]), (6, &overlaps)] {
+            assert!(largest_tree(num_images, overlaps).is_err());
+        }
     }
 }

@@ -68,7 +68,7 @@ fn rotations_and_focal_length_are_found_from_a_wrong_guess() {
     for (noise_px, angle, focal) in [(0.0, 1e-7, 1e-5), (0.5, 2e-3, 2.0)] {
         let (truth, overlaps) = world(560.0, noise_px);
         assert!(overlaps.len() > 6);
-        let tree = largest_tree(6, &overlaps);
+        let tree = largest_tree(6, &overlaps).unwrap();
         let guess = vec![Intrinsics::centered(768.0, 640, 480).unwrap(); 6];
         let (found, factor) = estimate_turns(&guess, &overlaps, &tree, true, &mut ()).unwrap();
         let off = off(&found, &truth, tree.root);
@@ -83,7 +83,7 @@ fn rotations_and_focal_length_are_found_from_a_wrong_guess() {
 #[test]
 fn a_known_focal_length_is_kept() {
     let (truth, overlaps) = world(560.0, 0.0);
-    let tree = largest_tree(6, &overlaps);
+    let tree = largest_tree(6, &overlaps).unwrap();
     let known = vec![Intrinsics::centered(560.0, 640, 480).unwrap(); 6];
     let (found, factor) = estimate_turns(&known, &overlaps, &tree, false, &mut ()).unwrap();
     assert!(factor.is_none());
