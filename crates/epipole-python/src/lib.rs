@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`arrays`] | NumPy arrays to points and matrices, and back |
 //! | [`errors`] | errors of the library as exceptions |
+//! | [`fork`] | threads in forked processes |
 //! | [`images`] | NumPy images to images of the library, and back |
 //! | [`options`] | keyword options to the library's option structs |
 //! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
@@ -20,6 +21,7 @@ mod camera;
 mod epipolar;
 mod errors;
 mod feature;
+mod fork;
 mod homography;
 mod images;
 mod imaging;
@@ -68,6 +70,7 @@ fn _epipole(package: &Bound<'_, PyModule>) -> PyResult<()> {
     let loaded = package.py().import("sys")?.getattr("modules")?;
     package.add("__version__", env!("CARGO_PKG_VERSION"))?;
     errors::register(package)?;
+    fork::register(package)?;
     for (name, register) in MODULES {
         let path = format!("epipole.{name}");
         let module = PyModule::new(package.py(), &path)?;

@@ -1,6 +1,7 @@
 //! Long computations: without the GIL, with a progress callback, stopped by Ctrl-C.
 
 use crate::errors::OrRaise;
+use crate::fork;
 use epipole::progress::{Monitor, Status};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -25,11 +26,17 @@ pub(crate) fn run<T: Send>(
         last: None,
         raised: None,
     };
-    let result = py.detach(|| work(&mut watch));
+    let result = detach(py, || work(&mut watch));
     match watch.raised {
         Some(raised) => Err(raised),
         None => result.or_raise(),
     }
+}
+
+/// Runs `work` without the GIL and without progress: short work.
+pub(crate) fn detach<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    fork::ensure_pool();
+    py.detach(work)
 }
 
 /// Monitor that looks at Python from time to time.

@@ -270,7 +270,9 @@ fn find_degeneracy(
     let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
     let inliers = mask("inliers", inliers)?;
     let options: TwoViewOptions = options::read(options)?;
-    let found = py.detach(|| two_view::find_degeneracy(&pixels1, &pixels2, &inliers, &options));
+    let found = progress::detach(py, || {
+        two_view::find_degeneracy(&pixels1, &pixels2, &inliers, &options)
+    });
     Ok(found.or_raise()?.map(degeneracy))
 }
 
@@ -329,8 +331,9 @@ fn find_explaining_turn(
     let inliers = mask("inliers", inliers)?;
     let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
-    let found = py
-        .detach(|| two_view::find_explaining_turn(&pixels1, &pixels2, cameras, &inliers, &options));
+    let found = progress::detach(py, || {
+        two_view::find_explaining_turn(&pixels1, &pixels2, cameras, &inliers, &options)
+    });
     Ok(found.or_raise()?.map(|turn| ExplainingTurn {
         cam2_from_cam1: turn.cam2_from_cam1.into(),
         num_explained: turn.num_explained,
@@ -366,8 +369,9 @@ fn find_turn_and_focal(
     let inliers = mask("inliers", inliers)?;
     let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
-    let found = py
-        .detach(|| two_view::find_turn_and_focal(&pixels1, &pixels2, cameras, &inliers, &options));
+    let found = progress::detach(py, || {
+        two_view::find_turn_and_focal(&pixels1, &pixels2, cameras, &inliers, &options)
+    });
     Ok(found.or_raise()?.map(|turn| TurnAndFocal {
         cam2_from_cam1: turn.cam2_from_cam1.into(),
         focal_factor: turn.focal_factor,

@@ -1,0 +1,46 @@
+//! Processes made by `os.fork`, such as the workers of `multiprocessing`.
+//!
+//! The threads of the library's pool do not exist in the child, which would wait for them forever.
+//! A thread of the child therefore computes alone: it is the only member of its own pool.
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::ThreadPoolBuilder;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether this process was made by a fork.
+static IS_CHILD: AtomicBool = AtomicBool::new(false);
+
+/// Gives the current thread of a forked process a pool of its own. Does nothing elsewhere.
+///
+/// The thread that forked has one already; other threads get one when they start work.
+pub(crate) fn ensure_pool() {
+    if !IS_CHILD.load(Ordering::Relaxed) || rayon::current_thread_index().is_some() {
+        return;
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    // Fails for threads of a pool only. This one belongs to its pool until it ends.
+    if let Ok(pool) = pool.build() {
+        std::mem::forget(pool);
+    }
+}
+
+#[pyfunction]
+fn _after_fork() {
+    IS_CHILD.store(true, Ordering::Relaxed);
+    ensure_pool();
+}
+
+/// Asks Python to prepare children of this process.
+pub(crate) fn register(package: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = package.py();
+    let os = py.import("os")?;
+    // Windows has no fork.
+    if !os.hasattr("register_at_fork")? {
+        return Ok(());
+    }
+    let options = PyDict::new(py);
+    options.set_item("after_in_child", wrap_pyfunction!(_after_fork, package)?)?;
+    os.call_method("register_at_fork", (), Some(&options))?;
+    Ok(())
+}
