@@ -56,8 +56,8 @@ impl AbsolutePoseWithFocal {
 /// camera : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -100,8 +100,8 @@ fn estimate_absolute_pose(
 ///     Principal point, pixels.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -307,6 +307,13 @@ fn refine_absolute_pose(
 /// -------
 /// float or ndarray, shape (N,)
 ///     Pixels; infinite for a point that the camera does not see.
+///
+/// Examples
+/// --------
+/// >>> from epipole import Camera, Intrinsics, PosedCamera, RigidTransform
+/// >>> camera = Camera.pinhole(Intrinsics(100, 100, 50, 50), 101, 101)
+/// >>> reprojection_error_px(PosedCamera(camera, RigidTransform()), [0, 0, 2], [53, 54])
+/// 5.0
 #[pyfunction]
 fn reprojection_error_px<'py>(
     camera: &PosedCamera,

@@ -32,8 +32,8 @@ record! {
 ///     Matches.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -71,8 +71,8 @@ fn estimate_homography(
 /// camera1, camera2 : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -189,6 +189,11 @@ fn refine_homography<'py>(
 /// -------
 /// ndarray of the same shape
 ///     Rows of NaN for pixels mapped to infinity; a single one raises `DegenerateError`.
+///
+/// Examples
+/// --------
+/// >>> transfer([[2, 0, 1], [0, 2, 0], [0, 0, 1]], [3, 4])
+/// array([7., 8.])
 #[pyfunction]
 fn transfer<'py>(
     homography: &Bound<'py, PyAny>,

@@ -62,6 +62,13 @@ fn triangulate_dlt<'py>(
 /// ndarray, shape (3,) or (N, 3)
 ///     Points in the frame of camera 1. Rows of NaN for parallel rays and points behind a camera;
 ///     a single one raises `DegenerateError`.
+///
+/// Examples
+/// --------
+/// >>> from epipole import RigidTransform
+/// >>> motion = RigidTransform(translation=[-1, 0, 0])
+/// >>> triangulate_midpoint(motion, [0, 0, 1], [-0.25, 0, 1])
+/// array([0., 0., 4.])
 #[pyfunction]
 fn triangulate_midpoint<'py>(
     cam2_from_cam1: &RigidTransform,

@@ -149,7 +149,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 ///     Matches.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : TwoViewOptions
 ///     ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
 ///     ``ransac``, a dict of the options of RANSAC.
 ///
@@ -182,8 +182,7 @@ fn estimate_two_view(
 /// camera1, camera2 : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     As for `estimate_two_view`.
+/// **options : TwoViewOptions
 ///
 /// Returns
 /// -------
@@ -217,8 +216,8 @@ fn estimate_two_view_calibrated(
 /// camera1, camera2 : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -252,8 +251,7 @@ fn estimate_rotation(
 /// ----------
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// inliers : array_like of bool, shape (N,)
-/// **options
-///     As for `estimate_two_view`.
+/// **options : TwoViewOptions
 ///
 /// Returns
 /// -------
@@ -282,12 +280,17 @@ fn find_degeneracy(
 /// ----------
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// inliers : array_like of bool, shape (N,)
-/// **options
-///     As for `estimate_two_view`.
+/// **options : TwoViewOptions
 ///
 /// Returns
 /// -------
 /// Degeneracy or None
+///
+/// Examples
+/// --------
+/// >>> pixels = [[i * i % 97, 5 * i] for i in range(20)]
+/// >>> find_unmoved(pixels, pixels, [True] * 20)
+/// Degeneracy(kind='unmoved', num_explained=20, num_inliers=20)
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, inliers, **options))]
 fn find_unmoved(
@@ -310,8 +313,7 @@ fn find_unmoved(
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// camera1, camera2 : Camera
 /// inliers : array_like of bool, shape (N,)
-/// **options
-///     As for `estimate_two_view`.
+/// **options : TwoViewOptions
 ///
 /// Returns
 /// -------
@@ -348,8 +350,7 @@ fn find_explaining_turn(
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// camera1, camera2 : Camera
 /// inliers : array_like of bool, shape (N,)
-/// **options
-///     As for `estimate_two_view`.
+/// **options : TwoViewOptions
 ///
 /// Returns
 /// -------
@@ -381,6 +382,8 @@ fn find_turn_and_focal(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("PHOTO_MAX_ERROR_PX", two_view::PHOTO_MAX_ERROR_PX)?;
+    options::declare(module, &TwoViewOptions::default())?;
     module.add_class::<TwoViewReport>()?;
     module.add_class::<ExplainingTurn>()?;
     module.add_class::<TurnAndFocal>()?;

@@ -23,6 +23,14 @@ const LAST_BITS: f64 = 1e-14;
 ///     Rotation matrix. The identity if not given.
 /// translation : array_like, shape (3,), optional
 ///     Zero if not given.
+///
+/// Examples
+/// --------
+/// >>> world_from_cam = RigidTransform(translation=[1, 2, 3])
+/// >>> world_from_cam @ [0, 0, 5]
+/// array([1., 2., 8.])
+/// >>> (world_from_cam @ world_from_cam.inverse()).translation
+/// array([0., 0., 0.])
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct RigidTransform(pub(crate) camera::RigidTransform);
@@ -107,7 +115,15 @@ impl RigidTransform {
         self.0.inverse().into()
     }
 
-    /// Composition with a transform, or the image of points of shape (3,) or (N, 3).
+    /// Composition with a transform, or the image of points.
+    ///
+    /// Parameters
+    /// ----------
+    /// other : RigidTransform or array_like, shape (3,) or (N, 3)
+    ///
+    /// Returns
+    /// -------
+    /// RigidTransform or ndarray of the same shape
     fn __matmul__<'py>(
         &self,
         py: Python<'py>,

@@ -18,8 +18,8 @@ use pyo3::types::PyDict;
 ///     Matches.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -57,8 +57,8 @@ pub(super) fn estimate_fundamental(
 /// camera1, camera2 : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -99,8 +99,8 @@ pub(super) fn estimate_essential(
 /// camera1, camera2 : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -143,8 +143,8 @@ pub(super) fn estimate_relative_pose(
 ///     Direction of gravity in each camera's frame.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -194,8 +194,8 @@ pub(super) fn estimate_relative_pose_with_gravity(
 ///     Principal points, pixels.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------

@@ -5,7 +5,7 @@ use crate::arrays::{Batch, Pairs, from_matrix, from_vector, matrix, points2, vec
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use epipole::epipolar::{self, Epipole};
-use epipole::nalgebra::{Matrix3, Point2};
+use epipole::nalgebra::{Matrix3, Point2, SVector};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -20,6 +20,12 @@ use pyo3::prelude::*;
 /// -------
 /// float or ndarray, shape (N,)
 ///     Pixels.
+///
+/// Examples
+/// --------
+/// >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
+/// >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
+/// array([0., 0.])
 #[pyfunction]
 pub(super) fn sampson_px<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -53,6 +59,32 @@ pub(super) fn symmetric_epipolar_px<'py>(
     Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
         epipolar::symmetric_epipolar_px(&f, &Point2::from(*p), &Point2::from(*q))
     })
+}
+
+/// Rows of the linear system of the eight-point method: ``row @ F.ravel() == x2 @ F @ x1``.
+///
+/// Parameters
+/// ----------
+/// x1, x2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// ndarray, shape (9,) or (N, 9)
+///
+/// Examples
+/// --------
+/// >>> epipolar_row([2, 3], [5, 7])
+/// array([10., 15.,  5., 14., 21.,  7.,  2.,  3.,  1.])
+#[pyfunction]
+pub(super) fn epipolar_row<'py>(
+    x1: &Bound<'py, PyAny>,
+    x2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let row = |p: &_, q: &_| {
+        let row = epipolar::epipolar_row(&Point2::from(*p), &Point2::from(*q));
+        Ok(SVector::<f64, 9>::from(row))
+    };
+    Pairs::<2, 2>::read(("x1", x1), ("x2", x2))?.vectors(x1.py(), row)
 }
 
 /// Epipolar lines in image 1 of pixels of image 2.

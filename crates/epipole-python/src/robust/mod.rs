@@ -8,7 +8,8 @@ pub(crate) use report::{RansacReport, estimate, stop_reason};
 
 use crate::arrays::{from_vector, points2};
 use crate::errors::OrRaise;
-use epipole::robust;
+use crate::options;
+use epipole::robust::{self, RansacOptions};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -25,6 +26,11 @@ use pyo3::prelude::*;
 /// Returns
 /// -------
 /// int
+///
+/// Examples
+/// --------
+/// >>> num_trials_with_replacement(0.5, 7, 0.99)
+/// 588
 #[pyfunction]
 fn num_trials_with_replacement(
     inlier_ratio: f64,
@@ -120,6 +126,8 @@ fn fit_line_huber<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("FARTHEST_PX", robust::FARTHEST_PX)?;
+    options::declare(module, &RansacOptions::default())?;
     module.add_class::<RansacReport>()?;
     module.add_class::<similarity::PlaneSimilarity>()?;
     module.add_function(wrap_pyfunction!(num_trials_with_replacement, module)?)?;

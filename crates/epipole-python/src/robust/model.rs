@@ -139,8 +139,8 @@ impl Estimator for Callables<'_> {
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------

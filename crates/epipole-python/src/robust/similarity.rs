@@ -49,7 +49,15 @@ impl From<robust::PlaneSimilarity> for PlaneSimilarity {
 
 #[pymethods]
 impl PlaneSimilarity {
-    /// Images of points of shape (2,) or (N, 2).
+    /// Images of points.
+    ///
+    /// Parameters
+    /// ----------
+    /// p : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray of the same shape
     fn apply<'py>(&self, p: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let similarity = self.core();
         let apply = |p: &_| Ok(similarity.apply(&Point2::from(*p)).coords);
@@ -82,6 +90,11 @@ impl PlaneSimilarity {
 /// Returns
 /// -------
 /// PlaneSimilarity
+///
+/// Examples
+/// --------
+/// >>> fit_similarity([[0, 0], [1, 0]], [[3, 1], [3, 3]]).scale()
+/// 2.0
 #[pyfunction]
 pub(super) fn fit_similarity(
     pixels1: &Bound<'_, PyAny>,
@@ -101,8 +114,8 @@ pub(super) fn fit_similarity(
 ///     Matches.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
-///     Those of RANSAC, such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------

@@ -3,10 +3,12 @@
 //! A struct's defaults become a dictionary, the caller's options replace entries of it, and the
 //! result is read back by serde. Names and defaults stand in the library only.
 
+mod hints;
+
 use epipole::optim::RobustLoss;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 use pythonize::{Depythonizer, pythonize};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -52,6 +54,29 @@ pub(crate) fn value<T: DeserializeOwned>(name: &str, value: &Bound<'_, PyAny>) -
 /// `TypeError` naming the argument `loss`.
 pub(crate) fn loss(loss: Option<&Bound<'_, PyAny>>) -> PyResult<RobustLoss> {
     loss.map_or(Ok(RobustLoss::Trivial), |loss| value("loss", loss))
+}
+
+/// Adds an option struct to the table `_options` of a module, for the type stubs: type hints by
+/// name, and defaults by name for the struct itself, not for those inside it.
+pub(crate) fn declare<T>(module: &Bound<'_, PyModule>, defaults: &T) -> PyResult<()>
+where
+    T: Serialize + DeserializeOwned,
+{
+    let py = module.py();
+    if !module.hasattr("_options")? {
+        module.setattr("_options", PyDict::new(py))?;
+    }
+    let table = module.getattr("_options")?;
+    let mut structs = Vec::new();
+    let name = hints::hint::<T>(&mut structs);
+    for (struct_name, fields) in structs {
+        let defaults = match struct_name == name {
+            true => pythonize(py, defaults)?.cast_into::<PyDict>()?,
+            false => PyDict::new(py),
+        };
+        table.set_item(struct_name, (fields.into_py_dict(py)?, defaults))?;
+    }
+    Ok(())
 }
 
 /// Replaces entries of `merged`. A nested struct keeps the entries that are not given.
