@@ -1,0 +1,288 @@
+# Written by stubs.py. Do not edit.
+
+from collections.abc import Callable
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+from epipole.options import RansacOptions
+
+__all__ = [
+    "FARTHEST_PX",
+    "PlaneSimilarity",
+    "RansacReport",
+    "estimate_similarity",
+    "fit_line_huber",
+    "fit_line_total_least_squares",
+    "fit_similarity",
+    "log10_false_alarms",
+    "num_trials_with_replacement",
+    "num_trials_without_replacement",
+    "ransac",
+]
+
+FARTHEST_PX: float
+@final
+class RansacReport:
+    """Result of a robust estimation."""
+    def __new__(
+        cls,
+        model: Any,
+        inliers: NDArray[np.bool_],
+        num_inliers: int,
+        num_unique_inliers: int,
+        num_left_out: int,
+        iterations: int,
+        required_iterations: int,
+        max_error_px: float,
+        score: float,
+        log10_false_alarms: float | None,
+        refinements: int,
+        stop: str,
+    ) -> RansacReport: ...
+    @property
+    def model(self) -> Any:
+        """Best model."""
+    @property
+    def inliers(self) -> NDArray[np.bool_]:
+        """Whether each datum is an inlier, boolean array of shape (N,)."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of inliers."""
+    @property
+    def num_unique_inliers(self) -> int:
+        """Number of inliers, equal data counted once: the support of the model."""
+    @property
+    def num_left_out(self) -> int:
+        """Number of data left out: a coordinate that is infinite or beyond 1e9 pixels."""
+    @property
+    def iterations(self) -> int:
+        """Samples drawn."""
+    @property
+    def required_iterations(self) -> int:
+        """Number of samples required by the final inlier ratio."""
+    @property
+    def max_error_px(self) -> float:
+        """Threshold of inliers, pixels."""
+    @property
+    def score(self) -> float:
+        """Score of the model."""
+    @property
+    def log10_false_alarms(self) -> float | None:
+        """Expected number of such models in data without structure, as log10; None if unknown."""
+    @property
+    def refinements(self) -> int:
+        """Number of times a model was improved from its inliers."""
+    @property
+    def stop(self) -> str:
+        """Why the search ended: "confident", "exhausted" or "interrupted"."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def could_be_chance(self) -> bool:
+        """Whether unrelated data might show as much support: the model is then not significant."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class PlaneSimilarity:
+    """Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``."""
+    def __new__(cls, a: float, b: float, tu: float, tv: float) -> PlaneSimilarity: ...
+    @property
+    def a(self) -> float:
+        """Scale times the cosine of the turn."""
+    @property
+    def b(self) -> float:
+        """Scale times the sine of the turn."""
+    @property
+    def tu(self) -> float:
+        """Shift along u, pixels."""
+    @property
+    def tv(self) -> float:
+        """Shift along v, pixels."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def apply(self, p: ArrayLike) -> NDArray[np.float64]:
+        """Images of points.
+
+        Parameters
+        ----------
+        p : array_like, shape (2,) or (N, 2)
+
+        Returns
+        -------
+        ndarray of the same shape
+        """
+    def scale(self) -> float:
+        """Scale."""
+    def angle_rad(self) -> float:
+        """Angle of the turn from u towards v, radians."""
+    def matrix(self) -> NDArray[np.float64]:
+        """Homogeneous matrix, shape (3, 3)."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def num_trials_with_replacement(
+    inlier_ratio: float,
+    sample_size: int,
+    confidence: float,
+) -> int:
+    """Number of samples that suffices, if data are drawn with replacement (``w**s``).
+
+    Parameters
+    ----------
+    inlier_ratio : float
+        In [0, 1].
+    sample_size : int
+    confidence : float
+        In (0, 1).
+
+    Returns
+    -------
+    int
+
+    Examples
+    --------
+    >>> num_trials_with_replacement(0.5, 7, 0.99)
+    588
+    """
+def num_trials_without_replacement(
+    num_inliers: int,
+    num_data: int,
+    sample_size: int,
+    confidence: float,
+) -> int:
+    """Number of samples that suffices, if data are drawn without replacement.
+
+    Parameters
+    ----------
+    num_inliers, num_data, sample_size : int
+    confidence : float
+        In (0, 1).
+
+    Returns
+    -------
+    int
+    """
+def log10_false_alarms(
+    num_inliers: int,
+    num_data: int,
+    sample_size: int,
+    max_models: int,
+    chance: float,
+) -> float:
+    """Expected number of models with this support in data without structure, as log10.
+
+    Parameters
+    ----------
+    num_inliers, num_data, sample_size, max_models : int
+    chance : float
+        Probability that an unrelated datum is an inlier.
+
+    Returns
+    -------
+    float
+    """
+def fit_line_total_least_squares(points: ArrayLike) -> NDArray[np.float64]:
+    """Line with the least sum of squared distances.
+
+    Parameters
+    ----------
+    points : array_like, shape (N, 2)
+        Pixels, N >= 2.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+    """
+def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
+    """Line with the least sum of Huber losses of the distances.
+
+    Parameters
+    ----------
+    points : array_like, shape (N, 2)
+        Pixels, N >= 2.
+    width_px : float
+        Distance at which the loss becomes linear, pixels, > 0.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+    """
+def fit_similarity(pixels1: ArrayLike, pixels2: ArrayLike) -> PlaneSimilarity:
+    """Similarity of matches by least squares, without outliers.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+        Matches, N >= 2.
+
+    Returns
+    -------
+    PlaneSimilarity
+
+    Examples
+    --------
+    >>> fit_similarity([[0, 0], [1, 0]], [[3, 1], [3, 3]]).scale()
+    2.0
+    """
+def estimate_similarity(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[RansacOptions],
+) -> RansacReport:
+    """Similarity of matches with outliers, by RANSAC.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+        Matches.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : RansacOptions
+        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+
+    Returns
+    -------
+    RansacReport
+        Its model is a `PlaneSimilarity`.
+    """
+def ransac(
+    num_data: int,
+    sample_size: int,
+    fit: Callable[..., Any],
+    errors: Callable[..., Any],
+    refine: Callable[..., Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[RansacOptions],
+) -> RansacReport:
+    """Model of your own by RANSAC.
+
+    Parameters
+    ----------
+    num_data : int
+        Number of data.
+    sample_size : int
+        Number of data in a minimal sample.
+    fit : callable
+        ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+    errors : callable
+        ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+        ``max_error_px``.
+    refine : callable, optional
+        ``refine(model, indices)`` returns a better model from the inliers, or None.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : RansacOptions
+        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+
+    Returns
+    -------
+    RansacReport
+
+    Notes
+    -----
+    An exception in a callable ends the run and is raised.
+    """

@@ -1,0 +1,323 @@
+# Written by stubs.py. Do not edit.
+
+from collections.abc import Callable
+from typing import ClassVar, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+from epipole.camera import Camera
+from epipole.camera import RigidTransform
+from epipole.options import RansacOptions
+from epipole.options import TwoViewOptions
+from epipole.robust import RansacReport
+
+__all__ = [
+    "Degeneracy",
+    "ExplainingTurn",
+    "PHOTO_MAX_ERROR_PX",
+    "TurnAndFocal",
+    "TwoViewReport",
+    "estimate_rotation",
+    "estimate_two_view",
+    "estimate_two_view_calibrated",
+    "find_degeneracy",
+    "find_explaining_turn",
+    "find_turn_and_focal",
+    "find_unmoved",
+]
+
+PHOTO_MAX_ERROR_PX: float
+@final
+class TwoViewReport:
+    """Geometry of two views."""
+    def __new__(
+        cls,
+        configuration: str,
+        kind: str,
+        model: NDArray[np.float64],
+        is_of_rays: bool,
+        fundamental: NDArray[np.float64] | None,
+        homography: NDArray[np.float64] | None,
+        cam2_from_cam1: RigidTransform | None,
+        other_cam2_from_cam1: RigidTransform | None,
+        inliers: NDArray[np.bool_],
+        num_inliers: int,
+        num_left_out: int,
+        max_error_px: float,
+        iterations: int,
+        required_iterations: int,
+        stop: str,
+        median_triangulation_angle_rad: float | None,
+    ) -> TwoViewReport: ...
+    @property
+    def configuration(self) -> str:
+        """"general", "planar", "panoramic" or "degenerate"."""
+    @property
+    def kind(self) -> str:
+        """Kind of the model: "fundamental", "essential" or "homography"."""
+    @property
+    def model(self) -> NDArray[np.float64]:
+        """Chosen matrix, shape (3, 3)."""
+    @property
+    def is_of_rays(self) -> bool:
+        """Whether model and homography are of rays, not of pixels: lenses with distortion."""
+    @property
+    def fundamental(self) -> NDArray[np.float64] | None:
+        """F, shape (3, 3), or None."""
+    @property
+    def homography(self) -> NDArray[np.float64] | None:
+        """H, shape (3, 3), or None."""
+    @property
+    def cam2_from_cam1(self) -> RigidTransform | None:
+        """Motion of calibrated views, translation of length 1, or 0 for a rotation; or None."""
+    @property
+    def other_cam2_from_cam1(self) -> RigidTransform | None:
+        """Second motion that explains a plane as well, or None."""
+    @property
+    def inliers(self) -> NDArray[np.bool_]:
+        """Whether each match is an inlier, boolean array of shape (N,)."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of inliers."""
+    @property
+    def num_left_out(self) -> int:
+        """Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels."""
+    @property
+    def max_error_px(self) -> float:
+        """Threshold of F and E, pixels."""
+    @property
+    def iterations(self) -> int:
+        """Samples drawn, over all models tried."""
+    @property
+    def required_iterations(self) -> int:
+        """Number of samples required for the model."""
+    @property
+    def stop(self) -> str:
+        """Why the search ended: "confident", "exhausted" or "interrupted"."""
+    @property
+    def median_triangulation_angle_rad(self) -> float | None:
+        """Median angle at which rays of inliers meet, radians, or None."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class ExplainingTurn:
+    """Rotation that explains nearly all inliers."""
+    def __new__(
+        cls,
+        cam2_from_cam1: RigidTransform,
+        num_explained: int,
+        num_inliers: int,
+    ) -> ExplainingTurn: ...
+    @property
+    def cam2_from_cam1(self) -> RigidTransform:
+        """Rotation, with a translation of 0."""
+    @property
+    def num_explained(self) -> int:
+        """Number of inliers that it explains."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of inliers."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class TurnAndFocal:
+    """Rotation and change of the focal length that explain nearly all inliers."""
+    def __new__(
+        cls,
+        cam2_from_cam1: RigidTransform,
+        focal_factor: float,
+        num_explained: int,
+        num_inliers: int,
+    ) -> TurnAndFocal: ...
+    @property
+    def cam2_from_cam1(self) -> RigidTransform:
+        """Rotation, with a translation of 0."""
+    @property
+    def focal_factor(self) -> float:
+        """Factor by which both focal lengths differ from those given."""
+    @property
+    def num_explained(self) -> int:
+        """Number of different matches that it explains."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of different matches."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Degeneracy:
+    """Why inliers do not determine F."""
+    def __new__(cls, kind: str, num_explained: int, num_inliers: int) -> Degeneracy: ...
+    @property
+    def kind(self) -> str:
+        """"unmoved" or "homography"."""
+    @property
+    def num_explained(self) -> int:
+        """Number of inliers that did not move, or that a homography explains."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of inliers."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def estimate_two_view(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[TwoViewOptions],
+) -> TwoViewReport:
+    """Geometry of two views without calibration: F or H.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+        Matches.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : TwoViewOptions
+        ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
+        ``ransac``, a dict of the options of RANSAC.
+
+    Returns
+    -------
+    TwoViewReport
+    """
+def estimate_two_view_calibrated(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    camera1: Camera,
+    camera2: Camera,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[TwoViewOptions],
+) -> TwoViewReport:
+    """Geometry of two calibrated views: E, H or a rotation, and the motion.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+        Matches.
+    camera1, camera2 : Camera
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : TwoViewOptions
+
+    Returns
+    -------
+    TwoViewReport
+    """
+def estimate_rotation(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    camera1: Camera,
+    camera2: Camera,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[RansacOptions],
+) -> RansacReport:
+    """Rotation between two calibrated views from the same place, by RANSAC.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+        Matches.
+    camera1, camera2 : Camera
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : RansacOptions
+        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+
+    Returns
+    -------
+    RansacReport
+        Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
+    """
+def find_degeneracy(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    inliers: ArrayLike,
+    **options: Unpack[TwoViewOptions],
+) -> Degeneracy | None:
+    """Why the inliers of F do not determine it: nothing moved, or a homography explains them.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+    inliers : array_like of bool, shape (N,)
+    **options : TwoViewOptions
+
+    Returns
+    -------
+    Degeneracy or None
+    """
+def find_unmoved(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    inliers: ArrayLike,
+    **options: Unpack[TwoViewOptions],
+) -> Degeneracy | None:
+    """Whether nearly all inliers are at the same pixel in both images.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+    inliers : array_like of bool, shape (N,)
+    **options : TwoViewOptions
+
+    Returns
+    -------
+    Degeneracy or None
+
+    Examples
+    --------
+    >>> pixels = [[i * i % 97, 5 * i] for i in range(20)]
+    >>> find_unmoved(pixels, pixels, [True] * 20)
+    Degeneracy(kind='unmoved', num_explained=20, num_inliers=20)
+    """
+def find_explaining_turn(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    camera1: Camera,
+    camera2: Camera,
+    inliers: ArrayLike,
+    **options: Unpack[TwoViewOptions],
+) -> ExplainingTurn | None:
+    """Rotation that explains nearly all inliers of calibrated views, if there is one.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+    camera1, camera2 : Camera
+    inliers : array_like of bool, shape (N,)
+    **options : TwoViewOptions
+
+    Returns
+    -------
+    ExplainingTurn or None
+    """
+def find_turn_and_focal(
+    pixels1: ArrayLike,
+    pixels2: ArrayLike,
+    camera1: Camera,
+    camera2: Camera,
+    inliers: ArrayLike,
+    **options: Unpack[TwoViewOptions],
+) -> TurnAndFocal | None:
+    """Rotation and change of the focal length that explain nearly all inliers, if there are any.
+
+    Parameters
+    ----------
+    pixels1, pixels2 : array_like, shape (N, 2)
+    camera1, camera2 : Camera
+    inliers : array_like of bool, shape (N,)
+    **options : TwoViewOptions
+
+    Returns
+    -------
+    TurnAndFocal or None
+    """
