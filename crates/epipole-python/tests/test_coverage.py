@@ -1,0 +1,107 @@
+"""Every public name of the library has its place in Python, or a reason why not."""
+
+import re
+from pathlib import Path
+
+import epipole
+import epipole.options
+import pytest
+
+REPOSITORY = Path(__file__).parents[3]
+SOURCE = REPOSITORY / "crates" / "epipole" / "src"
+
+# Rooms without a module.
+NOT_BOUND = {
+    "calibration", "feature", "imaging", "math", "optim", "sfm", "stereo", "stitch", "synthetic",
+}  # fmt: skip
+
+# Names that are not in Python, by the reason.
+LEFT_OUT = {
+    "arrays have any length": "triangulation::triangulate_dlt_all",
+    "Lens takes a kind and coefficients": """
+        camera::Distortion camera::Division camera::Fisheye camera::LensKind
+        camera::RationalDistortion""",
+    "strings, numbers and attributes of results": """
+        epipolar::Epipole robust::Budget robust::SamplerKind robust::ScoreKind robust::StopReason
+        robust::ThresholdKind two_view::Configuration two_view::TwoViewModel""",
+    "traits and parts of Rust estimators; in Python, ransac takes callables": """
+        absolute_pose::AbsolutePoseEstimator epipolar::EssentialEstimator
+        epipolar::FundamentalEstimator epipolar::GravityEstimator homography::HomographyEstimator
+        robust::Data robust::Estimator robust::Evidence robust::LineEstimator robust::MatchSet
+        robust::Problem robust::Ransac robust::SimilarityEstimator robust::Step robust::Support
+        robust::Trial robust::Unique two_view::RotationEstimator""",
+    "for Rust estimators only": """
+        robust::LeastMedian robust::LeastMedianOptions robust::least_median""",
+    "steps inside the eight-point method and the refinement": """
+        camera::Observation epipolar::Normalization epipolar::tangent_sampson_px""",
+}
+
+
+def rooms():
+    """Rooms of the library, whose `mod.rs` exports names."""
+    declared = re.findall(r"^pub mod (\w+);", (SOURCE / "lib.rs").read_text("utf-8"), re.M)
+    return [room for room in declared if (SOURCE / room / "mod.rs").exists()]
+
+
+def public_names(room):
+    """Names that `pub use` exports from a room."""
+    text = re.sub(r"//.*", "", (SOURCE / room / "mod.rs").read_text("utf-8"))
+    names = []
+    for declaration in re.findall(r"^pub use ([^;]+);", text, re.M):
+        # The part before the last `::` is the path.
+        names += re.findall(r"\w+", declaration.rsplit("::", 1)[-1])
+    return names
+
+
+def is_in_python(room, name):
+    """Options are keywords, and their types are in `epipole.options`."""
+    return hasattr(getattr(epipole, room, None), name) or hasattr(epipole.options, name)
+
+
+@pytest.fixture(autouse=True)
+def in_the_repository():
+    if not SOURCE.exists():
+        pytest.skip("there is no source of the library")
+
+
+def test_every_public_name_is_in_python_or_left_out():
+    left_out = " ".join(LEFT_OUT.values()).split()
+    missing = [
+        f"{room}::{name}"
+        for room in rooms()
+        if room not in NOT_BOUND
+        for name in public_names(room)
+        if not is_in_python(room, name) and f"{room}::{name}" not in left_out
+    ]
+    assert not missing, f"neither bound nor left out for a reason: {' '.join(missing)}"
+
+
+def test_names_left_out_are_public_and_not_in_python():
+    for path in " ".join(LEFT_OUT.values()).split():
+        room, name = path.split("::")
+        assert name in public_names(room), f"{path} is not in the library"
+        assert not is_in_python(room, name), f"{path} is bound, but in the list of those left out"
+
+
+def test_rooms_not_bound_have_no_module():
+    for room in NOT_BOUND:
+        assert room in rooms(), f"there is no room {room}"
+        assert not hasattr(epipole, room), f"epipole.{room} is bound, but in the list NOT_BOUND"
+
+
+def test_the_reader_finds_names():
+    assert {"sampson_px", "epipolar_line2", "EightPoint"} <= set(public_names("epipolar"))
+    assert "share_center" not in public_names("epipolar")
+    assert {"camera", "two_view"} <= set(rooms())
+
+
+def test_names_of_the_guide_are_in_python():
+    left_out = " ".join(LEFT_OUT.values()).split()
+    page = (REPOSITORY / "docs" / "names.md").read_text("utf-8")
+    # The last column of tables, and the text.
+    ours = "\n".join(re.split(r"(?<= )\| ", line)[-1] for line in page.splitlines())
+    paths = re.findall(r"`(\w+)::(\w+)`", ours)
+    assert len(paths) > 60
+    for room, name in paths:
+        is_listed = room in NOT_BOUND or f"{room}::{name}" in left_out
+        assert is_listed or is_in_python(room, name), f"docs/names.md names {room}::{name}"
