@@ -31,7 +31,7 @@ NAMED = {
     "object": ("object", "Any"),
     "Any": ("Any", "Any"),
     "uint8": ("ArrayLike", "NDArray[np.uint8]"),
-} | {name: (name, name) for name in ("None", "bool", "bytes", "float", "int", "str")}
+} | {name: (name, name) for name in ("None", "bool", "bytes", "float", "int", "slice", "str")}
 DTYPES = {"": "float64", "float": "float64", "int": "int64", "bool": "bool_"}
 DTYPES |= {name: name for name in ("uint8", "uint16", "int32", "int64", "float32", "float64")}
 
@@ -46,6 +46,7 @@ SPECIAL = {
     "__len__": "(self) -> int",
     "__bool__": "(self) -> bool",
     "__contains__": "(self, item: object, /) -> bool",
+    "__getnewargs_ex__": "(self, /) -> tuple[tuple[Any, ...], dict[str, Any]]",
 }
 # Those that `object` has.
 HIDDEN = {"__new__", "__repr__", "__str__", "__reduce__", "__hash__", "__doc__", "__module__"}
@@ -186,7 +187,7 @@ class Room:
             return f"Sequence[{inner}]" if is_argument else f"list[{inner}]"
         if re.match(r"Py(Readonly)?Array(\d|Dyn)$", outer):
             dtype = {"f64": "float64", "f32": "float32", "bool": "bool_"}.get(inner)
-            integer = inner.replace("u", "uint").replace("i", "int") if dtype is None else ""
+            integer = ("uint" if inner[0] == "u" else "int") + inner[1:]
             return f"NDArray[np.{dtype or integer}]"
         if not inner and outer in CLASSES:
             return self.class_hint(outer)
@@ -295,8 +296,8 @@ class Room:
         if name is None:
             return self.fail("the docstring lists no **options with the name of their struct")
         if name in OPTIONS:
-            self.imports.add(f"from epipole.options import {name}")
-            return f"Unpack[{name}]"
+            self.imports.add("from epipole import options as option_types")
+            return f"Unpack[option_types.{name}]"
         try:
             return self.doc_hint(name, True)
         except Unknown:

@@ -9,7 +9,7 @@ pub(crate) use elements::{column, dtype, elements, kind, table, wrong_shape};
 
 use crate::arrays::as_array;
 use crate::errors::OrRaise;
-use crate::options;
+use crate::{options, progress};
 use elements::{real_array, require_finite, shape_text};
 use epipole::image::{GrayImage, ImageBuffer, Pixel, RgbImage};
 use epipole::imaging::{self, Border, GrayImage32};
@@ -137,7 +137,7 @@ impl Gray {
         result: GrayImage32,
     ) -> PyResult<Bound<'py, PyAny>> {
         if self.is_bytes {
-            let bytes = py.detach(|| imaging::gray_to_u8(&result));
+            let bytes = progress::detach(py, || imaging::gray_to_u8(&result));
             Ok(from_gray(py, bytes)?.into_any())
         } else {
             Ok(from_gray(py, result)?.into_any())

@@ -226,6 +226,11 @@ fn svd3(matrix: &Bound<'_, PyAny>) -> PyResult<Svd3> {
 /// Returns
 /// -------
 /// float
+///
+/// Examples
+/// --------
+/// >>> length([3.0, 4.0])
+/// 5.0
 #[pyfunction]
 fn length(vector: &Bound<'_, PyAny>) -> PyResult<f64> {
     let array = as_array("vector", vector, "(N,)")?;
@@ -243,7 +248,7 @@ fn length(vector: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Parameters
 /// ----------
 /// seed : int
-#[pyclass(frozen, module = "epipole.math.random")]
+#[pyclass(frozen, module = "epipole.math")]
 struct Random(Mutex<math::random::Random>);
 
 impl Random {
@@ -290,9 +295,5 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(local_from_geodetic, module)?)?;
     module.add_function(wrap_pyfunction!(svd3, module)?)?;
     module.add_function(wrap_pyfunction!(length, module)?)?;
-    let random = PyModule::new(module.py(), "epipole.math.random")?;
-    random.add_class::<Random>()?;
-    module.add("random", &random)?;
-    let loaded = module.py().import("sys")?.getattr("modules")?;
-    loaded.set_item("epipole.math.random", random)
+    module.add_class::<Random>()
 }

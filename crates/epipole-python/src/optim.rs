@@ -206,7 +206,7 @@ impl Monitor for Guard<'_> {
 ///     Parameters that stay fixed; missing entries are free.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : LmOptions
 ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
 ///     ``initial_damping``, ``patience``.
 ///
@@ -279,6 +279,11 @@ fn minimize_dense<'py>(
 /// -------
 /// float
 ///     Each entry relative to the larger of 1 and its size; infinity for other shapes and NaN.
+///
+/// Examples
+/// --------
+/// >>> check_jacobian(np.eye(2), lambda step: step) < 1e-6
+/// True
 #[pyfunction]
 #[pyo3(signature = (analytic, residuals, step=1e-6))]
 fn check_jacobian(
@@ -315,6 +320,7 @@ fn check_jacobian(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::optim::LmOptions::default())?;
     module.add_class::<Iteration>()?;
     module.add_class::<LmReport>()?;
     module.add_function(wrap_pyfunction!(minimize_dense, module)?)?;

@@ -202,13 +202,21 @@ impl Panorama {
 ///     Matches, wrong ones among them.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : OverlapOptions
 ///     ``ransac``, a dict such as ``{"max_error_px": 3.0}``; ``min_num_inliers``.
 ///
 /// Returns
 /// -------
 /// Overlap or None
 ///     None if no more matches agree than wrong ones might.
+///
+/// Examples
+/// --------
+/// >>> steps = np.arange(60)
+/// >>> pixels = np.column_stack([200 + steps * 37 % 440, steps * 71 % 480])
+/// >>> h = find_overlap((0, 1), pixels, pixels - [200, 0]).homography
+/// >>> round(float(h[0, 2] / h[2, 2]), 3)
+/// -200.0
 #[pyfunction]
 #[pyo3(signature = (images, pixels1, pixels2, *, progress=None, **options))]
 fn find_overlap(
@@ -307,7 +315,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
 ///     In the order of the panorama.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : RenderOptions
 ///     ``surface``, ``"cylinder"``, ``"plane"`` or ``"sphere"``; ``blend``, ``"bands"``,
 ///     ``"feather"`` or ``"seams"``; ``gains``, whether exposures are made alike; ``max_pixels``.
 ///
@@ -340,6 +348,8 @@ fn render_panorama<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::stitch::OverlapOptions::default())?;
+    crate::options::declare(module, &epipole::stitch::RenderOptions::default())?;
     module.add_class::<Overlap>()?;
     module.add_class::<Panorama>()?;
     module.add_function(wrap_pyfunction!(find_overlap, module)?)?;

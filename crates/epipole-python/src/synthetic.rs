@@ -41,10 +41,15 @@ fn reduce<'py, T: serde::Serialize>(
 ///
 /// Parameters
 /// ----------
-/// **options
+/// **options : TwoViewProblemOptions
 ///     ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``, ``"plane"`` or
 ///     ``"corner"`` likewise; ``baseline_m``, ``distance_m``, ``noise_px``,
 ///     ``outlier_fraction``, ``seed``.
+///
+/// Examples
+/// --------
+/// >>> TwoViewProblem(num_points=50, seed=1).pixels1.shape
+/// (50, 2)
 #[pyclass(frozen, module = "epipole.synthetic")]
 struct TwoViewProblem {
     options: synthetic::TwoViewProblemOptions,
@@ -122,7 +127,7 @@ impl TwoViewProblem {
 ///
 /// Parameters
 /// ----------
-/// **options
+/// **options : MultiViewProblemOptions
 ///     ``num_cameras``, ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``,
 ///     ``"plane"`` or ``"corner"`` likewise; ``path``, such as
 ///     ``{"arc": {"radius_m": 6.0, "span_rad": 1.0}}`` or
@@ -218,6 +223,14 @@ record! {
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(
+        module,
+        &epipole::synthetic::MultiViewProblemOptions::default(),
+    )?;
+    crate::options::declare(
+        module,
+        &epipole::synthetic::TwoViewProblemOptions::default(),
+    )?;
     module.add_class::<TwoViewProblem>()?;
     module.add_class::<MultiViewProblem>()?;
     module.add_class::<Sightings>()

@@ -93,6 +93,7 @@ def test_poses_of_poselib():
 
 def test_a_division_lens_is_refused():
     made = Camera(640, 480, K, Lens("division", [-0.2]))
+    pytest.importorskip("pycolmap")
     for go in (convert.to_opencv, convert.to_pycolmap, convert.to_poselib):
         with pytest.raises(ValueError, match="division"):
             go(made)

@@ -46,7 +46,7 @@ def test_math():
     svd = math.svd3(a)
     np.testing.assert_allclose(svd.u @ np.diag(svd.singular_values) @ svd.v.T, a, atol=1e-12)
     assert math.length([3, 4]) == 5
-    first, second = math.random.Random(7), math.random.Random(7)
+    first, second = math.Random(7), math.Random(7)
     assert [first.unit(), first.below(9)] == [second.unit(), second.below(9)]
     with pytest.raises(ValueError, match="latitude"):
         math.local_from_geodetic(math.Geodetic(95.0, 0.0, 0.0), munich)

@@ -1,10 +1,20 @@
 # Written by stubs.py. Do not edit.
 
 from epipole import absolute_pose as absolute_pose
+from epipole import calibration as calibration
 from epipole import camera as camera
 from epipole import epipolar as epipolar
+from epipole import feature as feature
 from epipole import homography as homography
+from epipole import imaging as imaging
+from epipole import io as io
+from epipole import math as math
+from epipole import optim as optim
 from epipole import robust as robust
+from epipole import sfm as sfm
+from epipole import stereo as stereo
+from epipole import stitch as stitch
+from epipole import synthetic as synthetic
 from epipole import triangulation as triangulation
 from epipole import two_view as two_view
 
@@ -15,10 +25,20 @@ __all__ = [
     "TooFewError",
     "__version__",
     "absolute_pose",
+    "calibration",
     "camera",
     "epipolar",
+    "feature",
     "homography",
+    "imaging",
+    "io",
+    "math",
+    "optim",
     "robust",
+    "sfm",
+    "stereo",
+    "stitch",
+    "synthetic",
     "triangulation",
     "two_view",
 ]

@@ -6,11 +6,11 @@ from typing import Any, ClassVar, final
 from numpy.typing import ArrayLike
 from typing_extensions import Unpack
 
+from epipole import options as option_types
 from epipole.camera import Camera
 from epipole.camera import Intrinsics
 from epipole.camera import PosedCamera
 from epipole.camera import RigidTransform
-from epipole.options import RansacOptions
 from epipole.robust import RansacReport
 
 __all__ = [
@@ -55,7 +55,7 @@ def estimate_absolute_pose(
     camera: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Pose of a calibrated camera from points with outliers, by RANSAC.
 
@@ -85,7 +85,7 @@ def estimate_absolute_pose_and_focal(
     principal: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Pose and focal length of a camera from points with outliers, by RANSAC.
 

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
+from epipole import options as option_types
 from epipole.camera import Camera
 from epipole.camera import Intrinsics
 from epipole.camera import PosedCamera
 from epipole.camera import RigidTransform
-from epipole.options import RansacOptions
 from epipole.robust import RansacReport
 
 __all__ = [
@@ -173,7 +173,7 @@ def estimate_fundamental(
     pixels2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Fundamental matrix of matches with outliers, by RANSAC.
 
@@ -202,7 +202,7 @@ def estimate_essential(
     camera2: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Essential matrix of matches with outliers, by RANSAC.
 
@@ -232,7 +232,7 @@ def estimate_relative_pose(
     camera2: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Relative pose of two calibrated cameras from matches with outliers, by RANSAC.
 
@@ -264,7 +264,7 @@ def estimate_relative_pose_with_gravity(
     gravity2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Relative pose of two calibrated cameras that know the direction of gravity, by RANSAC.
 
@@ -292,7 +292,7 @@ def estimate_relative_pose_and_focal(
     principal2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Relative pose and common focal length of two cameras, by RANSAC.
 

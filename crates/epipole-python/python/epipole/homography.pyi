@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
+from epipole import options as option_types
 from epipole.camera import Camera
 from epipole.camera import Intrinsics
 from epipole.camera import RigidTransform
-from epipole.options import RansacOptions
 from epipole.robust import RansacReport
 
 __all__ = [
@@ -49,7 +49,7 @@ def estimate_homography(
     pixels2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Homography of matches with outliers, by RANSAC.
 
@@ -78,7 +78,7 @@ def estimate_homography_calibrated(
     camera2: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Homography between the rays of two calibrated cameras, by RANSAC.
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
-from epipole.options import RansacOptions
+from epipole import options as option_types
 
 __all__ = [
     "FARTHEST_PX",
@@ -230,7 +230,7 @@ def estimate_similarity(
     pixels2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Similarity of matches with outliers, by RANSAC.
 
@@ -256,7 +256,7 @@ def ransac(
     refine: Callable[..., Any] | None = None,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Model of your own by RANSAC.
 

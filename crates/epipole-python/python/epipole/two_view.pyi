@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
 
+from epipole import options as option_types
 from epipole.camera import Camera
 from epipole.camera import RigidTransform
-from epipole.options import RansacOptions
-from epipole.options import TwoViewOptions
 from epipole.robust import RansacReport
 
 __all__ = [
@@ -169,7 +168,7 @@ def estimate_two_view(
     pixels2: ArrayLike,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> TwoViewReport:
     """Geometry of two views without calibration: F or H.
 
@@ -194,7 +193,7 @@ def estimate_two_view_calibrated(
     camera2: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> TwoViewReport:
     """Geometry of two calibrated views: E, H or a rotation, and the motion.
 
@@ -218,7 +217,7 @@ def estimate_rotation(
     camera2: Camera,
     *,
     progress: Callable[[str, float], object] | None = None,
-    **options: Unpack[RansacOptions],
+    **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport:
     """Rotation between two calibrated views from the same place, by RANSAC.
 
@@ -241,7 +240,7 @@ def find_degeneracy(
     pixels1: ArrayLike,
     pixels2: ArrayLike,
     inliers: ArrayLike,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> Degeneracy | None:
     """Why the inliers of F do not determine it: nothing moved, or a homography explains them.
 
@@ -259,7 +258,7 @@ def find_unmoved(
     pixels1: ArrayLike,
     pixels2: ArrayLike,
     inliers: ArrayLike,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> Degeneracy | None:
     """Whether nearly all inliers are at the same pixel in both images.
 
@@ -285,7 +284,7 @@ def find_explaining_turn(
     camera1: Camera,
     camera2: Camera,
     inliers: ArrayLike,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> ExplainingTurn | None:
     """Rotation that explains nearly all inliers of calibrated views, if there is one.
 
@@ -306,7 +305,7 @@ def find_turn_and_focal(
     camera1: Camera,
     camera2: Camera,
     inliers: ArrayLike,
-    **options: Unpack[TwoViewOptions],
+    **options: Unpack[option_types.TwoViewOptions],
 ) -> TurnAndFocal | None:
     """Rotation and change of the focal length that explain nearly all inliers, if there are any.
 

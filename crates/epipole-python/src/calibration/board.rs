@@ -27,6 +27,11 @@ use pyo3::types::PyTuple;
 ///     row and rows of a grid of circles.
 /// square_m : float
 ///     Side of a square or a tag, or distance of two rows of circles, meters.
+///
+/// Examples
+/// --------
+/// >>> Board("chessboard", 9, 6, 0.03).num_marks
+/// 54
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(super) struct Board {
     pub(super) board: calibration::Board,

@@ -120,7 +120,7 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 ///     Width and height of all photos, pixels.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : CalibrationOptions
 ///     ``lens``, the model of the lens, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
 ///
 /// Returns
@@ -130,12 +130,6 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 /// Raises
 /// ------
 /// epipole.TooFewError, epipole.DegenerateError
-///
-/// Examples
-/// --------
-/// >>> board = Board("chessboard", 9, 6, 0.025)
-/// >>> views = [find_board(photo, board).view for photo in photos]
-/// >>> calibrate(board, views, (1920, 1080)).camera
 #[pyfunction]
 #[pyo3(signature = (board, views, size, *, progress=None, **options))]
 pub(super) fn calibrate(

@@ -236,7 +236,7 @@ record! {
 ///     Such as ``"4x4_50"`` or ``"36h11"``.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : MarkerOptions
 ///     ``max_hamming``, ``border_bits``, ``min_side_px``.
 ///
 /// Returns
@@ -296,6 +296,8 @@ pub(super) fn photograph_of_board<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (board, camera, pose) = (&board.board, &camera.0, &cam_from_board.0);
     require_size(camera.width, camera.height)?;
-    let image = py.detach(|| calibration::photograph_of_board(board, camera, pose, noise, seed));
+    let image = progress::detach(py, || {
+        calibration::photograph_of_board(board, camera, pose, noise, seed)
+    });
     from_gray(py, image)
 }

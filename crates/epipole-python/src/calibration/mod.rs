@@ -10,6 +10,8 @@ pub(crate) use undistort::Undistortion;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::calibration::MarkerOptions::default())?;
+    crate::options::declare(module, &epipole::calibration::CalibrationOptions::default())?;
     module.add_class::<board::Board>()?;
     module.add_class::<board::BoardDrawing>()?;
     module.add_class::<board::BoardView>()?;

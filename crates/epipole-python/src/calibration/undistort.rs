@@ -2,8 +2,8 @@
 
 use crate::camera::{Camera, Intrinsics};
 use crate::errors::OrRaise;
-use crate::options;
 use crate::sfm::wrapper::{object, wrapper};
+use crate::{options, progress};
 use epipole::calibration::{self, Keep};
 use numpy::PyArray1;
 use numpy::prelude::*;
@@ -16,11 +16,6 @@ use pyo3::prelude::*;
 /// camera : Camera
 /// keep : {"valid", "all"}, optional
 ///     Only the area that was photographed everywhere, or all with black borders.
-///
-/// Examples
-/// --------
-/// >>> undistortion = Undistortion(camera)
-/// >>> flat = undistortion.map.warp(photo)
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct Undistortion(Content);
 
@@ -42,7 +37,7 @@ impl Undistortion {
         let keep = keep.map_or(Ok(Keep::default()), |keep| options::value("keep", keep))?;
         let camera = camera.0;
         crate::images::require_size(camera.width, camera.height)?;
-        let undistortion = py.detach(|| calibration::Undistortion::new(&camera, keep));
+        let undistortion = progress::detach(py, || calibration::Undistortion::new(&camera, keep));
         Ok(Self(Content {
             camera,
             keep,

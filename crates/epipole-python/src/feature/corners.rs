@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 ///     Gray; uint8 counts as value / 255.
 /// k : float
 ///     In [0, 0.25), usually 0.04 to 0.06.
-/// **options
+/// **options : StructureTensorOptions
 ///     Those of `structure_tensor`.
 ///
 /// Returns
@@ -34,7 +34,9 @@ pub(super) fn harris_response<'py>(
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = (image.py()).detach(|| feature::harris_response(&pixels, k, &options));
+    let response = progress::detach(image.py(), || {
+        feature::harris_response(&pixels, k, &options)
+    });
     from_gray(image.py(), response.or_raise()?)
 }
 
@@ -44,7 +46,7 @@ pub(super) fn harris_response<'py>(
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 counts as value / 255.
-/// **options
+/// **options : StructureTensorOptions
 ///     Those of `structure_tensor`.
 ///
 /// Returns
@@ -57,7 +59,9 @@ pub(super) fn min_eigenvalue_response<'py>(
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = (image.py()).detach(|| feature::min_eigenvalue_response(&pixels, &options));
+    let response = progress::detach(image.py(), || {
+        feature::min_eigenvalue_response(&pixels, &options)
+    });
     from_gray(image.py(), response.or_raise()?)
 }
 
@@ -69,7 +73,7 @@ pub(super) fn min_eigenvalue_response<'py>(
 ///     Gray.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : GoodFeaturesOptions
 ///     Such as ``max_corners`` (0 for no limit), ``quality`` (share of the strongest response),
 ///     ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows": 3}``.
 ///
@@ -110,8 +114,9 @@ pub(super) fn non_maximum_suppression(
     threshold: f32,
 ) -> PyResult<Keypoints> {
     let values = field("response", response)?;
-    let peaks =
-        (response.py()).detach(|| feature::non_maximum_suppression(&values, radius, threshold));
+    let peaks = progress::detach(response.py(), || {
+        feature::non_maximum_suppression(&values, radius, threshold)
+    });
     Keypoints::give(response.py(), &peaks.or_raise()?)
 }
 
@@ -123,7 +128,7 @@ pub(super) fn non_maximum_suppression(
 ///     Gray.
 /// corners : array_like, shape (N, 2)
 ///     Pixels.
-/// **options
+/// **options : RefineOptions
 ///     ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
 ///
 /// Returns
@@ -139,7 +144,9 @@ pub(super) fn refine_corners<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
     let corners = points2("corners", corners)?;
-    let refined = (image.py()).detach(|| feature::refine_corners(&pixels, &corners, &options));
+    let refined = progress::detach(image.py(), || {
+        feature::refine_corners(&pixels, &corners, &options)
+    });
     let refined = refined.or_raise()?.into_iter();
     let or_nan = refined.map(|corner| corner.map_or(Vector2::repeat(f64::NAN), |c| c.coords));
     from_rows(image.py(), &or_nan.collect::<Vec<_>>())

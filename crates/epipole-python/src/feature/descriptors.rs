@@ -61,6 +61,12 @@ impl Features {
         self.keypoints.get().count(py)
     }
 
+    /// Part of the rows.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : slice or array_like
+    ///     Slice, indices or boolean mask.
     fn __getitem__(slf: &Bound<'_, Self>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
         require_several(index)?;
         let keypoints = slf.getattr("keypoints")?.get_item(index)?;

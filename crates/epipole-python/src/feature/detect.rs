@@ -23,7 +23,7 @@ use pyo3::types::PyDict;
 #[pyfunction]
 pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let color = rgb("photo", photo)?;
-    let gray = (photo.py()).detach(|| feature::photo_to_gray(&color));
+    let gray = progress::detach(photo.py(), || feature::photo_to_gray(&color));
     from_gray(photo.py(), gray)
 }
 
@@ -35,7 +35,7 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : FeatureOptions
 ///     ``kind``: ``"root_sift"`` (the default), ``"sift"``, ``"orb"`` or ``"harris"``;
 ///     ``max_features=8192``, 0 for no limit; ``upright=False``; and others of each kind.
 ///
@@ -65,7 +65,7 @@ pub(super) fn detect_features(
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : SiftOptions
 ///     Such as ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
 ///     ``upright``, ``normalization="root"`` for RootSIFT.
 ///
@@ -95,7 +95,7 @@ pub(super) fn detect_sift(
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : OrbOptions
 ///     Such as ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
 ///     values in [0, 1]), ``upright``.
 ///
@@ -125,7 +125,7 @@ pub(super) fn detect_orb(
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel and the direction 0.
-/// **options
+/// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
 /// Returns
@@ -140,7 +140,9 @@ pub(super) fn describe_sift<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let list = (image.py()).detach(|| feature::describe_sift(&pixels, &keypoints, &options));
+    let list = progress::detach(image.py(), || {
+        feature::describe_sift(&pixels, &keypoints, &options)
+    });
     give_descriptors(image.py(), &list.or_raise()?)
 }
 
@@ -152,7 +154,7 @@ pub(super) fn describe_sift<'py>(
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel.
-/// **options
+/// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
 /// Returns
@@ -168,7 +170,9 @@ pub(super) fn sift_directions<'py>(
 ) -> PyResult<Vec<Bound<'py, PyArray1<f32>>>> {
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let found = (image.py()).detach(|| feature::sift_directions(&pixels, &keypoints, &options));
+    let found = progress::detach(image.py(), || {
+        feature::sift_directions(&pixels, &keypoints, &options)
+    });
     let give = |directions| PyArray1::from_vec(image.py(), directions);
     Ok(found.or_raise()?.into_iter().map(give).collect())
 }
@@ -199,7 +203,8 @@ pub(super) fn describe_patches<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let pixels = gray("image", image)?;
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let list =
-        (image.py()).detach(|| feature::describe_patches(&pixels, &keypoints, size, spacing_px));
+    let list = progress::detach(image.py(), || {
+        feature::describe_patches(&pixels, &keypoints, size, spacing_px)
+    });
     give_descriptors(image.py(), &list.or_raise()?)
 }

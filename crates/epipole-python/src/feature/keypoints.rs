@@ -79,6 +79,12 @@ impl Keypoints {
         self.points.bind(py).shape()[0]
     }
 
+    /// Part of the rows.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : slice or array_like
+    ///     Slice, indices or boolean mask.
     fn __getitem__(slf: &Bound<'_, Self>, index: &Bound<'_, PyAny>) -> PyResult<Self> {
         require_several(index)?;
         let part = |name: &str| slf.getattr(name)?.get_item(index);

@@ -58,7 +58,7 @@ impl Neighbors {
 ///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32), such as OpenCV's.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : MatchOptions
 ///     ``max_ratio``, in (0, 1], or None for no ratio test; ``mutual``; ``max_distance``;
 ///     ``unique``.
 ///
@@ -68,9 +68,8 @@ impl Neighbors {
 ///
 /// Examples
 /// --------
-/// >>> matches = match_descriptors(features1, features2, max_ratio=0.8)
-/// >>> pixels1 = features1.points[matches.indices[:, 0]]
-/// >>> pixels2 = features2.points[matches.indices[:, 1]]
+/// >>> match_descriptors(np.eye(2, 4), np.eye(2, 4)).indices.tolist()
+/// [[0, 0], [1, 1]]
 #[pyfunction]
 #[pyo3(signature = (descriptors1, descriptors2, *, progress=None, **options))]
 pub(super) fn match_descriptors(
@@ -162,9 +161,7 @@ pub(super) fn nearest_few<'py>(
     let py = query.py();
     let query = column("query", query)?;
     let list = descriptors("list", list)?;
-    let found = py
-        .detach(|| feature::nearest_few(&query, &list, count))
-        .or_raise()?;
+    let found = progress::detach(py, || feature::nearest_few(&query, &list, count)).or_raise()?;
     let indices = found.iter().map(|&(index, _)| index as i64).collect();
     let distances = found.iter().map(|&(_, distance)| distance).collect();
     Ok((

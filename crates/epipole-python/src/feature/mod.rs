@@ -13,6 +13,14 @@ mod window;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::feature::StructureTensorOptions::default())?;
+    crate::options::declare(module, &epipole::feature::SiftOptions::default())?;
+    crate::options::declare(module, &epipole::feature::FeatureOptions::default())?;
+    crate::options::declare(module, &epipole::feature::OrbOptions::default())?;
+    crate::options::declare(module, &epipole::feature::GoodFeaturesOptions::default())?;
+    crate::options::declare(module, &epipole::feature::RefineOptions::default())?;
+    crate::options::declare(module, &epipole::feature::MatchOptions::default())?;
+    crate::options::declare(module, &epipole::feature::TrackOptions::default())?;
     module.add_class::<keypoints::Keypoints>()?;
     module.add_class::<descriptors::Features>()?;
     module.add_class::<matching::Matches>()?;

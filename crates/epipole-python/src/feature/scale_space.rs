@@ -3,8 +3,8 @@
 use crate::arrays::vector;
 use crate::errors::OrRaise;
 use crate::images::{field, unit_gray};
-use crate::options;
 use crate::record::{plain_class, record};
+use crate::{options, progress};
 use epipole::feature;
 use epipole::imaging::GrayImage32;
 use numpy::prelude::*;
@@ -132,7 +132,7 @@ impl ScaleSpace {
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
-/// **options
+/// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
 /// Returns
@@ -147,9 +147,7 @@ pub(super) fn scale_space(
 ) -> PyResult<ScaleSpace> {
     let py = image.py();
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let core = py
-        .detach(|| feature::scale_space(&pixels, &options))
-        .or_raise()?;
+    let core = progress::detach(py, || feature::scale_space(&pixels, &options)).or_raise()?;
     let octaves = core.octaves.iter();
     let octaves: PyResult<Vec<_>> = octaves
         .map(|octave| Py::new(py, ScaleOctave::give(py, octave)?))

@@ -3,8 +3,8 @@
 use super::window::WindowTensor;
 use crate::errors::OrRaise;
 use crate::images::{field, from_gray, gray};
-use crate::options;
 use crate::record::record;
+use crate::{options, progress};
 use epipole::feature;
 use numpy::PyArray2;
 use numpy::prelude::*;
@@ -68,7 +68,7 @@ impl StructureTensor {
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 counts as value / 255.
-/// **options
+/// **options : StructureTensorOptions
 ///     ``derivative``: ``"sobel3"``, ``"sobel5"`` or ``"scharr"``; ``window``: ``{"box": 3}`` or
 ///     ``{"gaussian": 1.5}``, pixels; ``scaling``: ``"textbook"`` or ``"open_cv"``; ``border``.
 ///
@@ -83,9 +83,8 @@ pub(super) fn structure_tensor(
 ) -> PyResult<StructureTensor> {
     let py = image.py();
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let tensor = py
-        .detach(|| feature::structure_tensor(&pixels, &options))
-        .or_raise()?;
+    let tensor =
+        progress::detach(py, || feature::structure_tensor(&pixels, &options)).or_raise()?;
     Ok(StructureTensor {
         uu: from_gray(py, tensor.uu)?.unbind(),
         uv: from_gray(py, tensor.uv)?.unbind(),

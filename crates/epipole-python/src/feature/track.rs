@@ -3,8 +3,8 @@
 use crate::arrays::{from_rows, points2};
 use crate::errors::OrRaise;
 use crate::images::unit_gray;
-use crate::options;
 use crate::record::record;
+use crate::{options, progress};
 use epipole::feature::{self, Track};
 use epipole::nalgebra::Vector2;
 use numpy::prelude::*;
@@ -43,7 +43,7 @@ impl Tracks {
 ///     Gray, uint8 or float in [0, 1].
 /// points : array_like, shape (N, 2)
 ///     Pixels of the first image.
-/// **options
+/// **options : TrackOptions
 ///     ``half_window``, pixels; ``num_levels``; ``max_iterations``; ``tolerance_px``;
 ///     ``min_eigenvalue``; ``max_forward_backward_px``, or None for no check.
 ///
@@ -62,7 +62,9 @@ pub(super) fn track_lucas_kanade(
     let (first, second) = (unit_gray("first", first)?, unit_gray("second", second)?);
     let points = points2("points", points)?;
     let options = options::read(options)?;
-    let tracks = py.detach(|| feature::track_lucas_kanade(&first, &second, &points, &options));
+    let tracks = progress::detach(py, || {
+        feature::track_lucas_kanade(&first, &second, &points, &options)
+    });
     let tracks = tracks.or_raise()?;
     let place = |track: &Option<Track>| match track {
         Some(track) => track.point.coords,

@@ -45,7 +45,11 @@ impl WindowTensor {
 
 #[pymethods]
 impl WindowTensor {
-    /// Tensor of the gradients (Iu, Iv) of a window's pixels, shape (N, 2).
+    /// Tensor of the gradients (Iu, Iv) of a window's pixels.
+    ///
+    /// Parameters
+    /// ----------
+    /// gradients : array_like, shape (N, 2)
     #[staticmethod]
     fn from_gradients(gradients: &Bound<'_, PyAny>) -> PyResult<Self> {
         let gradients = vectors::<2>("gradients", gradients)?;
@@ -60,7 +64,7 @@ impl WindowTensor {
     ///     Gray; uint8 counts as value / 255.
     /// pixel : tuple of int
     ///     Column and row.
-    /// **options
+    /// **options : StructureTensorOptions
     ///     Those of `structure_tensor`.
     #[staticmethod]
     #[pyo3(signature = (image, pixel, **options))]
@@ -99,7 +103,12 @@ impl WindowTensor {
         self.core().harris(k)
     }
 
-    /// Approximate squared change of the window under a small shift, pixels, shape (2,).
+    /// Approximate squared change of the window under a small shift.
+    ///
+    /// Parameters
+    /// ----------
+    /// shift : array_like, shape (2,)
+    ///     Pixels.
     fn change(&self, shift: &Bound<'_, PyAny>) -> PyResult<f64> {
         Ok(self.core().change(&vector::<2>("shift", shift)?))
     }

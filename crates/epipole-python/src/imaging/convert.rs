@@ -2,6 +2,7 @@
 
 use crate::arrays::vector;
 use crate::images::{from_gray, gray, rgb};
+use crate::progress;
 use epipole::imaging;
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -47,7 +48,7 @@ pub(super) fn gray_to_u8<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py, 
 #[pyfunction]
 pub(super) fn rgb_to_gray<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<u8>>> {
     let color = rgb("image", image)?;
-    let gray = image.py().detach(|| imaging::rgb_to_gray(&color));
+    let gray = progress::detach(image.py(), || imaging::rgb_to_gray(&color));
     from_gray(image.py(), gray)
 }
 
@@ -74,6 +75,6 @@ pub(super) fn rgb_to_gray_f32<'py>(
         Some(weights) => vector::<3>("weights", weights)?.cast::<f32>().into(),
         None => imaging::BT601_WEIGHTS,
     };
-    let gray = (image.py()).detach(|| imaging::rgb_to_gray_f32(&color, &weights));
+    let gray = progress::detach(image.py(), || imaging::rgb_to_gray_f32(&color, &weights));
     from_gray(image.py(), gray)
 }

@@ -2,6 +2,7 @@
 
 use crate::errors::OrRaise;
 use crate::images::{Gray, column, field, from_gray};
+use crate::progress;
 use epipole::imaging;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -30,7 +31,9 @@ pub(super) fn correlate<'py>(
     let gray = Gray::read("image", image)?;
     let kernel = field("kernel", kernel)?;
     let border = gray.border(border)?;
-    let result = (image.py()).detach(|| imaging::correlate(&gray.pixels, &kernel, border));
+    let result = progress::detach(image.py(), || {
+        imaging::correlate(&gray.pixels, &kernel, border)
+    });
     from_gray(image.py(), result.or_raise()?)
 }
 
@@ -59,8 +62,9 @@ pub(super) fn separable_filter<'py>(
     let gray = Gray::read("image", image)?;
     let (along_u, along_v) = (column("kernel_u", kernel_u)?, column("kernel_v", kernel_v)?);
     let border = gray.border(border)?;
-    let result =
-        (image.py()).detach(|| imaging::separable_filter(&gray.pixels, &along_u, &along_v, border));
+    let result = progress::detach(image.py(), || {
+        imaging::separable_filter(&gray.pixels, &along_u, &along_v, border)
+    });
     from_gray(image.py(), result.or_raise()?)
 }
 
@@ -90,6 +94,11 @@ pub(super) fn noise_gain(weights: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Returns
 /// -------
 /// ndarray of float32, shape (size,)
+///
+/// Examples
+/// --------
+/// >>> [round(float(sample), 4) for sample in gaussian_kernel(1.0, 3)]
+/// [0.2741, 0.4519, 0.2741]
 #[pyfunction]
 pub(super) fn gaussian_kernel(
     py: Python<'_>,
@@ -148,7 +157,9 @@ pub(super) fn gaussian_blur<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let blurred = (image.py()).detach(|| imaging::gaussian_blur(&gray.pixels, sigma_px, border));
+    let blurred = progress::detach(image.py(), || {
+        imaging::gaussian_blur(&gray.pixels, sigma_px, border)
+    });
     gray.give(image.py(), blurred.or_raise()?)
 }
 
@@ -176,6 +187,8 @@ pub(super) fn box_filter<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let mean = (image.py()).detach(|| imaging::box_filter(&gray.pixels, size, border));
+    let mean = progress::detach(image.py(), || {
+        imaging::box_filter(&gray.pixels, size, border)
+    });
     gray.give(image.py(), mean.or_raise()?)
 }

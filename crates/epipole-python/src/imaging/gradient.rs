@@ -2,8 +2,8 @@
 
 use crate::errors::OrRaise;
 use crate::images::{Gray, field, from_gray};
-use crate::options;
 use crate::record::record;
+use crate::{options, progress};
 use epipole::imaging::{self, DerivativeFilter};
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -39,13 +39,13 @@ impl Gradient {
     /// Steepest slope at each pixel, shape (H, W).
     fn magnitude<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let gradient = self.core(py)?;
-        from_gray(py, py.detach(|| gradient.magnitude()))
+        from_gray(py, progress::detach(py, || gradient.magnitude()))
     }
 
     /// Direction of steepest ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat.
     fn orientation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let gradient = self.core(py)?;
-        from_gray(py, py.detach(|| gradient.orientation()))
+        from_gray(py, progress::detach(py, || gradient.orientation()))
     }
 }
 
@@ -76,7 +76,9 @@ pub(super) fn derivative(
         None => DerivativeFilter::default(),
     };
     let border = gray.border(border)?;
-    let gradient = (image.py()).detach(|| imaging::derivative(&gray.pixels, kind, border));
+    let gradient = progress::detach(image.py(), || {
+        imaging::derivative(&gray.pixels, kind, border)
+    });
     Gradient::give(image.py(), gradient)
 }
 
@@ -100,7 +102,9 @@ pub(super) fn centered_difference(
 ) -> PyResult<Gradient> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let gradient = (image.py()).detach(|| imaging::centered_difference(&gray.pixels, border));
+    let gradient = progress::detach(image.py(), || {
+        imaging::centered_difference(&gray.pixels, border)
+    });
     Gradient::give(image.py(), gradient)
 }
 
@@ -124,7 +128,7 @@ pub(super) fn sobel(
 ) -> PyResult<Gradient> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let gradient = (image.py()).detach(|| imaging::sobel(&gray.pixels, border));
+    let gradient = progress::detach(image.py(), || imaging::sobel(&gray.pixels, border));
     Gradient::give(image.py(), gradient)
 }
 
@@ -151,7 +155,8 @@ pub(super) fn gaussian_derivative(
 ) -> PyResult<Gradient> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let gradient =
-        (image.py()).detach(|| imaging::gaussian_derivative(&gray.pixels, sigma_px, border));
+    let gradient = progress::detach(image.py(), || {
+        imaging::gaussian_derivative(&gray.pixels, sigma_px, border)
+    });
     Gradient::give(image.py(), gradient.or_raise()?)
 }

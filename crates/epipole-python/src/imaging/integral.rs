@@ -1,6 +1,7 @@
 //! Integral images.
 
 use crate::images::gray;
+use crate::progress;
 use epipole::imaging;
 use pyo3::prelude::*;
 
@@ -19,9 +20,9 @@ impl IntegralImage {
     #[new]
     fn new(image: &Bound<'_, PyAny>) -> PyResult<Self> {
         let image_pixels = gray("image", image)?;
-        Ok(Self(
-            (image.py()).detach(|| imaging::IntegralImage::new(&image_pixels)),
-        ))
+        Ok(Self(progress::detach(image.py(), || {
+            imaging::IntegralImage::new(&image_pixels)
+        })))
     }
 
     /// Sum over ``image[v0:v1, u0:u1]``.

@@ -12,6 +12,7 @@ use epipole::imaging;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::imaging::WarpOptions::new(0, 0))?;
     let weights = [
         ("BT601_WEIGHTS", imaging::BT601_WEIGHTS),
         ("BT709_WEIGHTS", imaging::BT709_WEIGHTS),

@@ -1,6 +1,7 @@
 //! Pyramids of images.
 
 use crate::images::{Gray, field, from_gray, gray, require_size};
+use crate::progress;
 use epipole::imaging::{self, Border};
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -26,7 +27,7 @@ pub(super) fn pyramid_down<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     let border: Border = gray.border(border)?;
-    let half = (image.py()).detach(|| imaging::pyramid_down(&gray.pixels, border));
+    let half = progress::detach(image.py(), || imaging::pyramid_down(&gray.pixels, border));
     gray.give(image.py(), half)
 }
 
@@ -51,7 +52,9 @@ pub(super) fn pyramid_up<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     require_size(width, height)?;
-    let double = (image.py()).detach(|| imaging::pyramid_up(&gray.pixels, width, height));
+    let double = progress::detach(image.py(), || {
+        imaging::pyramid_up(&gray.pixels, width, height)
+    });
     gray.give(image.py(), double)
 }
 
@@ -74,7 +77,9 @@ pub(super) fn gaussian_pyramid<'py>(
     num_levels: usize,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let gray = Gray::read("image", image)?;
-    let levels = (image.py()).detach(|| imaging::gaussian_pyramid(&gray.pixels, num_levels));
+    let levels = progress::detach(image.py(), || {
+        imaging::gaussian_pyramid(&gray.pixels, num_levels)
+    });
     let give = |level| gray.give(image.py(), level);
     levels.into_iter().map(give).collect()
 }
@@ -97,7 +102,9 @@ pub(super) fn laplacian_pyramid<'py>(
     num_levels: usize,
 ) -> PyResult<Vec<Bound<'py, PyArray2<f32>>>> {
     let pixels = gray("image", image)?;
-    let levels = (image.py()).detach(|| imaging::laplacian_pyramid(&pixels, num_levels));
+    let levels = progress::detach(image.py(), || {
+        imaging::laplacian_pyramid(&pixels, num_levels)
+    });
     let give = |level| from_gray(image.py(), level);
     levels.into_iter().map(give).collect()
 }
@@ -123,7 +130,10 @@ pub(super) fn from_laplacian_pyramid<'py>(
         .map(|(k, level)| field(&format!("levels[{k}]"), level))
         .collect();
     let levels = levels?;
-    from_gray(py, py.detach(|| imaging::from_laplacian_pyramid(&levels)))
+    from_gray(
+        py,
+        progress::detach(py, || imaging::from_laplacian_pyramid(&levels)),
+    )
 }
 
 /// Sharpness of a photo: mean square of its details of a few pixels.
@@ -140,5 +150,5 @@ pub(super) fn from_laplacian_pyramid<'py>(
 #[pyfunction]
 pub(super) fn sharpness(image: &Bound<'_, PyAny>) -> PyResult<f64> {
     let pixels = gray("image", image)?;
-    Ok((image.py()).detach(|| imaging::sharpness(&pixels)))
+    Ok(progress::detach(image.py(), || imaging::sharpness(&pixels)))
 }

@@ -3,6 +3,7 @@
 use crate::arrays::Batch;
 use crate::errors::OrRaise;
 use crate::images::{Gray, from_rgb, require_size, rgb};
+use crate::progress;
 use epipole::imaging::{self, Border, GrayImage32};
 use numpy::PyArray3;
 use pyo3::prelude::*;
@@ -28,7 +29,7 @@ pub(super) fn resize<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     require_size(width, height)?;
-    let resized = (image.py()).detach(|| imaging::resize(&gray.pixels, width, height));
+    let resized = progress::detach(image.py(), || imaging::resize(&gray.pixels, width, height));
     gray.give(image.py(), resized.or_raise()?)
 }
 
@@ -50,7 +51,7 @@ pub(super) fn reduce_rgb<'py>(
     max_pixels: u64,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
     let color = rgb("image", image)?;
-    let reduced = (image.py()).detach(|| imaging::reduce_rgb(color, max_pixels));
+    let reduced = progress::detach(image.py(), || imaging::reduce_rgb(color, max_pixels));
     from_rgb(image.py(), reduced)
 }
 

@@ -3,7 +3,7 @@
 use crate::arrays::matrix;
 use crate::errors::OrRaise;
 use crate::images::{Image, require_size, same_kind};
-use crate::options;
+use crate::{options, progress};
 use epipole::imaging::{self, WarpOptions};
 use epipole::nalgebra::{Matrix2x3, Matrix3};
 use pyo3::prelude::*;
@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (2, 3)
 ///     Pixels of the image to pixels of the result.
-/// **options
+/// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 ///
@@ -36,7 +36,7 @@ pub(super) fn warp_affine<'py>(
     let options = warp_options(&source, options)?;
     let py = image.py();
     let warped = same_kind!(&source, |pixels| {
-        let warped = py.detach(|| imaging::warp_affine(pixels, &map, &options));
+        let warped = progress::detach(py, || imaging::warp_affine(pixels, &map, &options));
         warped.or_raise()?
     });
     warped.give(py)
@@ -49,7 +49,7 @@ pub(super) fn warp_affine<'py>(
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (3, 3)
 ///     Pixels of the image to pixels of the result, up to scale.
-/// **options
+/// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 ///
@@ -69,7 +69,7 @@ pub(super) fn warp_perspective<'py>(
     let options = warp_options(&source, options)?;
     let py = image.py();
     let warped = same_kind!(&source, |pixels| {
-        let warped = py.detach(|| imaging::warp_perspective(pixels, &map, &options));
+        let warped = progress::detach(py, || imaging::warp_perspective(pixels, &map, &options));
         warped.or_raise()?
     });
     warped.give(py)

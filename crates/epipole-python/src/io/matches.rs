@@ -46,6 +46,11 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
 /// Returns
 /// -------
 /// ndarray, shape (N, 2)
+///
+/// Examples
+/// --------
+/// >>> read_points(b"1 2\n3 4\n").tolist()
+/// [[1.0, 2.0], [3.0, 4.0]]
 #[pyfunction]
 fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
     let py = source.py();

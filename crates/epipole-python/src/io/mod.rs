@@ -9,6 +9,7 @@ mod models;
 mod photos;
 mod trajectories;
 
+use crate::progress;
 use epipole_io::Error;
 use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -34,7 +35,7 @@ impl Source {
             return Ok(Self { path: None, bytes });
         }
         let path = path(source)?;
-        let bytes = source.py().detach(|| std::fs::read(&path));
+        let bytes = progress::detach(source.py(), || std::fs::read(&path));
         Ok(Self {
             bytes: bytes.map_err(|error| os_error(&error, &path))?,
             path: Some(path),
@@ -101,7 +102,7 @@ pub(super) fn os_error(error: &std::io::Error, path: &Path) -> PyErr {
 /// `OSError` naming the file, `TypeError` for another type of path.
 pub(super) fn write(target: &Bound<'_, PyAny>, bytes: &[u8]) -> PyResult<()> {
     let path = path(target)?;
-    let written = target.py().detach(|| std::fs::write(&path, bytes));
+    let written = progress::detach(target.py(), || std::fs::write(&path, bytes));
     written.map_err(|error| os_error(&error, &path))
 }
 

@@ -4,6 +4,7 @@ use super::clouds::give_cloud;
 use super::{Source, format_of, or_raise, os_error, path};
 use crate::arrays::{from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, RigidTransform};
+use crate::progress;
 use crate::record::record;
 use crate::sfm::wrapper::{
     colors, give_colors, give_index_rows, index_rows, require_equal, wrapper,
@@ -361,7 +362,7 @@ fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     let path = path(folder)?;
     std::fs::read_dir(&path).map_err(|error| os_error(&error, &path))?;
     let file = |name: &str| std::fs::read(path.join(name)).ok();
-    let read = folder.py().detach(|| model::read_model_folder(&file));
+    let read = progress::detach(folder.py(), || model::read_model_folder(&file));
     let located = |error| PyValueError::new_err(format!("{}: {error}", path.display()));
     match read.map_err(located)? {
         Some(read) => Ok(read.into()),

@@ -5,6 +5,7 @@ use crate::calibration::Undistortion;
 use crate::camera::{Camera, Intrinsics};
 use crate::images::{from_gray, from_rgb, rgb};
 use crate::math::Geodetic;
+use crate::progress;
 use crate::record::record;
 use crate::sfm::wrapper::wrapper;
 use epipole_io::photo::{self, DecodeOptions, PixelRange, PrepareOptions};
@@ -67,17 +68,14 @@ fn decode_options(
 ///     Larger images are refused. 64 million if not given.
 /// apply_orientation : bool, optional
 ///     Whether to turn the image upright by its EXIF orientation.
-/// range : {"auto", "full"} or tuple of float, optional
+/// range : str or tuple of float, optional
+///     ``"auto"`` or ``"full"``, or the values that become black and white.
 ///     Sample values that become black and white: those in use, all of the format, or these.
 ///
 /// Returns
 /// -------
 /// Decoded
 ///     Its `image` is uint8 of shape (H, W, 3).
-///
-/// Examples
-/// --------
-/// >>> image = decode_rgb("photo.jpg").image
 #[pyfunction]
 #[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
 fn decode_rgb(
@@ -89,7 +87,7 @@ fn decode_rgb(
     let py = source.py();
     let options = decode_options(max_pixels, apply_orientation, range)?;
     let source = Source::read(source)?;
-    let decoded = py.detach(|| photo::decode_rgb(&source.bytes, &options));
+    let decoded = progress::detach(py, || photo::decode_rgb(&source.bytes, &options));
     let decoded = source.done(decoded)?;
     Ok(Decoded {
         image: from_rgb(py, decoded.image)?.into_any().unbind(),
@@ -109,7 +107,8 @@ fn decode_rgb(
 ///     Larger images are refused. 64 million if not given.
 /// apply_orientation : bool, optional
 ///     Whether to turn the image upright by its EXIF orientation.
-/// range : {"auto", "full"} or tuple of float, optional
+/// range : str or tuple of float, optional
+///     ``"auto"`` or ``"full"``, or the values that become black and white.
 ///     Sample values that become black and white: those in use, all of the format, or these.
 ///
 /// Returns
@@ -127,7 +126,7 @@ fn decode_gray(
     let py = source.py();
     let options = decode_options(max_pixels, apply_orientation, range)?;
     let source = Source::read(source)?;
-    let decoded = py.detach(|| photo::decode_gray(&source.bytes, &options));
+    let decoded = progress::detach(py, || photo::decode_gray(&source.bytes, &options));
     let decoded = source.done(decoded)?;
     Ok(Decoded {
         image: from_gray(py, decoded.image)?.into_any().unbind(),
@@ -276,7 +275,8 @@ impl PreparedPhoto {
 ///     Maximum number of pixels of the result.
 /// max_file_pixels : int, optional
 ///     Larger files are refused. 64 million if not given.
-/// range : {"auto", "full"} or tuple of float, optional
+/// range : str or tuple of float, optional
+///     ``"auto"`` or ``"full"``, or the values that become black and white.
 ///     As in `decode_rgb`.
 /// undistortion : epipole.calibration.Undistortion, optional
 ///     Applied to images with the size of its camera.
@@ -303,7 +303,7 @@ fn prepare_photo(
         .with_range(pixel_range(range)?)
         .with_undistortion(undistortion.map(Undistortion::core));
     let source = Source::read(source)?;
-    let prepared = py.detach(|| photo::prepare_photo(&source.bytes, &options));
+    let prepared = progress::detach(py, || photo::prepare_photo(&source.bytes, &options));
     Ok(PreparedPhoto(source.done(prepared)?))
 }
 

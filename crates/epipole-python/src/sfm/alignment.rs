@@ -62,6 +62,11 @@ fn alignment_kind(kind: Option<&Bound<'_, PyAny>>) -> PyResult<AlignmentKind> {
 /// Returns
 /// -------
 /// Similarity3
+///
+/// Examples
+/// --------
+/// >>> round(align_points(np.eye(3), 2 * np.eye(3)).scale, 6)
+/// 2.0
 #[pyfunction]
 #[pyo3(signature = (from_points, to_points, kind=None))]
 pub(super) fn align_points(

@@ -245,7 +245,7 @@ pub(super) fn plain_options<'py>(
 ///     It is not changed.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : BundleOptions
 ///     ``loss``, of pixels; ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
 ///     ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``; ``held_cameras`` and
 ///     ``held_points``, lists of bool; ``position_priors``, a list of `PositionPrior` or None;

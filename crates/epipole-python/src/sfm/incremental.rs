@@ -182,7 +182,7 @@ impl SfmResult {
 /// input : SfmInput
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : SfmOptions
 ///     ``ransac``, a dict; ``max_registration_error_px``, ``max_reprojection_error_px``,
 ///     ``min_num_inliers``, ``min_angle_deg``, ``min_start_angle_deg``, ``min_track_length``,
 ///     ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
@@ -219,7 +219,7 @@ pub(super) fn reconstruct(
 /// input : SfmInput
 /// progress : callable, optional
 ///     Called with the stage and the completed share while pairs are tested.
-/// **options
+/// **options : SfmOptions
 ///     Those of `reconstruct`.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct IncrementalReconstruction(Mutex<Option<sfm::IncrementalReconstruction>>);
@@ -338,7 +338,7 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
 ///     Result of `reconstruct`.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : SfmOptions
 ///     Those given to `reconstruct`.
 ///
 /// Returns

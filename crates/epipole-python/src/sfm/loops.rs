@@ -160,7 +160,9 @@ pub(super) fn estimate_similarity_of_points<'py>(
 ) -> PyResult<(Similarity3, Bound<'py, PyArray1<bool>>)> {
     let from = points3("from_points", from_points)?;
     let to = points3("to_points", to_points)?;
-    let found = py.detach(|| sfm::estimate_similarity_of_points(&from, &to, max_distance, seed));
+    let found = progress::detach(py, || {
+        sfm::estimate_similarity_of_points(&from, &to, max_distance, seed)
+    });
     let (similarity, inliers) = found.or_raise()?;
     Ok((Similarity3(similarity), inliers.to_pyarray(py)))
 }

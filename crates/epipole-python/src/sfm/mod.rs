@@ -24,6 +24,15 @@ pub(crate) use reconstruction::Reconstruction;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::sfm::BundleOptions::default())?;
+    crate::options::declare(module, &epipole::sfm::LocalizeOptions::default())?;
+    crate::options::declare(module, &epipole::sfm::OdometryOptions::default())?;
+    crate::options::declare(module, &epipole::sfm::PhotoOptions::default())?;
+    crate::options::declare(module, &epipole::sfm::SfmOptions::default())?;
+    crate::options::declare(
+        module,
+        &epipole::sfm::TwoViewReconstructionOptions::default(),
+    )?;
     module.add_class::<similarity::Similarity3>()?;
     module.add_class::<alignment::ErrorStatistics>()?;
     module.add_class::<alignment::RelativePoseError>()?;

@@ -104,7 +104,7 @@ impl Right {
 ///     Frames in order of time, and matches between frames that are near in time.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : OdometryOptions
 ///     ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes that
 ///     are refined together; ``final_adjustment``.
 ///
@@ -145,7 +145,7 @@ pub(super) fn monocular_odometry(
 /// right_camera : Camera
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : OdometryOptions
 ///     Those of `monocular_odometry`.
 ///
 /// Returns
@@ -200,7 +200,7 @@ impl Odometry {
     /// input : SfmInput
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
-    /// **options
+    /// **options : OdometryOptions
     ///     Those of `monocular_odometry`.
     #[staticmethod]
     #[pyo3(signature = (input, *, progress=None, **options))]
@@ -229,7 +229,7 @@ impl Odometry {
     /// right_camera : Camera
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
-    /// **options
+    /// **options : OdometryOptions
     ///     Those of `monocular_odometry`.
     #[staticmethod]
     #[pyo3(signature = (

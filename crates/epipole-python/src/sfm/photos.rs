@@ -222,7 +222,7 @@ fn descriptors(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Descriptors> {
 /// photo : Photo
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : PhotoOptions
 ///     ``features``, a dict of the options of `epipole.feature.detect_features`.
 ///
 /// Returns
@@ -251,7 +251,7 @@ pub(super) fn photo_features(
 /// features : list of PhotoFeatures
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : PhotoOptions
 ///     ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
 ///     photos to match each with, 0 for all; ``best_first``.
 ///
@@ -259,7 +259,7 @@ pub(super) fn photo_features(
 /// -------
 /// list of PairMatches
 #[pyfunction]
-#[pyo3(signature = (features, *, progress=None, **options))]
+#[pyo3(signature = (features, /, *, progress=None, **options))]
 pub(super) fn match_features(
     py: Python<'_>,
     features: Vec<PhotoFeatures>,
@@ -281,7 +281,7 @@ pub(super) fn match_features(
 /// left, right : PhotoFeatures
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : PhotoOptions
 ///     Those of `match_features`.
 ///
 /// Returns
@@ -311,7 +311,7 @@ pub(super) fn match_rectified<'py>(
 /// photos : list of Photo
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : PhotoOptions
 ///     Those of `photo_features` and `match_features`.
 ///
 /// Returns
@@ -346,7 +346,7 @@ pub(super) fn match_photos(
 ///     Options of `match_photos`.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : SfmOptions
 ///     Those of `reconstruct`.
 ///
 /// Returns

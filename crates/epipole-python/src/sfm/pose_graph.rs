@@ -289,7 +289,7 @@ impl PoseGraph {
     ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
-    /// **options
+    /// **options : LmOptions
     ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
     ///     ``initial_damping``, ``patience``.
     ///

@@ -198,7 +198,7 @@ impl Reconstruction {
     ///     Camera of the photo.
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
-    /// **options
+    /// **options : LocalizeOptions
     ///     ``matching`` and ``ransac``, dicts; ``min_num_inliers``.
     ///
     /// Returns

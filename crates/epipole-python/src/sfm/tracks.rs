@@ -102,7 +102,7 @@ record! {
 ///     Their cameras.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : SfmOptions
 ///     Those of `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
 ///
 /// Returns

@@ -46,7 +46,7 @@ record! {
 ///     Motion to start from; the length of its translation does not matter.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
-/// **options
+/// **options : TwoViewReconstructionOptions
 ///     ``min_angle_rad``, ``max_error_px``, ``min_num_points``; ``bundle``, a dict of the options
 ///     of `adjust_bundle`.
 ///

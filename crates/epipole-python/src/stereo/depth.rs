@@ -3,6 +3,7 @@
 use crate::arrays::{from_rows, matrix};
 use crate::errors::OrRaise;
 use crate::images::{column, disparity as read, from_gray, rgb};
+use crate::progress;
 use crate::record::record;
 use epipole::nalgebra::Matrix4;
 use epipole::stereo;
@@ -52,6 +53,11 @@ impl PointCloud {
 /// -------
 /// float or ndarray, shape (N,)
 ///     Meters. NaN for disparities <= 0; a single one raises `DegenerateError`.
+///
+/// Examples
+/// --------
+/// >>> depth_from_disparity(500.0, 0.1, 25.0)
+/// 2.0
 #[pyfunction]
 pub(super) fn depth_from_disparity<'py>(
     py: Python<'py>,
@@ -131,7 +137,7 @@ pub(super) fn depth_image<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let py = disparity.py();
     let disparity = read("disparity", disparity)?;
-    let depth = py.detach(|| stereo::depth_image(&disparity, focal_px, baseline_m));
+    let depth = progress::detach(py, || stereo::depth_image(&disparity, focal_px, baseline_m));
     from_gray(py, depth.or_raise()?)
 }
 
@@ -161,7 +167,7 @@ pub(super) fn point_cloud(
     let disparity = read("disparity", disparity)?;
     let q: Matrix4<f64> = matrix("q", q)?;
     let colors = colors.map(|colors| rgb("colors", colors)).transpose()?;
-    let cloud = py.detach(|| stereo::point_cloud(&disparity, &q, colors.as_ref()));
+    let cloud = progress::detach(py, || stereo::point_cloud(&disparity, &q, colors.as_ref()));
     let cloud = cloud.or_raise()?;
     let points: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
     let colors = match colors {

@@ -2,6 +2,7 @@
 
 use crate::errors::OrRaise;
 use crate::images::{disparity as read, from_disparity, gray8};
+use crate::progress;
 use epipole::stereo;
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -28,8 +29,10 @@ pub(super) fn remove_speckles<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let py = disparity.py();
     let mut disparity = read("disparity", disparity)?;
-    py.detach(|| stereo::remove_speckles(&mut disparity, min_size, range_px))
-        .or_raise()?;
+    progress::detach(py, || {
+        stereo::remove_speckles(&mut disparity, min_size, range_px)
+    })
+    .or_raise()?;
     from_disparity(py, disparity)
 }
 
@@ -53,6 +56,6 @@ pub(super) fn fill_gaps<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let py = disparity.py();
     let (disparity, left) = (read("disparity", disparity)?, gray8("left", left)?);
-    let filled = py.detach(|| stereo::fill_gaps(&disparity, &left));
+    let filled = progress::detach(py, || stereo::fill_gaps(&disparity, &left));
     from_disparity(py, filled.or_raise()?)
 }

@@ -167,7 +167,7 @@ matcher! {
     ///
     /// Parameters
     /// ----------
-    /// **options
+    /// **options : StereoBm
     ///     Such as ``num_disparities``, ``min_disparity_px``, ``window_px`` (odd), and ``filter``,
     ///     a dict with entries such as ``"speckle_size"``. ``StereoBm()`` shows all, with defaults.
     StereoBm
@@ -178,7 +178,7 @@ matcher! {
     ///
     /// Parameters
     /// ----------
-    /// **options
+    /// **options : StereoSgm
     ///     Such as ``num_disparities``, ``min_disparity_px``, ``paths`` ("four", "five", "eight"),
     ///     and ``filter``, a dict with entries such as ``"speckle_size"``. ``StereoSgm()`` shows
     ///     all, with defaults.

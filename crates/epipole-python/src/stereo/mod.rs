@@ -11,6 +11,9 @@ mod uncalibrated;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    crate::options::declare(module, &epipole::stereo::RectifyOptions::default())?;
+    crate::options::declare(module, &epipole::stereo::StereoBm::default())?;
+    crate::options::declare(module, &epipole::stereo::StereoSgm::default())?;
     module.add_class::<matcher::StereoBm>()?;
     module.add_class::<matcher::StereoSgm>()?;
     module.add_class::<depth::DepthInterval>()?;

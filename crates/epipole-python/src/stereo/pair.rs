@@ -46,9 +46,10 @@ impl RectifiedPair {
             rgb("photograph2", photograph2)?,
         ];
         let core = &rig.get().0;
-        let pair = py
-            .detach(|| stereo::RectifiedPair::new(core, photographs.each_ref()))
-            .or_raise()?;
+        let pair = progress::detach(py, || {
+            stereo::RectifiedPair::new(core, photographs.each_ref())
+        })
+        .or_raise()?;
         Ok(Self {
             rig,
             photographs,
@@ -131,7 +132,7 @@ impl RectifiedPair {
     fn filled<'py>(&self, disparity: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let py = disparity.py();
         let disparity = read("disparity", disparity)?;
-        let filled = py.detach(|| self.pair.filled(&disparity));
+        let filled = progress::detach(py, || self.pair.filled(&disparity));
         from_disparity(py, filled.or_raise()?)
     }
 }

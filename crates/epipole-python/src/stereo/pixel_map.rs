@@ -3,6 +3,7 @@
 use crate::arrays::{as_array, matrix};
 use crate::errors::OrRaise;
 use crate::images::{Image, elements, from_gray, kind, require_size, same_kind, wrong_shape};
+use crate::progress;
 use epipole::nalgebra::{Matrix3, Point2};
 use epipole::stereo;
 use numpy::prelude::*;
@@ -59,7 +60,9 @@ impl PixelMap {
         let map: Matrix3<f64> = matrix("out_from_source", out_from_source)?;
         require_size(width, height)?;
         let py = out_from_source.py();
-        let map = py.detach(|| stereo::PixelMap::from_homography(width, height, &map));
+        let map = progress::detach(py, || {
+            stereo::PixelMap::from_homography(width, height, &map)
+        });
         Ok(Self(map.or_raise()?))
     }
 
@@ -108,7 +111,10 @@ impl PixelMap {
     fn warp<'py>(&self, source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let py = source.py();
         let image = Image::read("source", source)?;
-        same_kind!(&image, |pixels| py.detach(|| self.0.warp(pixels))).give(py)
+        same_kind!(&image, |pixels| progress::detach(py, || self
+            .0
+            .warp(pixels)))
+        .give(py)
     }
 
     /// Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
@@ -118,6 +124,9 @@ impl PixelMap {
         source_width: u32,
         source_height: u32,
     ) -> PyResult<Bound<'py, PyArray2<u8>>> {
-        from_gray(py, py.detach(|| self.0.mask(source_width, source_height)))
+        from_gray(
+            py,
+            progress::detach(py, || self.0.mask(source_width, source_height)),
+        )
     }
 }

@@ -4,8 +4,8 @@ use super::pixel_map::PixelMap;
 use crate::arrays::{Batch, from_matrices, from_matrix, matrix, points3};
 use crate::camera::{Camera, Intrinsics, RigidTransform, rotation};
 use crate::errors::OrRaise;
-use crate::options;
 use crate::record::{plain_class, record};
+use crate::{options, progress};
 use epipole::Error;
 use epipole::nalgebra::{Matrix3, Point2, Point3, Rotation3, Vector3};
 use epipole::stereo;
@@ -52,6 +52,26 @@ impl PixelRect {
 /// Rectified rig: two virtual cameras that are parallel and share a focal length.
 ///
 /// Matches share a row, or a column if `is_vertical`. `rectify_calibrated` makes it.
+///
+/// Parameters
+/// ----------
+/// cameras : tuple of Camera
+///     Of the photos.
+/// rect_from_cam : array_like, shape (2, 3, 3)
+///     Rotations of the cameras' rays into the rectified frame.
+/// intrinsics : tuple of Intrinsics
+///     Of the rectified pictures.
+/// homographies : array_like, shape (2, 3, 3)
+///     From pixels of the photos to those of the pictures, for a pinhole.
+/// q : array_like, shape (4, 4)
+///     ``(X, Y, Z, W) = q @ (u, v, d, 1)``.
+/// is_vertical : bool
+/// baseline_m : float
+///     Meters.
+/// width, height : int
+///     Size of the pictures, pixels.
+/// valid : tuple of PixelRect
+///     Part of each picture that its photo fills.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct Rectification(pub(super) stereo::Rectification);
 
@@ -205,7 +225,9 @@ impl Rectification {
 
     /// Map that redraws photo 0 or 1.
     fn map(&self, py: Python<'_>, index: usize) -> PyResult<PixelMap> {
-        Ok(PixelMap(py.detach(|| self.0.map(index)).or_raise()?))
+        Ok(PixelMap(
+            progress::detach(py, || self.0.map(index)).or_raise()?,
+        ))
     }
 
     /// Pixels of the first rectified image that show points, and their disparities.
@@ -267,7 +289,7 @@ fn unseen(what: &'static str) -> Error {
 ///     Cameras of the first (left) and second (right) photo, of the same size.
 /// cam2_from_cam1 : RigidTransform
 ///     Translation in meters.
-/// **options
+/// **options : RectifyOptions
 ///     ``alpha=0.0``: from 0, only valid pixels, to 1, all pixels of the photos; ``size=(width,
 ///     height)`` of the results, pixels; ``zero_disparity_at_infinity=True``.
 ///
@@ -290,7 +312,9 @@ pub(super) fn rectify_calibrated(
 ) -> PyResult<Rectification> {
     let options = options::read(options)?;
     let (cameras, motion) = ([camera1.0, camera2.0], cam2_from_cam1.0);
-    let rig = py.detach(|| stereo::rectify_calibrated(&cameras, &motion, &options));
+    let rig = progress::detach(py, || {
+        stereo::rectify_calibrated(&cameras, &motion, &options)
+    });
     Ok(Rectification(rig.or_raise()?))
 }
 

@@ -1,0 +1,551 @@
+# Written by stubs.py. Do not edit.
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar, Literal, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+from epipole import options as option_types
+from epipole.camera import Camera
+from epipole.camera import Intrinsics
+from epipole.camera import RigidTransform
+from epipole.stereo import PixelMap
+from epipole.stereo import PixelRect
+
+__all__ = [
+    "Board",
+    "BoardDrawing",
+    "BoardSearch",
+    "BoardView",
+    "CalibratedView",
+    "Calibration",
+    "CalibrationWarning",
+    "Marker",
+    "MarkerDictionary",
+    "RigCalibration",
+    "Undistortion",
+    "calibrate",
+    "calibrate_rig",
+    "detect_markers",
+    "find_board",
+    "intrinsics_from_planes",
+    "photograph_of_board",
+]
+
+@final
+class Board:
+    """Flat board with marks at known places: x along its columns, y along its rows, z = 0.
+
+    Parameters
+    ----------
+    pattern : str or dict
+        ``"chessboard"``, ``"circles"``, ``"asymmetric_circles"``,
+        ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}`` or
+        ``{"april_grid": {"spacing": 0.3}}``.
+    columns, rows : int
+        Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks in a
+        row and rows of a grid of circles.
+    square_m : float
+        Side of a square or a tag, or distance of two rows of circles, meters.
+
+    Examples
+    --------
+    >>> Board("chessboard", 9, 6, 0.03).num_marks
+    54
+    """
+    def __new__(
+        cls,
+        pattern: str | Mapping[str, Any],
+        columns: int,
+        rows: int,
+        square_m: float,
+    ) -> Board: ...
+    @property
+    def pattern(self) -> str | dict[str, Any]:
+        """Pattern, as in the constructor.
+
+        Returns
+        -------
+        str or dict
+        """
+    @property
+    def columns(self) -> int:
+        """Marks in a row."""
+    @property
+    def rows(self) -> int:
+        """Rows of marks."""
+    @property
+    def square_m(self) -> float:
+        """Side of a square or a tag, or distance of two rows of circles, meters."""
+    @property
+    def num_marks(self) -> int:
+        """Number of marks."""
+    def mark(self, index: int) -> NDArray[np.float64]:
+        """Place of a mark on the board, meters, shape (2,). Marks are counted row by row."""
+    def marks(self) -> NDArray[np.float64]:
+        """Places of all marks on the board, meters, shape (N, 2)."""
+    def drawing(self) -> BoardDrawing:
+        """Black shapes of the board.
+
+        Returns
+        -------
+        BoardDrawing
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class BoardDrawing:
+    """Black shapes of a board, in squares; the first mark is at the origin, y points down."""
+    def __new__(
+        cls,
+        rectangles: NDArray[np.float64],
+        disks: NDArray[np.float64],
+        disk_radius: float,
+    ) -> BoardDrawing: ...
+    @property
+    def rectangles(self) -> NDArray[np.float64]:
+        """Upper left and lower right corner of each rectangle, shape (N, 2, 2)."""
+    @property
+    def disks(self) -> NDArray[np.float64]:
+        """Centers of disks, shape (M, 2)."""
+    @property
+    def disk_radius(self) -> float:
+        """Radius of the disks."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class BoardView:
+    """Marks of a board seen in one photo.
+
+    Parameters
+    ----------
+    pixels : array_like, shape (N, 2)
+        Pixel of each mark of the board, row by row; NaN where it is not seen.
+    """
+    def __new__(cls, pixels: ArrayLike) -> BoardView: ...
+    @property
+    def pixels(self) -> NDArray[np.float64]:
+        """Pixel of each mark of the board, shape (N, 2); NaN where it is not seen."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def seen(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Marks that are seen, with their pixels.
+
+        Returns
+        -------
+        marks : ndarray of int64, shape (M,)
+        pixels : ndarray, shape (M, 2)
+        """
+    def num_seen(self) -> int:
+        """Number of marks seen."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class BoardSearch:
+    """Result of a search for a board."""
+    def __new__(
+        cls,
+        kind: str,
+        view: BoardView | None,
+        columns: int | None,
+        rows: int | None,
+        num_seen: int | None,
+        num_of_board: int | None,
+        num_others: int | None,
+    ) -> BoardSearch: ...
+    @property
+    def kind(self) -> str:
+        """"found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        "nothing".
+        """
+    @property
+    def view(self) -> BoardView | None:
+        """Marks, if the board was found."""
+    @property
+    def columns(self) -> int | None:
+        """Marks along the longer side of a partial board."""
+    @property
+    def rows(self) -> int | None:
+        """Marks along the shorter side of a partial board."""
+    @property
+    def num_seen(self) -> int | None:
+        """Number of marks seen of a partial board."""
+    @property
+    def num_of_board(self) -> int | None:
+        """Number of markers that are placed as on the board."""
+    @property
+    def num_others(self) -> int | None:
+        """Number of other markers of the dictionary."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def problem(self, board: Board) -> str | None:
+        """Why the board was not found, as a sentence; None if it was."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Marker:
+    """Square marker in a photo."""
+    def __new__(cls, id: int, corners: NDArray[np.float64], hamming: int) -> Marker: ...
+    @property
+    def id(self) -> int:
+        """Number in the dictionary."""
+    @property
+    def corners(self) -> NDArray[np.float64]:
+        """Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
+        left in an upright marker.
+        """
+    @property
+    def hamming(self) -> int:
+        """Number of bits that differ from the dictionary's."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class MarkerDictionary:
+    """Set of square markers, with the names and numbers of OpenCV.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
+    """
+    def __new__(cls, name: str) -> MarkerDictionary: ...
+    @property
+    def name(self) -> str:
+        """Name as in OpenCV without the prefix, such as "4x4_50"."""
+    @property
+    def num_markers(self) -> int:
+        """Number of markers."""
+    @property
+    def num_bits(self) -> int:
+        """Bits along a side, without the border."""
+    @property
+    def max_hamming(self) -> int:
+        """Number of wrong bits up to which markers are accepted by default."""
+    def __eq__(self, other: object, /) -> bool: ...
+    @staticmethod
+    def all() -> list[MarkerDictionary]:
+        """Dictionaries of all kinds."""
+    def is_white(self, id: int, row: int, column: int) -> bool:
+        """Whether a bit of an upright marker is white.
+
+        Parameters
+        ----------
+        id : int
+            Number of the marker.
+        row, column : int
+            From the upper left bit, without the border.
+        """
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class CalibratedView:
+    """Calibration result of one view.
+
+    Parameters
+    ----------
+    cam_from_board : RigidTransform
+        Pose of the board, meters.
+    rms_px : float
+        Root mean square of its reprojection errors, pixels.
+    num_marks : int
+        Number of marks seen.
+    """
+    def __new__(
+        cls,
+        cam_from_board: RigidTransform,
+        rms_px: float,
+        num_marks: int,
+    ) -> CalibratedView: ...
+    @property
+    def cam_from_board(self) -> RigidTransform:
+        """Pose of the board, meters."""
+    @property
+    def rms_px(self) -> float:
+        """Root mean square of its reprojection errors, pixels."""
+    @property
+    def num_marks(self) -> int:
+        """Number of marks seen."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class CalibrationWarning:
+    """Cause of uncertainty that the errors of a calibration do not show."""
+    def __new__(cls, kind: str, message: str) -> CalibrationWarning: ...
+    @property
+    def kind(self) -> str:
+        """"parallel", "uncertain_focal", "low_coverage" or "bad_view"."""
+    @property
+    def message(self) -> str:
+        """Cause as a sentence."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Calibration:
+    """Calibrated camera and its uncertainty."""
+    def __new__(
+        cls,
+        camera: Camera,
+        rms_px: float,
+        std_dev_k: NDArray[np.float64],
+        std_dev_lens: NDArray[np.float64],
+        coverage: float,
+        views: Sequence[CalibratedView | None],
+        warnings: Sequence[CalibrationWarning],
+    ) -> Calibration: ...
+    @property
+    def camera(self) -> Camera:
+        """Camera."""
+    @property
+    def rms_px(self) -> float:
+        """Root mean square of all reprojection errors: distances, in pixels."""
+    @property
+    def std_dev_k(self) -> NDArray[np.float64]:
+        """Standard deviation of fu, fv, cu, cv, pixels, shape (4,)."""
+    @property
+    def std_dev_lens(self) -> NDArray[np.float64]:
+        """Standard deviation of each coefficient of the lens."""
+    @property
+    def coverage(self) -> float:
+        """Share of the image's area inside the marks of some view, 0 to 1."""
+    @property
+    def views(self) -> list[CalibratedView | None]:
+        """For each view given a `CalibratedView`, or None where none was given."""
+    @property
+    def warnings(self) -> list[CalibrationWarning]:
+        """List of `CalibrationWarning`."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class RigCalibration:
+    """Two cameras mounted on a rig."""
+    def __new__(
+        cls,
+        right_from_left: RigidTransform,
+        baseline_m: float,
+        rms_px: float,
+        std_dev_rotation_rad: NDArray[np.float64],
+        std_dev_translation_m: NDArray[np.float64],
+        pairs_rms_px: Sequence[float | None],
+    ) -> RigCalibration: ...
+    @property
+    def right_from_left(self) -> RigidTransform:
+        """``x_in_right = right_from_left @ x_in_left``, meters."""
+    @property
+    def baseline_m(self) -> float:
+        """Distance between the cameras, meters."""
+    @property
+    def rms_px(self) -> float:
+        """Root mean square of the reprojection errors in both cameras, pixels."""
+    @property
+    def std_dev_rotation_rad(self) -> NDArray[np.float64]:
+        """Standard deviation of the rotation about the axes of the right camera, radians,
+        shape (3,).
+        """
+    @property
+    def std_dev_translation_m(self) -> NDArray[np.float64]:
+        """Standard deviation of the translation, meters, shape (3,)."""
+    @property
+    def pairs_rms_px(self) -> list[float | None]:
+        """Root mean square of each pair, pixels; None where not both cameras see the board."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Undistortion:
+    """Best camera without distortion for the photos of a camera, and the map to its images.
+
+    Parameters
+    ----------
+    camera : Camera
+    keep : {"valid", "all"}, optional
+        Only the area that was photographed everywhere, or all with black borders.
+    """
+    def __new__(
+        cls,
+        camera: Camera,
+        keep: Literal["valid", "all"] | None = None,
+    ) -> Undistortion: ...
+    @property
+    def camera(self) -> Camera:
+        """Camera with distortion."""
+    @property
+    def keep(self) -> str:
+        """Area that is kept.
+
+        Returns
+        -------
+        str
+            "valid" or "all".
+        """
+    @property
+    def intrinsics(self) -> Intrinsics:
+        """K of the new camera. Its pixels are square."""
+    @property
+    def valid(self) -> PixelRect:
+        """Part of the result in which every pixel was photographed.
+
+        Returns
+        -------
+        epipole.stereo.PixelRect
+        """
+    @property
+    def map(self) -> PixelMap:
+        """Place in the photo that each pixel of the result is read from.
+
+        Returns
+        -------
+        epipole.stereo.PixelMap
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def find_board(
+    image: ArrayLike,
+    board: Board,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+) -> BoardSearch:
+    """Finds the marks of a board in a photo.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray, uint8 or float in [0, 1].
+    board : Board
+    progress : callable, optional
+        Called with the stage and the completed share.
+
+    Returns
+    -------
+    BoardSearch
+        Its `view` has the marks; None if the board was not found.
+    """
+def detect_markers(
+    image: ArrayLike,
+    dictionary: str | MarkerDictionary,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.MarkerOptions],
+) -> list[Marker]:
+    """Finds ArUco markers and AprilTags.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray, uint8 or float in [0, 1].
+    dictionary : str or MarkerDictionary
+        Such as ``"4x4_50"`` or ``"36h11"``.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : MarkerOptions
+        ``max_hamming``, ``border_bits``, ``min_side_px``.
+
+    Returns
+    -------
+    list of Marker
+        By number.
+    """
+def photograph_of_board(
+    board: Board,
+    camera: Camera,
+    cam_from_board: RigidTransform,
+    noise: float = 0.0,
+    seed: int = 0,
+) -> NDArray[np.float32]:
+    """Photo of a board, with exact truth.
+
+    Parameters
+    ----------
+    board : Board
+    camera : Camera
+    cam_from_board : RigidTransform
+        Meters.
+    noise : float, optional
+        Standard deviation of the gray values.
+    seed : int, optional
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+        Gray, in [0, 1].
+    """
+def calibrate(
+    board: Board,
+    views: Sequence[BoardView | None],
+    size: tuple[int, int],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.CalibrationOptions],
+) -> Calibration:
+    """Intrinsics, lens, and poses of the board with the least squared reprojection errors.
+
+    Parameters
+    ----------
+    board : Board
+    views : list of BoardView or None
+        Marks in each photo; None for a photo without a board.
+    size : tuple of int
+        Width and height of all photos, pixels.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : CalibrationOptions
+        ``lens``, the model of the lens, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    epipole.TooFewError, epipole.DegenerateError
+    """
+def calibrate_rig(
+    board: Board,
+    cameras: Sequence[Camera],
+    left: Sequence[BoardView | None],
+    right: Sequence[BoardView | None],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+) -> RigCalibration:
+    """Relative pose of two calibrated cameras that see the same boards.
+
+    Parameters
+    ----------
+    board : Board
+    cameras : tuple of Camera
+        Left and right camera.
+    left, right : list of BoardView or None
+        Marks in the photos of each camera, taken in pairs.
+    progress : callable, optional
+        Called with the stage and the completed share.
+
+    Returns
+    -------
+    RigCalibration
+
+    Raises
+    ------
+    epipole.TooFewError, epipole.DegenerateError
+    """
+def intrinsics_from_planes(pixels_from_plane: ArrayLike) -> Intrinsics:
+    """K from homographies of planes, in closed form (Zhang).
+
+    Parameters
+    ----------
+    pixels_from_plane : array_like, shape (N, 3, 3)
+        Homographies from a plane in its own unit to pixels, N >= 3.
+
+    Returns
+    -------
+    Intrinsics
+
+    Raises
+    ------
+    epipole.TooFewError, epipole.DegenerateError
+    """

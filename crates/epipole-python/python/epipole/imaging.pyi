@@ -1,0 +1,527 @@
+# Written by stubs.py. Do not edit.
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+from epipole import options as option_types
+
+__all__ = [
+    "BT601_WEIGHTS",
+    "BT709_WEIGHTS",
+    "Gradient",
+    "IntegralImage",
+    "box_filter",
+    "centered_difference",
+    "correlate",
+    "derivative",
+    "from_laplacian_pyramid",
+    "gaussian_blur",
+    "gaussian_derivative",
+    "gaussian_derivative_kernels",
+    "gaussian_kernel",
+    "gaussian_pyramid",
+    "gray_to_f32",
+    "gray_to_u8",
+    "laplacian_pyramid",
+    "noise_gain",
+    "pyramid_down",
+    "pyramid_up",
+    "reduce_rgb",
+    "resize",
+    "rgb_to_gray",
+    "rgb_to_gray_f32",
+    "sample_bicubic",
+    "sample_bilinear",
+    "separable_filter",
+    "sharpness",
+    "sobel",
+    "warp_affine",
+    "warp_perspective",
+]
+
+BT601_WEIGHTS: tuple
+BT709_WEIGHTS: tuple
+@final
+class Gradient:
+    """Partial derivatives of an image, in units of the filter."""
+    def __new__(cls, du: NDArray[np.float32], dv: NDArray[np.float32]) -> Gradient: ...
+    @property
+    def du(self) -> NDArray[np.float32]:
+        """Derivative along u, to the right, float32 of shape (H, W)."""
+    @property
+    def dv(self) -> NDArray[np.float32]:
+        """Derivative along v, downwards, float32 of shape (H, W)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def magnitude(self) -> NDArray[np.float32]:
+        """Steepest slope at each pixel, shape (H, W)."""
+    def orientation(self) -> NDArray[np.float32]:
+        """Direction of steepest ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class IntegralImage:
+    """Sums of all pixels above and to the left, in double precision.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    """
+    def __new__(cls, image: ArrayLike) -> IntegralImage: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def sum(self, u0: int, v0: int, u1: int, v1: int) -> float:
+        """Sum over ``image[v0:v1, u0:u1]``."""
+    def mean(self, u0: int, v0: int, u1: int, v1: int) -> float:
+        """Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def gray_to_f32(image: ArrayLike) -> NDArray[np.float32]:
+    """8-bit gray image as floats in [0, 1]: ``image / 255``; floats stay as they are.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+    """
+def gray_to_u8(image: ArrayLike) -> NDArray[np.uint8]:
+    """Gray image of floats in [0, 1] as 8 bits, rounded and clamped.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+
+    Returns
+    -------
+    ndarray of uint8, shape (H, W)
+    """
+def rgb_to_gray(image: ArrayLike) -> NDArray[np.uint8]:
+    """Gray image of a color image by the weights of ITU-R BT.601, equal to OpenCV's.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W, 3)
+        uint8, red first. Images of `cv2.imread` are blue first: pass ``image[..., ::-1]``.
+
+    Returns
+    -------
+    ndarray of uint8, shape (H, W)
+    """
+def rgb_to_gray_f32(image: ArrayLike, weights: ArrayLike | None = None) -> NDArray[np.float32]:
+    """Gray image of a color image by any weights.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W, 3)
+        uint8, red first.
+    weights : array_like, shape (3,), optional
+        Weights of red, green and blue; `BT601_WEIGHTS` if not given. A sum of 1 keeps white at 1.
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+    """
+def correlate(
+    image: ArrayLike,
+    kernel: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> NDArray[np.float32]:
+    """Image correlated with a kernel, which is not flipped.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    kernel : array_like, shape (K, L)
+        Weights, with odd sides.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+    """
+def separable_filter(
+    image: ArrayLike,
+    kernel_u: ArrayLike,
+    kernel_v: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> NDArray[np.float32]:
+    """Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    kernel_u, kernel_v : array_like, shape (K,)
+        Weights along the rows and along the columns, odd numbers of them.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+    """
+def noise_gain(weights: ArrayLike) -> float:
+    """Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
+
+    Parameters
+    ----------
+    weights : array_like, shape (N,)
+
+    Returns
+    -------
+    float
+    """
+def gaussian_kernel(sigma_px: float, size: int) -> NDArray[np.float32]:
+    """Samples of a Gaussian that sum to one.
+
+    Parameters
+    ----------
+    sigma_px : float
+        Standard deviation, pixels, in (0, 1000].
+    size : int
+        Odd number of samples.
+
+    Returns
+    -------
+    ndarray of float32, shape (size,)
+
+    Examples
+    --------
+    >>> [round(float(sample), 4) for sample in gaussian_kernel(1.0, 3)]
+    [0.2741, 0.4519, 0.2741]
+    """
+def gaussian_derivative_kernels(
+    sigma_px: float,
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Kernels of `gaussian_derivative`: a Gaussian and its derivative.
+
+    Parameters
+    ----------
+    sigma_px : float
+        Standard deviation, pixels, in (0, 1000].
+
+    Returns
+    -------
+    smooth, slope : ndarray of float32, shape (N,)
+        ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+    """
+def gaussian_blur(
+    image: ArrayLike,
+    sigma_px: float,
+    border: str | Mapping[str, Any] | None = None,
+) -> NDArray[np.float64]:
+    """Image blurred by a Gaussian, cut off at about 4 sigma.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    sigma_px : float
+        Standard deviation, pixels, in (0, 1000].
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray, shape (H, W)
+        uint8 for uint8, else float32.
+    """
+def box_filter(
+    image: ArrayLike,
+    size: int,
+    border: str | Mapping[str, Any] | None = None,
+) -> NDArray[np.float64]:
+    """Mean of the ``size x size`` window around each pixel.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    size : int
+        Odd number of pixels, at most 1001.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray, shape (H, W)
+        uint8 for uint8, else float32.
+    """
+def derivative(
+    image: ArrayLike,
+    kind: str | None = None,
+    border: str | Mapping[str, Any] | None = None,
+) -> Gradient:
+    """Gradient by a filter of small integers, not divided by its gain.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    kind : str, optional
+        ``"sobel3"`` (gain 8), ``"sobel5"`` (128) or ``"scharr"`` (32).
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    Gradient
+    """
+def centered_difference(
+    image: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> Gradient:
+    """Gradient by centered differences, slopes per pixel.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    Gradient
+    """
+def sobel(image: ArrayLike, border: str | Mapping[str, Any] | None = None) -> Gradient:
+    """Gradient by the 3x3 Sobel filter, 8 times the slope per pixel.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    Gradient
+    """
+def gaussian_derivative(
+    image: ArrayLike,
+    sigma_px: float,
+    border: str | Mapping[str, Any] | None = None,
+) -> Gradient:
+    """Gradient of the image blurred by a Gaussian, slopes per pixel.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    sigma_px : float
+        Standard deviation of the Gaussian, pixels, in (0, 1000].
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    Gradient
+    """
+def pyramid_down(
+    image: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> NDArray[np.float64]:
+    """Image at half its size, blurred by the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray, shape (ceil(H / 2), ceil(W / 2))
+        uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
+    """
+def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
+    """Image at twice its size, interpolated by the binomial kernel.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    width, height : int
+        Size of the result, pixels: each twice that of the image, or one less.
+
+    Returns
+    -------
+    ndarray, shape (height, width)
+        uint8 for uint8, else float32.
+    """
+def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float64]]:
+    """Image and its halves by `pyramid_down`, largest first.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    num_levels : int
+        Maximum number of levels; the last is a single pixel at the latest.
+
+    Returns
+    -------
+    list of ndarray
+        uint8 for uint8, else float32.
+    """
+def laplacian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float32]]:
+    """Laplacian pyramid: differences of each Gaussian level and the next, and the smallest level.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    num_levels : int
+        Maximum number of levels; the last is a single pixel at the latest.
+
+    Returns
+    -------
+    list of ndarray of float32
+    """
+def from_laplacian_pyramid(levels: Sequence[ArrayLike]) -> NDArray[np.float32]:
+    """Image of a Laplacian pyramid.
+
+    Parameters
+    ----------
+    levels : list of array_like
+        Those of `laplacian_pyramid`, possibly changed.
+
+    Returns
+    -------
+    ndarray of float32, shape (H, W)
+        Shape (0, 0) without levels.
+    """
+def sharpness(image: ArrayLike) -> float:
+    """Sharpness of a photo: mean square of its details of a few pixels.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+
+    Returns
+    -------
+    float
+        Comparable between photos of equal size and similar content, such as frames of a video.
+    """
+def resize(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
+    """Image at another size, without aliasing: means when it shrinks, linear when it grows.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray.
+    width, height : int
+        Size of the result, pixels, > 0.
+
+    Returns
+    -------
+    ndarray, shape (height, width)
+        uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+    """
+def reduce_rgb(image: ArrayLike, max_pixels: int) -> NDArray[np.uint8]:
+    """Color image with at most `max_pixels` pixels, downscaled only if it has more.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W, 3)
+        uint8.
+    max_pixels : int
+
+    Returns
+    -------
+    ndarray of uint8, shape (h, w, 3)
+        `Intrinsics.resized` gives its intrinsics.
+    """
+def sample_bilinear(
+    image: ArrayLike,
+    pixel: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> Any:
+    """Gray values between pixels by bilinear interpolation.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    pixel : array_like, shape (2,) or (N, 2)
+        (u, v), pixel centers at integers.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    float or ndarray, shape (N,)
+    """
+def sample_bicubic(
+    image: ArrayLike,
+    pixel: ArrayLike,
+    border: str | Mapping[str, Any] | None = None,
+) -> Any:
+    """Gray values between pixels by bicubic interpolation (Catmull-Rom).
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W)
+        Gray; uint8 counts as value / 255.
+    pixel : array_like, shape (2,) or (N, 2)
+        (u, v), pixel centers at integers.
+    border : str or dict, optional
+        ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    float or ndarray, shape (N,)
+    """
+def warp_affine(
+    image: ArrayLike,
+    out_from_image: ArrayLike,
+    **options: Unpack[option_types.WarpOptions],
+) -> NDArray[np.float64]:
+    """Image moved by an affine map, as OpenCV's `warpAffine`.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W) or (H, W, 3)
+    out_from_image : array_like, shape (2, 3)
+        Pixels of the image to pixels of the result.
+    **options : WarpOptions
+        ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+        ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray, shape (height, width) or (height, width, 3)
+        uint8 for uint8, else float32.
+    """
+def warp_perspective(
+    image: ArrayLike,
+    out_from_image: ArrayLike,
+    **options: Unpack[option_types.WarpOptions],
+) -> NDArray[np.float64]:
+    """Image moved by a homography, as OpenCV's `warpPerspective`.
+
+    Parameters
+    ----------
+    image : array_like, shape (H, W) or (H, W, 3)
+    out_from_image : array_like, shape (3, 3)
+        Pixels of the image to pixels of the result, up to scale.
+    **options : WarpOptions
+        ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+        ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
+
+    Returns
+    -------
+    ndarray, shape (height, width) or (height, width, 3)
+        uint8 for uint8, else float32.
+    """
