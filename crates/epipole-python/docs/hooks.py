@@ -1,0 +1,162 @@
+"""Executes the code cells of the pages as MkDocs builds them, and links to the book."""
+
+from __future__ import annotations
+
+import ast
+import base64
+import html
+import logging
+import os
+import posixpath
+import re
+import struct
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import matplotlib.font_manager  # noqa: F401 - its cache is built here, not in a cell
+import nbformat
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File
+from mkdocs.structure.nav import Link
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+from cells import Cell, split  # noqa: E402
+
+PACKAGE = HERE.parent / "python" / "epipole"
+CHAPTERS = HERE.parents[2] / "content"
+LONGEST_PAGE_S = 60
+# Pictures have two pixels per CSS pixel.
+PIXELS_PER_CSS_PIXEL = 2
+
+# Cells write files, which go when the build ends.
+_scratch = tempfile.TemporaryDirectory()
+
+log = logging.getLogger("mkdocs.hooks.cells")
+
+
+def on_config(config: Any) -> Any:
+    # Kernels inherit these.
+    os.environ["TMPDIR"] = _scratch.name
+    os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
+    paths = [str(PACKAGE.parent), os.environ.get("PYTHONPATH", "")]
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
+    return config
+
+
+def on_nav(nav: Any, config: Any, files: Any) -> Any:
+    nav.items.append(Link("The book", "../index.html"))
+    return nav
+
+
+def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
+    markdown = markdown.replace("<!-- names of epipole -->", _names())
+    parts = split(markdown)
+    if not any(isinstance(part, Cell) for part in parts):
+        return markdown
+    start = time.monotonic()
+    notebook = _execute(page.file.src_uri, parts)
+    log.info("%s: executed in %.1f s", page.file.src_uri, time.monotonic() - start)
+    name = posixpath.splitext(page.file.src_uri)[0]
+    files.append(File.generated(config, f"{name}.ipynb", content=nbformat.writes(notebook) + "\n"))
+    text, pictures = [], 0
+    for cell, part in zip(notebook.cells, parts, strict=True):
+        if isinstance(part, str):
+            text.append(part)
+            continue
+        block = f"```python\n{part.code}```\n"
+        if fold := part.attributes.get("fold"):
+            block = f'??? example "{fold}"\n\n' + _indented(block)
+        text.append(block + "\n")
+        for output in cell.outputs:
+            if output.output_type == "stream" and output.name == "stderr":
+                raise PluginError(f"{page.file.src_uri}: a cell warns:\n{output.text}")
+            data = output.get("data", {"text/plain": output.get("text", "")})
+            if "image/png" in data:
+                pictures += 1
+                png = base64.b64decode(data["image/png"])
+                path = f"{name}-{pictures}.png"
+                files.append(File.generated(config, path, content=png))
+                text.append(_picture(page.file.src_uri, posixpath.basename(path), png, part))
+            else:
+                text.append(_output(data["text/plain"]))
+    download = f"[Download as a notebook]({posixpath.basename(name)}.ipynb){{ .download }}\n"
+    whole = "\n".join(text)
+    return re.sub(r"\A(# [^\n]*\n)", lambda m: f"{m[1]}\n{download}", whole.lstrip())
+
+
+def on_page_content(content: str, page: Any, config: Any, files: Any) -> str:
+    """Turns `book:epipolar.html` into a link beside the folder of this site."""
+    up = "../" * (page.file.dest_uri.count("/") + 1)
+
+    def link(match: re.Match[str]) -> str:
+        if not (CHAPTERS / f"{match[1]}.md").exists():
+            raise PluginError(f"{page.file.src_uri}: the book has no chapter {match[1]}")
+        return f'href="{up}{match[1]}.html'
+
+    return re.sub(r'href="book:([\w-]+)\.html', link, content)
+
+
+def on_post_build(config: Any) -> None:
+    # Both need the address of the site, which is unknown.
+    for name in ("404.html", "sitemap.xml", "sitemap.xml.gz"):
+        Path(config.site_dir, name).unlink(missing_ok=True)
+
+
+def _execute(name: str, parts: list[str | Cell]) -> Any:
+    cells = []
+    for n, part in enumerate(parts):
+        if isinstance(part, str):
+            cell = nbformat.v4.new_markdown_cell(part.strip())
+        else:
+            cell = nbformat.v4.new_code_cell(part.code.rstrip("\n"))
+        cell.id = f"cell-{n}"
+        cells.append(cell)
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    notebook = nbformat.v4.new_notebook(cells=cells, metadata=kernel)
+    client = NotebookClient(notebook, timeout=LONGEST_PAGE_S, record_timing=False)
+    client.create_kernel_manager().transport = "ipc"
+    try:
+        client.execute()
+    except CellExecutionError as error:
+        raise PluginError(f"{name}: {error}") from error
+    # The version of the kernel is no part of the page.
+    notebook.metadata.pop("language_info", None)
+    return notebook
+
+
+def _picture(page: str, path: str, png: bytes, cell: Cell) -> str:
+    if "alt" not in cell.attributes:
+        raise PluginError(
+            f'{page}: a cell with a picture needs alt="..." in its fence:\n{cell.code}'
+        )
+    width, height = (side // PIXELS_PER_CSS_PIXEL for side in struct.unpack(">II", png[16:24]))
+    alt = html.escape(cell.attributes["alt"])
+    return f'![{alt}]({path}){{ .picture width="{width}" height="{height}" loading="lazy" }}\n'
+
+
+def _output(text: str) -> str:
+    lines = text.rstrip("\n")
+    return f'<div class="output" markdown>\n\n```text\n{lines}\n```\n\n</div>\n'
+
+
+def _indented(text: str) -> str:
+    return "".join(f"    {line}" if line.strip() else line for line in text.splitlines(True))
+
+
+def _names() -> str:
+    """Table of the names that `epipole` takes from its modules."""
+    rows = ["| Module | Names |", "|---|---|"]
+    for node in ast.parse((PACKAGE / "__init__.py").read_text()).body:
+        if isinstance(node, ast.ImportFrom) and node.module != "epipole._epipole":
+            links = [f"[`{n.name}`][{node.module}.{n.name}]" for n in node.names]
+            rows.append(
+                f"| [`{node.module.removeprefix('epipole.')}`][{node.module}] | {', '.join(links)} |"
+            )
+    return "\n".join(rows)
