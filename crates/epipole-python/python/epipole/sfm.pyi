@@ -476,12 +476,7 @@ class PhotoFeatures:
         """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits."""
     @property
     def keypoints(self) -> Keypoints:
-        """Keypoints with scales and directions.
-
-        Returns
-        -------
-        epipole.feature.Keypoints
-        """
+        """Keypoints with scales and directions."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]

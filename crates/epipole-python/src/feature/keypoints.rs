@@ -100,7 +100,7 @@ impl Keypoints {
 
 impl Keypoints {
     /// Python object of a list.
-    pub(super) fn give(py: Python<'_>, keypoints: &[Keypoint]) -> PyResult<Self> {
+    pub(crate) fn give(py: Python<'_>, keypoints: &[Keypoint]) -> PyResult<Self> {
         let points: Vec<_> = keypoints.iter().map(|k| k.point().coords).collect();
         let floats = |of: fn(&Keypoint) -> f32| {
             PyArray1::from_vec(py, keypoints.iter().map(of).collect()).unbind()
@@ -143,7 +143,7 @@ impl Keypoints {
 ///
 /// # Errors
 /// As [`points2`].
-pub(super) fn keypoints(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Keypoint>> {
+pub(crate) fn keypoints(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Keypoint>> {
     if let Ok(keypoints) = value.cast::<Keypoints>() {
         return keypoints.get().list(value.py());
     }

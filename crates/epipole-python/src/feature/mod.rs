@@ -10,6 +10,9 @@ mod tensor;
 mod track;
 mod window;
 
+pub(crate) use descriptors::{descriptors, give_descriptors};
+pub(crate) use keypoints::{Keypoints, keypoints};
+
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,6 +1,6 @@
 //! Files of cameras.
 
-use super::{Source, format_of, or_raise, write};
+use super::source::{Source, format_of, or_raise, write};
 use crate::camera::{Camera, RigidTransform};
 use crate::sfm::wrapper::wrapper;
 use epipole_io::camera::{self, CameraFormat};

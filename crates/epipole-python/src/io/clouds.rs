@@ -1,6 +1,6 @@
 //! Files of point clouds, disparities, pose graphs and bundle adjustment problems.
 
-use super::{Source, or_raise, write};
+use super::source::{Source, or_raise, write};
 use crate::arrays::{from_rows, points3};
 use crate::images::{disparity, from_disparity};
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};

@@ -1,6 +1,6 @@
 //! Files of matches and of points with their pixels.
 
-use super::{Source, format_of, write};
+use super::source::{Source, format_of, write};
 use crate::arrays::{from_rows, points2};
 use crate::images::column;
 use crate::sfm::wrapper::require_equal;

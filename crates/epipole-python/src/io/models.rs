@@ -1,7 +1,7 @@
 //! Files of models: cameras, posed images and points.
 
 use super::clouds::give_cloud;
-use super::{Source, format_of, or_raise, os_error, path};
+use super::source::{Source, format_of, or_raise, os_error, path};
 use crate::arrays::{from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, RigidTransform};
 use crate::progress;
@@ -384,7 +384,7 @@ fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 /// ReadModel
 #[pyfunction]
 fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
-    let place = super::path(path)?;
+    let place = super::source::path(path)?;
     let source = Source::read(path)?;
     let name = place.file_name().unwrap_or_default().to_string_lossy();
     let beside = |name: &str| std::fs::read(place.with_file_name(name)).ok();

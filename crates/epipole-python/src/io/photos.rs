@@ -1,6 +1,6 @@
 //! Photos with the EXIF data in their files.
 
-use super::{Source, or_raise};
+use super::source::{Source, or_raise};
 use crate::calibration::Undistortion;
 use crate::camera::{Camera, Intrinsics};
 use crate::images::{from_gray, from_rgb, rgb};

@@ -1,6 +1,6 @@
 //! Files of trajectories.
 
-use super::{Source, format_of, or_raise, write};
+use super::source::{Source, format_of, or_raise, write};
 use crate::camera::RigidTransform;
 use crate::sfm::wrapper::{require_equal, wrapper};
 use epipole_io::trajectory::{self, TrajectoryFormat};

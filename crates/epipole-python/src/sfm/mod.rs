@@ -7,6 +7,7 @@ mod images;
 mod incremental;
 mod loops;
 mod odometry;
+mod photo_features;
 mod photos;
 mod pose_graph;
 mod pose_rows;
@@ -44,7 +45,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<images::PairMatches>()?;
     module.add_class::<images::SfmInput>()?;
     module.add_class::<photos::Photo>()?;
-    module.add_class::<photos::PhotoFeatures>()?;
+    module.add_class::<photo_features::PhotoFeatures>()?;
     module.add_class::<Reconstruction>()?;
     module.add_class::<reconstruction::Localization>()?;
     module.add_class::<incremental::SfmStep>()?;

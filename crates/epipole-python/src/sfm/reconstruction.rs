@@ -2,7 +2,7 @@
 
 use super::bundle::Bundle;
 use super::images::SfmImage;
-use super::photos::PhotoFeatures;
+use super::photo_features::PhotoFeatures;
 use super::similarity::Similarity3;
 use super::tracks::{give_tracks, tracks};
 use super::wrapper::{colors, give_colors, give_index_rows, give_indices, require_equal, wrapper};
