@@ -13,7 +13,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python test-wheel bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -29,7 +29,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-python test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-reproducible, monkey
+test: setup check test-rust test-python test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -43,9 +43,11 @@ test-rust: setup-build ## unit tests, documentation tests, Rust listings, figure
 	cargo test --locked --workspace --doc
 
 # Without -p, as above. The module's file has the name by which every Python from 3.10 on finds it.
-test-python: setup-test ## the Python package: its native module, and its tests
+python-module: setup-build ## builds the native module of the Python package, in its folder
 	cargo build --locked --workspace --lib
 	cp target/debug/lib_epipole.$(if $(filter Darwin,$(shell uname)),dylib,so) $(PACKAGE)/python/epipole/_epipole.abi3.so
+
+test-python: setup-test python-module ## the Python package
 	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
 
 test-web: setup-build ## unit tests of the elements, without a browser
@@ -79,17 +81,22 @@ monkey: setup build ## random hands on every figure: make monkey SEED=7 MONKEY_S
 fuzz: setup-build ## random events on every figure, natively: some ten million, a night's worth; make fuzz FUZZ_SEQUENCES=2000
 	FUZZ_SEQUENCES=$(FUZZ_SEQUENCES) cargo test --locked --test fuzz -- --nocapture
 
-test-hosts: setup build tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
+test-hosts: setup build python-module tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh
 	cargo build --locked --quiet --example mdbook
 	tests/browser/hosts/prepare.sh
-	cd tests/browser && npx playwright test --config hosts.config.mjs
+	cd tests/browser && PYTHONPATH=$(CURDIR)/$(PACKAGE)/python npx playwright test --config hosts.config.mjs
 
 test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
 	tests/tools/reproducible.sh
 
-python: build $(HOSTS)/python/.installed ## the Python package, a wheel in target/hosts/wheel/
-	tests/browser/hosts/prepare.sh
+python: build $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheel/
+	$(PACKAGE)/figures.sh
+	rm -rf target/wheel
+	$(PYTHON) -m maturin build --quiet --release --locked --manifest-path $(PACKAGE)/Cargo.toml --out target/wheel
+
+test-wheel: python ## the wheel in an empty environment: its size, its description, all tests of the package
+	tests/tools/wheel.sh
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
 	@tests/tools/audit.sh
@@ -109,7 +116,7 @@ release-check: ## whether versions, changelog and packages agree with a tag: mak
 	@tests/tools/need.sh node
 	@node tests/tools/release.mjs "$$TAG"
 
-release-files: python ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheel
+release-files: test-wheel ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheel
 	$(BOOK) lab
 	tests/tools/release.sh
 

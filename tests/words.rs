@@ -10,8 +10,7 @@ use std::fs;
 
 /// Folders with the extensions of the sources to read below them.
 const SOURCES: &[(&str, &[&str])] = &[
-    ("crates", &["rs"]),
-    ("python", &["js", "py"]),
+    ("crates", &["js", "py", "rs"]),
     ("tests", &["js", "mjs", "py", "rs", "ts"]),
     ("web", &["js", "mjs", "py", "ts"]),
 ];
@@ -24,7 +23,6 @@ const OPENINGS: &[&str] = &[
 /// Maximum length of a comment's lines by folder, characters.
 const WIDTHS: &[(&str, usize)] = &[
     ("crates", 100),
-    ("python", 100),
     ("tests", 100),
     ("web", 120),
 ];
@@ -38,7 +36,7 @@ const DOCUMENTS: &[(&str, usize)] = &[
     ("crates/epipole/README.md", 110),
     ("crates/epipole-cli/README.md", 110),
     ("crates/epipole-io/README.md", 110),
-    ("python/README.md", 110),
+    ("crates/epipole-python/README.md", 110),
     ("web/README.md", 110),
 ];
 

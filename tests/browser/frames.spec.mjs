@@ -59,7 +59,7 @@ test("the page of all figures has words to copy for the state that the reader se
   await expect(code).toContainText(`src="${library}/embed/epipole.js"`);
   const kinds = section.getByLabel("Kind of page");
   await kinds.selectOption({ label: "Python notebook" });
-  await expect(code).toHaveText('from epipole_figures import Figure\n\nFigure("ransac-race", outliers=0.6)');
+  await expect(code).toHaveText('from epipole.figures import Figure\n\nFigure("ransac-race", outliers=0.6)');
   await expect(page.locator(".gallery .snippet code").first()).toContainText('Figure("');
   await kinds.selectOption({ label: "Frame (courses, wikis)" });
   // The copied snippet works.

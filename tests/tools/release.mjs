@@ -37,8 +37,6 @@ function problemsOf() {
   const npm = JSON.parse(read("web/package.json"));
   same("web/package.json", npm.version);
   same("web/package-lock.json", JSON.parse(read("web/package-lock.json")).version);
-  const wheel = read("python/pyproject.toml");
-  same("python/pyproject.toml", wheel.match(/^version = "(.*)"/m)?.[1]);
   same("CITATION.cff", read("CITATION.cff").match(/^version: (.*)/m)?.[1]);
   if (npm.private) problems.push("web/package.json is private: remove that line to publish it");
   if (!npm.repository) problems.push("web/package.json lacks repository, needed for provenance");

@@ -3,15 +3,14 @@
 # package, the wheel, their checksums, the notes. Times in the archive are that of the commit.
 set -eu
 cd "$(dirname "$0")/../.."
-hosts=${CARGO_TARGET_DIR:-target}/hosts
 out=target/release-files
 version=$(sed -n '/^\[workspace\.package\]/,/^$/s/^version = "\(.*\)"/\1/p' Cargo.toml)
 rm -rf "$out"
 mkdir -p "$out/book" "$out/npm" "$out/wheel"
 tar --sort=name --mtime="@$(git log -1 --format=%ct)" --owner=0 --group=0 --numeric-owner \
     --mode=a+rX,u+w,go-w -C target/book -cf - . | gzip -n9 >"$out/book/epipole-book-$version.tar.gz"
-cp "$hosts"/*.tgz "$out/npm/"
-cp "$hosts"/wheel/*.whl "$out/wheel/"
+npm pack ./web --pack-destination "$out/npm" --loglevel error >/dev/null
+cp "${CARGO_TARGET_DIR:-target}"/wheel/*.whl "$out/wheel/"
 # Names without folders, as the release shows them.
 (cd "$out" && sha256sum book/* npm/* wheel/* | sed 's|  .*/|  |' | tee SHA256SUMS)
 node tests/tools/release.mjs "v$version" --notes >"$out/notes.md"

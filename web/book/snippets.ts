@@ -62,7 +62,7 @@ export const HOSTS: readonly Host[] = [
       const more = plain
         ? pairs.map(([key, value]) => `, ${key}=${python(value)}`).join("")
         : `, **{${pairs.map(([key, value]) => `${JSON.stringify(key)}: ${python(value)}`).join(", ")}}`;
-      return `from epipole_figures import Figure\n\nFigure(${JSON.stringify(name)}${more})`;
+      return `from epipole.figures import Figure\n\nFigure(${JSON.stringify(name)}${more})`;
     },
   },
 ];
