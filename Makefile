@@ -13,7 +13,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python test-wheel bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python test-wheel python-docs bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -97,6 +97,9 @@ python: build $(VENV)/.installed ## the Python package with the figures, a wheel
 
 test-wheel: python ## the wheel in an empty environment: its size, its description, all tests of the package
 	tests/tools/wheel.sh
+
+python-docs: python-module target/python-docs-venv/.installed ## the site of the Python package in target/python-docs/: runs the code of its pages
+	NO_MKDOCS_2_WARNING=1 target/python-docs-venv/bin/mkdocs build --strict --quiet --config-file $(PACKAGE)/docs/mkdocs.yml
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
 	@tests/tools/audit.sh
@@ -183,6 +186,13 @@ target/peers/.installed: tests/peers/requirements.txt
 	@tests/tools/need.sh python3
 	python3 -m venv target/peers
 	target/peers/bin/python -m pip install --quiet --disable-pip-version-check -r tests/peers/requirements.txt
+	@touch $@
+
+# Only for `make python-docs`.
+target/python-docs-venv/.installed: $(PACKAGE)/docs/requirements.txt
+	@tests/tools/need.sh python3
+	python3 -m venv target/python-docs-venv
+	target/python-docs-venv/bin/python -m pip install --quiet --disable-pip-version-check -r $(PACKAGE)/docs/requirements.txt
 	@touch $@
 
 tests/bench/node_modules/.installed: tests/bench/package-lock.json

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 import base64
 import html
+import io
 import logging
 import os
 import posixpath
 import re
-import struct
 import sys
 import tempfile
 import time
@@ -23,6 +23,7 @@ from mkdocs.structure.files import File
 from mkdocs.structure.nav import Link
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
+from PIL import Image
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -57,6 +58,7 @@ def on_nav(nav: Any, config: Any, files: Any) -> Any:
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     markdown = markdown.replace("<!-- names of epipole -->", _names())
+    markdown = markdown.replace("<!-- own names of epipole -->", _own_names())
     parts = split(markdown)
     if not any(isinstance(part, Cell) for part in parts):
         return markdown
@@ -64,7 +66,6 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     notebook = _execute(page.file.src_uri, parts)
     log.info("%s: executed in %.1f s", page.file.src_uri, time.monotonic() - start)
     name = posixpath.splitext(page.file.src_uri)[0]
-    files.append(File.generated(config, f"{name}.ipynb", content=nbformat.writes(notebook) + "\n"))
     text, pictures = [], 0
     for cell, part in zip(notebook.cells, parts, strict=True):
         if isinstance(part, str):
@@ -80,12 +81,18 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
             data = output.get("data", {"text/plain": output.get("text", "")})
             if "image/png" in data:
                 pictures += 1
-                png = base64.b64decode(data["image/png"])
-                path = f"{name}-{pictures}.png"
-                files.append(File.generated(config, path, content=png))
-                text.append(_picture(page.file.src_uri, posixpath.basename(path), png, part))
+                path = f"{name}-{pictures}.webp"
+                image = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
+                files.append(File.generated(config, path, content=_webp(image)))
+                text.append(_picture(page.file.src_uri, path, image.size, part))
             else:
                 text.append(_output(data["text/plain"]))
+    # Readers run it: without outputs it is small.
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+    content = nbformat.writes(notebook) + "\n"
+    files.append(File.generated(config, f"{name}.ipynb", content=content))
     download = f"[Download as a notebook]({posixpath.basename(name)}.ipynb){{ .download }}\n"
     whole = "\n".join(text)
     return re.sub(r"\A(# [^\n]*\n)", lambda m: f"{m[1]}\n{download}", whole.lstrip())
@@ -131,14 +138,21 @@ def _execute(name: str, parts: list[str | Cell]) -> Any:
     return notebook
 
 
-def _picture(page: str, path: str, png: bytes, cell: Cell) -> str:
+def _webp(image: Image.Image) -> bytes:
+    """A tenth of the bytes of a PNG, for photographs with noise."""
+    buffer = io.BytesIO()
+    image.save(buffer, "webp", quality=85)
+    return buffer.getvalue()
+
+
+def _picture(page: str, path: str, size: tuple[int, int], cell: Cell) -> str:
     if "alt" not in cell.attributes:
         raise PluginError(
             f'{page}: a cell with a picture needs alt="..." in its fence:\n{cell.code}'
         )
-    width, height = (side // PIXELS_PER_CSS_PIXEL for side in struct.unpack(">II", png[16:24]))
-    alt = html.escape(cell.attributes["alt"])
-    return f'![{alt}]({path}){{ .picture width="{width}" height="{height}" loading="lazy" }}\n'
+    width, height = (side // PIXELS_PER_CSS_PIXEL for side in size)
+    alt, file = html.escape(cell.attributes["alt"]), posixpath.basename(path)
+    return f'![{alt}]({file}){{ .picture width="{width}" height="{height}" loading="lazy" }}\n'
 
 
 def _output(text: str) -> str:
@@ -156,7 +170,16 @@ def _names() -> str:
     for node in ast.parse((PACKAGE / "__init__.py").read_text()).body:
         if isinstance(node, ast.ImportFrom) and node.module != "epipole._epipole":
             links = [f"[`{n.name}`][{node.module}.{n.name}]" for n in node.names]
-            rows.append(
-                f"| [`{node.module.removeprefix('epipole.')}`][{node.module}] | {', '.join(links)} |"
-            )
+            module = f"[`{node.module.removeprefix('epipole.')}`][{node.module}]"
+            rows.append(f"| {module} | {', '.join(links)} |")
     return "\n".join(rows)
+
+
+def _own_names() -> str:
+    """Reference of the functions and errors of `epipole` that are in no module."""
+    parts = []
+    for node in ast.parse((PACKAGE / "_epipole.pyi").read_text()).body:
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            options = "    options:\n      heading_level: 3\n      show_root_heading: true\n"
+            parts.append(f"::: epipole.{node.name}\n{options}")
+    return "\n".join(parts)
