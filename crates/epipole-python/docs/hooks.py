@@ -164,22 +164,29 @@ def _indented(text: str) -> str:
     return "".join(f"    {line}" if line.strip() else line for line in text.splitlines(True))
 
 
-def _names() -> str:
-    """Table of the names that `epipole` takes from its modules."""
-    rows = ["| Module | Names |", "|---|---|"]
+def _imports() -> dict[str, list[str]]:
+    """Names that `epipole` takes from each of its modules."""
+    found = {}
     for node in ast.parse((PACKAGE / "__init__.py").read_text()).body:
-        if isinstance(node, ast.ImportFrom) and node.module != "epipole._epipole":
-            links = [f"[`{n.name}`][{node.module}.{n.name}]" for n in node.names]
-            module = f"[`{node.module.removeprefix('epipole.')}`][{node.module}]"
-            rows.append(f"| {module} | {', '.join(links)} |")
+        if isinstance(node, ast.ImportFrom):
+            found[node.module] = [alias.name for alias in node.names]
+    return found
+
+
+def _names() -> str:
+    """Table of the names of modules that are also in `epipole`."""
+    rows = ["| Module | Names |", "|---|---|"]
+    for module, names in _imports().items():
+        if module != "epipole._epipole":
+            links = ", ".join(f"[`{name}`][{module}.{name}]" for name in names)
+            rows.append(f"| [`{module.removeprefix('epipole.')}`][{module}] | {links} |")
     return "\n".join(rows)
 
 
 def _own_names() -> str:
     """Reference of the functions and errors of `epipole` that are in no module."""
-    parts = []
-    for node in ast.parse((PACKAGE / "_epipole.pyi").read_text()).body:
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
-            options = "    options:\n      heading_level: 3\n      show_root_heading: true\n"
-            parts.append(f"::: epipole.{node.name}\n{options}")
-    return "\n".join(parts)
+    stub = ast.parse((PACKAGE / "_epipole.pyi").read_text()).body
+    defined = {node.name for node in stub if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    options = "    options:\n      heading_level: 3\n      show_root_heading: true\n"
+    names = [name for name in _imports()["epipole._epipole"] if name in defined]
+    return "\n".join(f"::: epipole.{name}\n{options}" for name in names)
