@@ -44,6 +44,8 @@ RUST |= {"Any": "Any", "f32": "float", "f64": "float", "PathBuf": "str | os.Path
 SPECIAL = {
     "__eq__": "(self, other: object, /) -> bool",
     "__len__": "(self) -> int",
+    "__enter__": "(self, /) -> None",
+    "__exit__": "(self, /, *exception: object) -> None",
     "__bool__": "(self) -> bool",
     "__contains__": "(self, item: object, /) -> bool",
     "__getnewargs_ex__": "(self, /) -> tuple[tuple[Any, ...], dict[str, Any]]",
@@ -76,6 +78,7 @@ for room_name, room in ROOMS.items():
     for class_name, value in vars(room).items():
         if isinstance(value, type):
             CLASSES.setdefault(class_name, []).append(room_name)
+CLASSES["Threads"] = ["threads"]
 
 
 def split(text, separators):
@@ -136,10 +139,10 @@ class Rust:
 
 
 class Room:
-    """Stub of one module."""
+    """Stub of one module, whose Rust source has the name `name`."""
 
-    def __init__(self, name):
-        self.name, self.module, self.rust = name, ROOMS[name], Rust(name)
+    def __init__(self, name, module):
+        self.name, self.module, self.rust = name, module, Rust(name)
         self.imports, self.where = set(), ""
 
     def fail(self, what):
@@ -546,17 +549,22 @@ Each function takes them as keywords: ``estimate_fundamental(pixels1, pixels2, *
 
 def package_text():
     """Stub of the native module itself."""
-    lines = [f"from epipole import {name} as {name}" for name in sorted(ROOMS)]
-    lines += ["", *listed(_epipole), "__version__: str", ""]
+    body, own = [], Room("threads", _epipole)
     for name, value in vars(_epipole).items():
         if isinstance(value, type) and issubclass(value, Exception):
-            lines.append(f"class {name}({value.__base__.__name__}):")
-            lines += [*docstring(inspect.cleandoc(value.__doc__), "    "), ""]
-    return GENERATED + "\n".join(lines).rstrip() + "\n"
+            body.append(f"class {name}({value.__base__.__name__}):")
+            body += [*docstring(inspect.cleandoc(value.__doc__), "    "), ""]
+        elif isinstance(value, type):
+            body += own.class_stub(value)
+        elif callable(value) and not name.startswith("_"):
+            body += own.function(name, value)
+    rooms = [f"from epipole import {name} as {name}" for name in sorted(ROOMS)]
+    head = [*imports(body, rooms), *listed(_epipole), "__version__: str", ""]
+    return GENERATED + "\n".join([*head, *body]).rstrip() + "\n"
 
 
 def main():
-    files = {f"{name}.pyi": Room(name).text() for name in ROOMS}
+    files = {f"{name}.pyi": Room(name, module).text() for name, module in ROOMS.items()}
     files |= {"_epipole.pyi": package_text(), "options.py": options_text()}
     if problems:
         sys.exit("\n".join(problems))

@@ -3,6 +3,7 @@
 //! The threads of the library's pool do not exist in the child, which would wait for them forever.
 //! A thread of the child therefore computes alone: it is the only member of its own pool.
 
+use crate::threads;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::ThreadPoolBuilder;
@@ -28,6 +29,7 @@ pub(crate) fn ensure_pool() {
 #[pyfunction]
 fn _after_fork() {
     IS_CHILD.store(true, Ordering::Relaxed);
+    threads::forget_pools();
     ensure_pool();
 }
 

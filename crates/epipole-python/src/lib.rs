@@ -13,6 +13,7 @@
 //! | [`options`] | keyword options to the library's option structs |
 //! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
 //! | [`record`] | `repr`, equality and pickling of classes |
+//! | [`threads`] | number of threads for a block of Python |
 
 mod absolute_pose;
 mod arrays;
@@ -36,6 +37,7 @@ mod sfm;
 mod stereo;
 mod stitch;
 mod synthetic;
+mod threads;
 mod triangulation;
 mod two_view;
 
@@ -71,6 +73,7 @@ fn _epipole(package: &Bound<'_, PyModule>) -> PyResult<()> {
     package.add("__version__", env!("CARGO_PKG_VERSION"))?;
     errors::register(package)?;
     fork::register(package)?;
+    threads::register(package)?;
     for (name, register) in MODULES {
         let path = format!("epipole.{name}");
         let module = PyModule::new(package.py(), &path)?;

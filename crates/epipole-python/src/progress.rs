@@ -1,10 +1,13 @@
 //! Long computations: without the GIL, with a progress callback, stopped by Ctrl-C.
 
 use crate::errors::OrRaise;
-use crate::fork;
+use crate::{fork, threads};
 use epipole::progress::{Monitor, Status};
 use pyo3::prelude::*;
+use rayon::ThreadPool;
 use std::ops::ControlFlow;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 /// Interval between two looks at Python. Ctrl-C and the callback wait no longer than this.
@@ -21,33 +24,75 @@ pub(crate) fn run<T: Send>(
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&mut dyn Monitor) -> epipole::Result<T> + Send,
 ) -> PyResult<T> {
+    let signal = Mutex::new(None);
     let mut watch = Watch {
         callback: progress,
         last: None,
         raised: None,
+        signal: &signal,
     };
-    let result = detach(py, || work(&mut watch));
+    fork::ensure_pool();
+    let result = py.detach(|| match threads::pool() {
+        None => work(&mut watch),
+        Some(pool) => spawn(&pool, &signal, || work(&mut watch)),
+    });
     match watch.raised {
         Some(raised) => Err(raised),
         None => result.or_raise(),
     }
 }
 
+/// Runs `work` in a pool, and meanwhile looks at signals, which only this thread receives.
+fn spawn<T: Send>(
+    pool: &ThreadPool,
+    signal: &Mutex<Option<PyErr>>,
+    work: impl FnOnce() -> T + Send,
+) -> T {
+    let mut result = None;
+    let (done, ended) = channel::<()>();
+    pool.in_place_scope(|scope| {
+        scope.spawn(|_| {
+            // Also a panic drops it.
+            let _done = done;
+            result = Some(work());
+        });
+        while ended.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+            if let Err(raised) = Python::attach(|py| py.check_signals()) {
+                *lock(signal) = Some(raised);
+            }
+        }
+    });
+    // A panic in the scope has continued in this thread.
+    result.expect("the scope waits for its work")
+}
+
+fn lock(signal: &Mutex<Option<PyErr>>) -> MutexGuard<'_, Option<PyErr>> {
+    signal.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Runs `work` without the GIL and without progress: short work.
 pub(crate) fn detach<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     fork::ensure_pool();
-    py.detach(work)
+    py.detach(|| match threads::pool() {
+        None => work(),
+        Some(pool) => pool.install(work),
+    })
 }
 
 /// Monitor that looks at Python from time to time.
-struct Watch {
+struct Watch<'a> {
     callback: Option<Py<PyAny>>,
     last: Option<Instant>,
     raised: Option<PyErr>,
+    /// Exception of a signal that the thread of Python received.
+    signal: &'a Mutex<Option<PyErr>>,
 }
 
-impl Watch {
+impl Watch<'_> {
     fn look(&self, status: Status) -> PyResult<()> {
+        if let Some(raised) = lock(self.signal).take() {
+            return Err(raised);
+        }
         Python::attach(|py| {
             py.check_signals()?;
             if let Some(callback) = &self.callback {
@@ -58,7 +103,7 @@ impl Watch {
     }
 }
 
-impl Monitor for Watch {
+impl Monitor for Watch<'_> {
     fn report(&mut self, status: Status) -> ControlFlow<()> {
         if self.last.is_some_and(|last| last.elapsed() < INTERVAL) {
             return ControlFlow::Continue(());

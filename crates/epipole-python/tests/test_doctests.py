@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 MODULES = [m for m in vars(epipole._epipole).values() if isinstance(m, types.ModuleType)]
+MODULES.append(epipole._epipole)
 
 
 def members(module):

@@ -47,6 +47,12 @@ def test_threads_in_a_child():
     assert ends_well(lambda: blur() and ends_well(blur))
 
 
+def test_block_of_threads_in_a_child(outliers):
+    expected = epipole.estimate_fundamental(*outliers)
+    with epipole.threads(2):
+        assert ends_well(lambda: epipole.estimate_fundamental(*outliers) == expected)
+
+
 def test_thread_of_a_child(outliers):
     expected = epipole.estimate_fundamental(*outliers)
 

@@ -1,5 +1,6 @@
 """Progress callbacks, exceptions in callables, Ctrl-C, threads."""
 
+import contextlib
 import os
 import signal
 import threading
@@ -34,8 +35,10 @@ def test_exception_of_a_callback_stops_the_work(long_work):
         epipole.estimate_fundamental(*matches, progress=stop, **options)
 
 
-def test_interrupt_stops_the_work(long_work):
+@pytest.mark.parametrize("num_threads", [None, 2])
+def test_interrupt_stops_the_work(long_work, num_threads):
     matches, options = long_work
+    block = contextlib.nullcontext() if num_threads is None else epipole.threads(num_threads)
     # A job of a shell in the background ignores the signal.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -45,7 +48,7 @@ def test_interrupt_stops_the_work(long_work):
 
     thread = threading.Thread(target=interrupt)
     thread.start()
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), block:
         epipole.estimate_fundamental(*matches, **options)
     thread.join()
     signal.signal(signal.SIGINT, before)
@@ -87,3 +90,33 @@ def test_threads_give_the_same_result(outliers):
     for thread in threads:
         thread.join()
     assert all(report == expected for report in found)
+
+
+def test_threads_of_a_block(outliers):
+    before = epipole.num_threads()
+    expected = epipole.estimate_fundamental(*outliers)
+    with epipole.threads(3):
+        assert epipole.num_threads() == 3
+        with epipole.threads(1):
+            assert epipole.num_threads() == 1
+            assert epipole.estimate_fundamental(*outliers) == expected
+        assert epipole.num_threads() == 3
+    assert epipole.num_threads() == before
+
+
+def test_wrong_number_of_threads():
+    with pytest.raises(ValueError, match="count must be at least 1, but is 0"):
+        epipole.threads(0)
+    with pytest.raises((OverflowError, TypeError)):
+        epipole.threads(-1)
+    with pytest.raises(RuntimeError, match="another thread"):
+        epipole.threads(1).__exit__(None, None, None)
+
+
+def test_a_block_passes_exceptions(outliers):
+    def stop(stage, share):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"), epipole.threads(2):
+        epipole.estimate_fundamental(*outliers, progress=stop)
+    assert "threads(2)" in repr(epipole.threads(2))

@@ -1,5 +1,8 @@
 # Written by stubs.py. Do not edit.
 
+from typing import final
+
+
 from epipole import absolute_pose as absolute_pose
 from epipole import calibration as calibration
 from epipole import camera as camera
@@ -22,6 +25,7 @@ __all__ = [
     "DegenerateError",
     "Error",
     "NoConsensusError",
+    "Threads",
     "TooFewError",
     "__version__",
     "absolute_pose",
@@ -33,12 +37,14 @@ __all__ = [
     "imaging",
     "io",
     "math",
+    "num_threads",
     "optim",
     "robust",
     "sfm",
     "stereo",
     "stitch",
     "synthetic",
+    "threads",
     "triangulation",
     "two_view",
 ]
@@ -56,3 +62,43 @@ class DegenerateError(Error):
 
 class NoConsensusError(Error):
     """No model with enough support."""
+
+@final
+class Threads:
+    """Block with a number of threads, from `epipole.threads`."""
+    def __enter__(self, /) -> None: ...
+    def __exit__(self, /, *exception: object) -> None: ...
+
+def threads(count: int) -> Threads:
+    """Limits the threads of calls inside a `with` block, for the current thread of Python.
+
+    Results do not depend on the number of threads.
+
+    Parameters
+    ----------
+    count : int
+        >= 1.
+
+    Returns
+    -------
+    Threads
+
+    Raises
+    ------
+    ValueError
+        If count is 0.
+
+    Examples
+    --------
+    >>> with epipole.threads(1):
+    ...     epipole.num_threads()
+    1
+    """
+def num_threads() -> int:
+    """Number of threads that calls use.
+
+    Returns
+    -------
+    int
+        Of the enclosing `epipole.threads`, else `RAYON_NUM_THREADS`, else the processors.
+    """

@@ -1,0 +1,107 @@
+//! Number of threads of the library, chosen for a block of Python.
+
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::cell::RefCell;
+use std::sync::Arc;
+
+thread_local! {
+    /// Pools of the blocks that this thread has entered, the innermost last.
+    static ENTERED: RefCell<Vec<Arc<ThreadPool>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Pool of the innermost block.
+pub(crate) fn pool() -> Option<Arc<ThreadPool>> {
+    ENTERED.with_borrow(|pools| pools.last().cloned())
+}
+
+/// Leaves all blocks: their threads do not exist in a forked process.
+pub(crate) fn forget_pools() {
+    // Dropping a pool would wait for its threads.
+    ENTERED.with_borrow_mut(|pools| pools.drain(..).for_each(std::mem::forget));
+}
+
+/// Block with a number of threads, from `epipole.threads`.
+#[pyclass(frozen, module = "epipole")]
+pub(crate) struct Threads(Arc<ThreadPool>);
+
+#[pymethods]
+impl Threads {
+    fn __enter__(&self) {
+        ENTERED.with_borrow_mut(|pools| pools.push(self.0.clone()));
+    }
+
+    #[pyo3(signature = (*exception))]
+    fn __exit__(&self, exception: &Bound<'_, PyTuple>) -> PyResult<()> {
+        // It goes on to the caller.
+        let _ = exception;
+        let left = ENTERED.with_borrow_mut(|pools| {
+            let place = pools.iter().rposition(|pool| Arc::ptr_eq(pool, &self.0))?;
+            Some(pools.remove(place))
+        });
+        match left {
+            Some(_) => Ok(()),
+            None => Err(PyRuntimeError::new_err(
+                "the block was entered by another thread of Python",
+            )),
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        format!("threads({})", self.0.current_num_threads())
+    }
+}
+
+/// Limits the threads of calls inside a `with` block, for the current thread of Python.
+///
+/// Results do not depend on the number of threads.
+///
+/// Parameters
+/// ----------
+/// count : int
+///     >= 1.
+///
+/// Returns
+/// -------
+/// Threads
+///
+/// Raises
+/// ------
+/// ValueError
+///     If count is 0.
+///
+/// Examples
+/// --------
+/// >>> with epipole.threads(1):
+/// ...     epipole.num_threads()
+/// 1
+#[pyfunction]
+fn threads(count: usize) -> PyResult<Threads> {
+    if count == 0 {
+        return Err(PyValueError::new_err("count must be at least 1, but is 0"));
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| PyOSError::new_err(format!("count is {count}: {error}")))?;
+    Ok(Threads(Arc::new(pool)))
+}
+
+/// Number of threads that calls use.
+///
+/// Returns
+/// -------
+/// int
+///     Of the enclosing `epipole.threads`, else `RAYON_NUM_THREADS`, else the processors.
+#[pyfunction]
+fn num_threads() -> usize {
+    pool().map_or_else(rayon::current_num_threads, |pool| {
+        pool.current_num_threads()
+    })
+}
+
+pub(crate) fn register(package: &Bound<'_, PyModule>) -> PyResult<()> {
+    package.add_class::<Threads>()?;
+    package.add_function(wrap_pyfunction!(threads, package)?)?;
+    package.add_function(wrap_pyfunction!(num_threads, package)?)
+}
