@@ -22,7 +22,7 @@ from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 from mkdocs.structure.nav import Link
 from nbclient import NotebookClient
-from nbclient.exceptions import CellExecutionError
+from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 from PIL import Image
 
 HERE = Path(__file__).parent
@@ -131,7 +131,7 @@ def _execute(name: str, parts: list[str | Cell]) -> Any:
     client.create_kernel_manager().transport = "ipc"
     try:
         client.execute()
-    except CellExecutionError as error:
+    except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
         raise PluginError(f"{name}: {error}") from error
     # The version of the kernel is no part of the page.
     notebook.metadata.pop("language_info", None)
