@@ -75,11 +75,11 @@ def _everything(module: griffe.Object) -> Any:
 
 def _link(match: re.Match[str], scope: griffe.Object, pkg: griffe.Module) -> str:
     name = match[1]
+    first, *rest = name.split(".")
     try:
-        path = scope.resolve(name.split(".")[0])
+        path = ".".join([pkg.path if first == pkg.name else scope.resolve(first), *rest])
     except griffe.NameResolutionError:
         return f"``{name}``"
-    path = ".".join([path, *name.split(".")[1:]])
     path = path.replace("epipole._epipole.", "epipole.")
     try:
         pkg[path.removeprefix(f"{pkg.path}.")]
