@@ -125,10 +125,10 @@ test("the column of contents folds away, stays so, and comes back by key", async
 });
 
 test("notes in the margin meet neither figures nor listings nor one another", async ({ page, library }) => {
-  for (const width of [1200, 1280, 1440, 1920]) {
-    await page.setViewportSize({ width, height: 800 });
-    for (const name of chapters) {
-      await page.goto(`${library}/${name}`);
+  for (const name of chapters) {
+    await page.goto(`${library}/${name}`);
+    for (const width of [1200, 1280, 1440, 1920]) {
+      await page.setViewportSize({ width, height: 800 });
       const met = await page.evaluate(() => {
         const boxes = (selector) => [...document.querySelectorAll(selector)].map((found) => found.getBoundingClientRect());
         const notes = boxes(".note[role=note]");
