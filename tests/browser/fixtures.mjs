@@ -122,20 +122,47 @@ export function layoutWidth(room) {
   return room < 500 ? 360 : room < 860 ? 720 : 1088;
 }
 
+/** Limit of waits in the page, as that of `expect`, milliseconds. */
+const LIMIT_MS = 15_000;
+
+/** Runs in the page, where waiting takes no round trips: brings each figure into view and interest. */
+async function firstFrames(some, limit) {
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  for (const element of [some].flat()) {
+    const end = performance.now() + limit;
+    do {
+      if (performance.now() > end) throw new Error(`${element.getAttribute("name")} has no first frame`);
+      element.scrollIntoViewIfNeeded();
+      await frame();
+    } while (element.getAttribute("data-ready") !== "");
+    // A figure with a matching poster draws and computes only when the reader takes an interest, in
+    // the next frame.
+    element.dispatchEvent(new PointerEvent("pointerenter", { bubbles: true, cancelable: true, composed: true }));
+    await frame();
+    await frame();
+  }
+}
+
 /** Waits until a figure has drawn its first frame. */
 export async function ready(figure) {
-  await figure.scrollIntoViewIfNeeded();
-  await expect(figure).toHaveAttribute("data-ready", "");
-  // A figure with a matching poster draws and computes only when the reader takes an interest, in
-  // the next frame.
-  await figure.dispatchEvent("pointerenter");
-  await figure.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await figure.evaluate(firstFrames, LIMIT_MS);
+}
+
+/** Waits until each of the figures, one after the other, has drawn its first frame. */
+export async function allReady(figures) {
+  await figures.evaluateAll(firstFrames, LIMIT_MS);
 }
 
 /** Waits for computations. Draws first, as a computation starts with the next frame. */
 export async function settled(some) {
-  await some.evaluateAll((elements) => elements.forEach((element) => element.flush()));
-  await expect(some.locator("[aria-busy]")).toHaveCount(0);
+  const busy = await some.evaluateAll(async (elements, limit) => {
+    for (const element of elements) element.flush();
+    const isBusy = (element) => [element, element.shadowRoot].some((root) => root?.querySelector("[aria-busy]"));
+    const end = performance.now() + limit;
+    while (elements.some(isBusy) && performance.now() < end) await new Promise((done) => setTimeout(done, 10));
+    return elements.filter(isBusy).map((element) => element.getAttribute("name"));
+  }, LIMIT_MS);
+  expect(busy, "figures that compute").toEqual([]);
 }
 
 /**
