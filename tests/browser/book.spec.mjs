@@ -1,7 +1,7 @@
 // Every page of the book, served under a sub-path with its own strict content security policy.
 
 import { readdirSync } from "node:fs";
-import { expect, expectAccessible, listen, ready, test } from "./fixtures.mjs";
+import { allReady, expect, expectAccessible, listen, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 import { kept, leaving, listenIn } from "./privacy.mjs";
 
@@ -10,22 +10,31 @@ const pages = book ? readdirSync(book).filter((name) => name.endsWith(".html") &
 /** Starts every figure of a page. */
 async function wake(page) {
   const figures = page.locator("epipole-figure");
-  for (let index = 0; index < (await figures.count()); index += 1) await ready(figures.nth(index));
+  await allReady(figures);
   return figures;
 }
 
 for (const name of pages) {
   test.describe(name, () => {
-    test("its figures come to life, the console is silent, and nothing is asked of others or kept", async ({ page, library }) => {
+    test("its figures come to life, and axe finds nothing wrong, light or dark", async ({ page, library }) => {
       const requests = listenIn(page.context());
+      await page.emulateMedia({ colorScheme: "light" });
       await page.goto(`${library}/${name}`);
       await expect(page.locator("h1")).toHaveCount(1);
       const figures = await wake(page);
       for (const notice of await figures.locator(".notice").all()) await expect(notice).toBeHidden();
-      await page.waitForLoadState("networkidle");
-      expect(requests.length).toBeGreaterThan(3);
-      expect(leaving(requests, new URL(library).origin)).toEqual([]);
-      expect(await kept(page)).toEqual({ keys: [], besides: [] });
+      await test.step("the console is silent, and nothing is asked of others or kept", async () => {
+        await page.waitForLoadState("networkidle");
+        expect(requests.length).toBeGreaterThan(3);
+        expect(leaving(requests, new URL(library).origin)).toEqual([]);
+        expect(await kept(page)).toEqual({ keys: [], besides: [] });
+      });
+      await test.step("axe finds nothing wrong in light", () => expectAccessible(page));
+      await test.step("nor in dark", async () => {
+        await page.emulateMedia({ colorScheme: "dark" });
+        await expect(figures.locator(".root:not([data-theme=dark])")).toHaveCount(0);
+        await expectAccessible(page, { colors: true });
+      });
     });
 
     test("without script it has everything to read and to see", async ({ browser, library }) => {
@@ -42,17 +51,6 @@ for (const name of pages) {
         await expect.poll(() => poster.evaluate((image) => image.naturalWidth)).toBeGreaterThan(0);
       }
       await context.close();
-    });
-
-    test("axe finds nothing wrong, light or dark", async ({ page, library }) => {
-      test.slow(name === "gallery.html", "all figures on one page");
-      await page.emulateMedia({ colorScheme: "light" });
-      await page.goto(`${library}/${name}`);
-      const figures = await wake(page);
-      await expectAccessible(page);
-      await page.emulateMedia({ colorScheme: "dark" });
-      await expect(figures.locator(".root:not([data-theme=dark])")).toHaveCount(0);
-      await expectAccessible(page, { colors: true });
     });
 
     test("a phone 360 px wide needs no sideways scroll", async ({ browser, library, complaints }) => {
