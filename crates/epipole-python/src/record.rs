@@ -1,14 +1,16 @@
-//! `repr`, equality and pickling of classes, from the names of their attributes.
+//! `repr`, equality, pickling and display of classes, from the names of their attributes.
 
 use numpy::PyUntypedArray;
 use numpy::prelude::*;
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple};
+use pyo3::types::{PyList, PyString, PyTuple};
 
-/// Number of characters above which an attribute is shortened in a `repr`.
+/// Number of characters above which an array is shortened in a `repr`.
 const MAX_REPR: usize = 120;
+/// Number of elements above which a `repr` gives the length of a list only.
+const MAX_LIST: usize = 3;
 
-/// `Class(a=1, b=array of shape (100, 2))`.
+/// `Class(a=1, b=<float64 array of shape (100, 2)>, c=<list of 20>)`.
 pub(crate) fn repr(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<String> {
     let mut parts = Vec::new();
     for field in fields {
@@ -18,14 +20,37 @@ pub(crate) fn repr(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<Strin
     Ok(format!("{class}({})", parts.join(", ")))
 }
 
+/// Table of the attributes, below a picture if `epipole.plot` draws one: for notebooks.
+pub(crate) fn html(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<String> {
+    let escape = object.py().import("html")?.getattr("escape")?;
+    let mut rows = String::new();
+    for field in fields {
+        let text = escape.call1((brief(&object.getattr(*field)?)?,))?;
+        rows += &format!("<tr><th>{field}</th><td><code>{text}</code></td></tr>");
+    }
+    let class = object.get_type().name()?;
+    let plot = object.py().import("epipole.plot")?;
+    let picture: String = plot.call_method1("_html_picture", (object,))?.extract()?;
+    Ok(format!(
+        "{picture}<table><caption>{class}</caption>{rows}</table>"
+    ))
+}
+
 /// One attribute in a `repr`.
 fn brief(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if let Ok(list) = value.cast::<PyList>()
+        && list.len() > MAX_LIST
+    {
+        return Ok(format!("<list of {}>", list.len()));
+    }
     let Ok(array) = value.cast::<PyUntypedArray>() else {
         return Ok(value.repr()?.to_string());
     };
-    let text = value.call_method0("tolist")?.repr()?.to_string();
-    if text.chars().count() <= MAX_REPR {
-        return Ok(text);
+    if array.len() <= MAX_REPR {
+        let text = value.call_method0("tolist")?.repr()?.to_string();
+        if text.chars().count() <= MAX_REPR {
+            return Ok(text);
+        }
     }
     let kind: String = array.dtype().getattr("name")?.extract()?;
     let shape = PyTuple::new(value.py(), array.shape())?.repr()?;
@@ -72,13 +97,17 @@ pub(crate) fn reduce<'py>(
     Ok((object.get_type().into_any(), arguments))
 }
 
-/// Gives a class `__repr__`, `__eq__` and `__reduce__`. Its constructor takes these attributes.
+/// Gives a class `__repr__`, `_repr_html_`, `__eq__` and `__reduce__`. Its constructor takes these attributes.
 macro_rules! plain_class {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]
         impl $class {
             fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
                 $crate::record::repr(slf, &[$(stringify!($field)),+])
+            }
+
+            fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+                $crate::record::html(slf, &[$(stringify!($field)),+])
             }
 
             fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {

@@ -58,3 +58,24 @@ def test_every_class_and_function_has_a_docstring_and_a_home():
             if callable(attribute) and not isinstance(attribute, type(np)):
                 assert attribute.__doc__, attribute
                 assert attribute.__module__ == f"epipole.{name}", attribute
+
+
+def test_notebooks_show_a_table(outliers):
+    report = epipole.estimate_fundamental(*outliers)
+    html = report._repr_html_()
+    assert html.startswith("<table><caption>RansacReport</caption>")
+    assert "<th>num_inliers</th><td><code>" in html
+    assert "&lt;bool array" in html or "[True" in html
+
+
+def test_notebooks_show_a_picture_of_a_reconstruction():
+    pytest.importorskip("matplotlib")
+    intrinsics = epipole.Intrinsics(500, 500, 320, 240)
+    camera = epipole.Camera.pinhole(intrinsics, 640, 480)
+    posed = epipole.PosedCamera(camera, epipole.RigidTransform())
+    points, tracks = [[0, 0, 4], [1, 0, 5]], [[0, 0, 0], [1, 0, 1]]
+    html = epipole.sfm.Reconstruction([posed, None], points, tracks)._repr_html_()
+    assert html.startswith('<img alt="1 cameras and 2 points" src="data:image/png;base64,iVBOR')
+    assert "<caption>Reconstruction</caption>" in html
+    empty = epipole.sfm.Reconstruction([None], np.empty((0, 3)), np.empty((0, 3), int))
+    assert "0 cameras and 0 points" in empty._repr_html_()

@@ -6,9 +6,13 @@ are at integers, as everywhere in Epipole, so that ``imshow`` and points agree.
 
 from __future__ import annotations
 
+import base64
+import io
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
+
+from epipole import sfm
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +25,7 @@ __all__ = [
     "disparity",
     "epipolar_lines",
     "matches",
+    "reconstruction",
     "residuals",
 ]
 
@@ -198,6 +203,17 @@ def cameras(
     return ax
 
 
+def reconstruction(result: sfm.Reconstruction, *, ax: Axes3D | None = None) -> Axes3D:
+    """Draws the cameras and the colored points of a reconstruction, in three dimensions.
+
+    Parameters
+    ----------
+    result : epipole.sfm.Reconstruction
+    """
+    poses = [camera.cam_from_world for camera in result.cameras if camera is not None]
+    return cameras(poses, points=result.points, colors=result.colors, ax=ax)
+
+
 def residuals(
     errors_px: ArrayLike, *, max_error_px: float | None = None, ax: Axes | None = None
 ) -> Axes:
@@ -336,3 +352,21 @@ def _distinct(count: int) -> list[Any]:
 
     shades = matplotlib.colormaps["viridis"]
     return [shades(n / max(count - 1, 1)) for n in range(count)]
+
+
+def _html_picture(result: object) -> str:
+    """Picture of a result in a notebook, as HTML; empty without matplotlib and for other results."""
+    if not isinstance(result, sfm.Reconstruction):
+        return ""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        return ""
+    # Without pyplot, which would show the figure again.
+    figure = Figure(figsize=(6, 4), layout="tight")
+    reconstruction(result, ax=figure.add_subplot(projection="3d"))
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=100)
+    data = base64.b64encode(file.getvalue()).decode()
+    text = f"{result.num_registered()} cameras and {len(result.points)} points"
+    return f'<img alt="{text}" src="data:image/png;base64,{data}">'

@@ -5,7 +5,7 @@ use crate::errors::OrRaise;
 use crate::images::{elements, wrong_shape};
 use crate::options;
 use crate::record::record;
-use crate::sfm::wrapper::{repr, wrapper};
+use crate::sfm::wrapper::wrapper;
 use epipole::calibration::{self, Pattern};
 use epipole::nalgebra::Point2;
 use numpy::prelude::*;
@@ -127,7 +127,7 @@ impl Board {
     }
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
-        repr(slf, &["pattern", "columns", "rows", "square_m"])
+        crate::record::repr(slf, &["pattern", "columns", "rows", "square_m"])
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

@@ -6,19 +6,19 @@ use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 
-/// Number of elements above which a `repr` gives the length of a list only.
-const MAX_LIST: usize = 3;
-
-/// Gives a class around a value of the library `__repr__`, `__eq__` and `__reduce__`. Its
-/// constructor takes these attributes.
+/// Gives a class around a value of the library `__repr__`, `_repr_html_`, `__eq__` and
+/// `__reduce__`. Its constructor takes these attributes.
 macro_rules! wrapper {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]
         impl $class {
             fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
-                $crate::sfm::wrapper::repr(slf, &[$(stringify!($field)),+])
+                $crate::record::repr(slf, &[$(stringify!($field)),+])
+            }
+
+            fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+                $crate::record::html(slf, &[$(stringify!($field)),+])
             }
 
             fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -34,27 +34,6 @@ macro_rules! wrapper {
     };
 }
 pub(crate) use wrapper;
-
-/// `Class(name='a', points=<float64 array of shape (100, 3)>, cameras=<list of 20>)`.
-pub(crate) fn repr(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<String> {
-    let mut parts = Vec::new();
-    for field in fields {
-        let value = object.getattr(*field)?;
-        let text = if let Ok(array) = value.cast::<PyUntypedArray>() {
-            let shape = array.getattr("shape")?.repr()?;
-            format!("<{} array of shape {shape}>", dtype(array)?)
-        } else if let Ok(list) = value.cast::<PyList>()
-            && list.len() > MAX_LIST
-        {
-            format!("<list of {}>", list.len())
-        } else {
-            value.repr()?.to_string()
-        };
-        parts.push(format!("{field}={text}"));
-    }
-    let class = object.get_type().name()?;
-    Ok(format!("{class}({})", parts.join(", ")))
-}
 
 /// Calls a class of another module of the package.
 pub(crate) fn object<'py>(
