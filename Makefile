@@ -42,10 +42,12 @@ test-rust: setup-build ## unit tests, documentation tests, Rust listings, figure
 	cargo test --locked --workspace --tests
 	cargo test --locked --workspace --doc
 
-# Without -p, as above. The module's file has the name by which every Python from 3.10 on finds it.
+# Without -p, as above. The module's file has the name by which every Python from 3.10 on finds it; it is
+# replaced by another, because a Python may have loaded it.
 python-module: setup-build ## builds the native module of the Python package, in its folder
 	cargo build --locked --workspace --lib
-	cp target/debug/lib_epipole.$(if $(filter Darwin,$(shell uname)),dylib,so) $(PACKAGE)/python/epipole/_epipole.abi3.so
+	cp target/debug/lib_epipole.$(if $(filter Darwin,$(shell uname)),dylib,so) $(PACKAGE)/python/epipole/new.so
+	mv $(PACKAGE)/python/epipole/new.so $(PACKAGE)/python/epipole/_epipole.abi3.so
 
 test-python: setup-test python-module ## the Python package
 	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
@@ -53,10 +55,11 @@ test-python: setup-test python-module ## the Python package
 test-web: setup-build ## unit tests of the elements, without a browser
 	cd web && npm test --silent
 
-test-listings: setup-test ## the Python listings and the notebooks of the chapters
-	$(PYTHON) tests/listings/run.py
+# PYTHONPATH is absolute, because listings and notebooks run in folders of their own.
+test-listings: setup-test python-module ## the Python listings and the notebooks of the chapters
+	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/run.py
 	$(BOOK) notebooks target/book-work/notebooks
-	$(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
+	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
 test-browser: setup build ## the book and the figures in a real browser
 	cd tests/browser && npm test --silent
@@ -107,6 +110,10 @@ audit: setup-build ## known holes in what we build from; asks the registries, so
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
+bench-python: python target/peers/.installed ## the Python package beside OpenCV, PoseLib and scikit-image: milliseconds and quality
+	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheel/*.whl
+	target/peers/bin/python tests/peers/time_python.py $${EPIPOLE_DATA:-../shared/data}
+
 bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memory
 	$(BOOK) lab
 	cargo run --locked --quiet -p epipole-lab --example photographs -- target/lab-photographs
@@ -136,8 +143,8 @@ bless-contract: setup-build ## writes web/src/contract.ts anew from the types of
 bless-licenses: setup-build ## lists anew what we ship that is not ours; read the difference before you commit it
 	node tests/tools/supply.mjs --bless
 
-bless-listings: setup-test ## records anew what the listings print; read the difference before you commit it
-	$(PYTHON) tests/listings/run.py --bless
+bless-listings: setup-test python-module ## records anew what the listings print; read the difference before you commit it
+	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/run.py --bless
 	EPIPOLE_BLESS=1 cargo test --quiet --test rust_listings
 
 pictures: setup build ## makes the pictures of README.md anew, from the built book

@@ -46,14 +46,13 @@ of E include the choice among the four poses.
 import os, subprocess, sys, tempfile, time
 import cv2
 import numpy as np
-import poselib
 import superansac
+from two_view_peers import CONFIDENCE, intrinsics, opencv, pose_lib
 from two_view_problems import WORST_PX, collect
 
 cv2.setNumThreads(1)
 binary = sys.argv[2]
 orders = int(sys.argv[3]) if len(sys.argv) > 3 else 5
-CONFIDENCE = 0.999
 WHO = ("ours", "MAGSAC", "PoseLib", "SupeR.")
 # Measures of the problems without a pose, the main one first; "+": more is better.
 MEASURES = {
@@ -73,32 +72,6 @@ def auc(errors, limit):
     return 100 * area / limit
 
 
-def opencv(p, a, b, _):
-    if p.kind == "F":
-        f, inliers = cv2.findFundamentalMat(a, b, cv2.USAC_MAGSAC, p.threshold_px, CONFIDENCE, p.trials)
-        return None if f is None else f[:3], inliers
-    if p.kind == "H":
-        return cv2.findHomography(a, b, cv2.USAC_MAGSAC, p.threshold_px, maxIters=p.trials, confidence=CONFIDENCE)
-    e, inliers = cv2.findEssentialMat(a, b, p.k, cv2.USAC_MAGSAC, CONFIDENCE, p.threshold_px, maxIters=p.trials)
-    if e is None:
-        return None, None
-    return np.hstack(cv2.recoverPose(e[:3], a, b, p.k, mask=inliers.copy())[1:3]), inliers
-
-
-def lib(p, a, b, seed):
-    ransac = {"max_epipolar_error": p.threshold_px, "max_reproj_error": p.threshold_px, "success_prob": CONFIDENCE,
-              "max_iterations": p.trials, "seed": seed}
-    if p.kind == "F":
-        model, told = poselib.estimate_fundamental(a, b, ransac, {})
-    elif p.kind == "H":
-        model, told = poselib.estimate_homography(a, b, ransac, {})
-    else:
-        camera = {"model": "PINHOLE", "width": -1, "height": -1, "params": intrinsics(p.k)}
-        pose, told = poselib.estimate_relative_pose(a, b, camera, camera, ransac, {})
-        model = pose.Rt
-    return model, told["inliers"]
-
-
 def super_ransac(p, a, b, _):
     settings = superansac.settings(p.threshold_px, CONFIDENCE, p.trials)
     if p.kind == "F":
@@ -106,10 +79,6 @@ def super_ransac(p, a, b, _):
     if p.kind == "H":
         return superansac.homography(a, b, settings)
     return superansac.relative_pose(a, b, p.k, settings)
-
-
-def intrinsics(k):
-    return [k[0, 0], k[1, 1], k[0, 2], k[1, 2]]
 
 
 def answers_of(fit, tasks):
@@ -146,7 +115,7 @@ def judged(p, order, model, inliers, ms):
 problems = collect(sys.argv[1])
 tasks = [(p, np.random.default_rng(seed).permutation(len(p.rows)), seed) for p in problems for seed in range(orders)]
 results = {}  # (kind, group, who): problems × orders × measures
-for who, answers in zip(WHO, (our_answers(tasks), *(answers_of(fit, tasks) for fit in (opencv, lib, super_ransac)))):
+for who, answers in zip(WHO, (our_answers(tasks), *(answers_of(fit, tasks) for fit in (opencv, pose_lib, super_ransac)))):
     for (p, order, seed), answer in zip(tasks, answers, strict=True):
         if seed == 0:
             results.setdefault((p.kind, p.group, who), []).append([])

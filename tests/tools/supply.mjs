@@ -21,7 +21,12 @@ const problems = [];
 /** Folders with a package.json and its lock file. */
 const NPM = ["web", "tests/browser", "tests/browser/hosts", "tests/engines", "tests/bench"];
 /** Requirements files of Python, each for a whole environment. */
-const PIP = ["tests/requirements.txt", "tests/peers/requirements.txt", "tests/browser/hosts/requirements.txt"];
+const PIP = [
+  "crates/epipole-python/docs/requirements.txt",
+  "tests/browser/hosts/requirements.txt",
+  "tests/peers/requirements.txt",
+  "tests/requirements.txt",
+];
 /** The WebAssembly modules: package, feature, description. */
 const FIGURES = [
   ["epipole-web", "figures", "figures"],
