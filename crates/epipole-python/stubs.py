@@ -213,9 +213,9 @@ class Room:
         if text.startswith("{"):
             return [f"Literal[{text.strip('{}')}]"]
         parts = split(text, [", or ", ", ", " or "])
-        is_array = re.match(r"ndarray of \w+$", parts[0])
-        if is_array and parts[1:] and set(parts[1:]) <= set(DTYPES):
-            return ["NDArray[Any]"]
+        array = re.match(r"(list of )?ndarray of \w+$", parts[0])
+        if array and parts[1:] and set(parts[1:]) <= set(DTYPES):
+            return ["list[NDArray[Any]]" if array[1] else "NDArray[Any]"]
         return [self.one(part, is_argument) for part in parts]
 
     def one(self, text, is_argument):
@@ -353,7 +353,10 @@ class Room:
         array = re.search(r"(?:(\w+) (?:array )?of )?shape \(", doc.split("\n\n")[0])
         if array and not section(doc, "Returns"):
             dtype = array[1] if array[1] in DTYPES else "bool" if array[1] == "boolean" else "float"
-            result = self.hint(kind, f"ndarray of {dtype}", False, cls.__name__, name)
+            # Descriptors of numbers or of bits, images of either depth.
+            others = re.findall(r"or (\w+) of shape \(", doc.split("\n\n")[0])
+            dtypes = " or ".join([dtype, *(other for other in others if other in DTYPES)])
+            result = self.hint(kind, f"ndarray of {dtypes}", False, cls.__name__, name)
         elif kind in ("Py<PyAny>", "Option<Py<PyAny>>") and not section(doc, "Returns"):
             # Objects of the caller, such as the model of `ransac`.
             result = "Any"

@@ -331,6 +331,9 @@ class RigidTransform:
     @property
     def quaternion(self) -> NDArray[np.float64]:
         """Quaternion (w, x, y, z) of the rotation, shape (4,)."""
+    @property
+    def angle_rad(self) -> float:
+        """Angle of the rotation, radians in [0, pi]."""
     @staticmethod
     def from_quaternion(
         quaternion: ArrayLike,

@@ -116,7 +116,7 @@ class Features:
     def keypoints(self) -> Keypoints:
         """Keypoints."""
     @property
-    def descriptors(self) -> NDArray[np.float32]:
+    def descriptors(self) -> NDArray[Any]:
         """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits."""
     @property
     def points(self) -> NDArray[np.float64]:

@@ -217,7 +217,7 @@ def gaussian_blur(
     image: ArrayLike,
     sigma_px: float,
     border: str | Mapping[str, Any] | None = None,
-) -> NDArray[np.float64]:
+) -> NDArray[Any]:
     """Image blurred by a Gaussian, cut off at about 4 sigma.
 
     Parameters
@@ -231,14 +231,14 @@ def gaussian_blur(
 
     Returns
     -------
-    ndarray, shape (H, W)
+    ndarray of uint8 or float32, shape (H, W)
         uint8 for uint8, else float32.
     """
 def box_filter(
     image: ArrayLike,
     size: int,
     border: str | Mapping[str, Any] | None = None,
-) -> NDArray[np.float64]:
+) -> NDArray[Any]:
     """Mean of the ``size x size`` window around each pixel.
 
     Parameters
@@ -252,7 +252,7 @@ def box_filter(
 
     Returns
     -------
-    ndarray, shape (H, W)
+    ndarray of uint8 or float32, shape (H, W)
         uint8 for uint8, else float32.
     """
 def derivative(
@@ -329,7 +329,7 @@ def gaussian_derivative(
 def pyramid_down(
     image: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
-) -> NDArray[np.float64]:
+) -> NDArray[Any]:
     """Image at half its size, blurred by the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
 
     Parameters
@@ -341,10 +341,10 @@ def pyramid_down(
 
     Returns
     -------
-    ndarray, shape (ceil(H / 2), ceil(W / 2))
+    ndarray of uint8 or float32, shape (ceil(H / 2), ceil(W / 2))
         uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
     """
-def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
+def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
     """Image at twice its size, interpolated by the binomial kernel.
 
     Parameters
@@ -356,10 +356,10 @@ def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]
 
     Returns
     -------
-    ndarray, shape (height, width)
+    ndarray of uint8 or float32, shape (height, width)
         uint8 for uint8, else float32.
     """
-def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float64]]:
+def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[Any]]:
     """Image and its halves by `pyramid_down`, largest first.
 
     Parameters
@@ -371,7 +371,7 @@ def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float
 
     Returns
     -------
-    list of ndarray
+    list of ndarray of uint8 or float32
         uint8 for uint8, else float32.
     """
 def laplacian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float32]]:
@@ -414,7 +414,7 @@ def sharpness(image: ArrayLike) -> float:
     float
         Comparable between photos of equal size and similar content, such as frames of a video.
     """
-def resize(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
+def resize(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
     """Image at another size, without aliasing: means when it shrinks, linear when it grows.
 
     Parameters
@@ -426,7 +426,7 @@ def resize(image: ArrayLike, width: int, height: int) -> NDArray[np.float64]:
 
     Returns
     -------
-    ndarray, shape (height, width)
+    ndarray of uint8 or float32, shape (height, width)
         uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
     """
 def reduce_rgb(image: ArrayLike, max_pixels: int) -> NDArray[np.uint8]:
@@ -487,7 +487,7 @@ def warp_affine(
     image: ArrayLike,
     out_from_image: ArrayLike,
     **options: Unpack[option_types.WarpOptions],
-) -> NDArray[np.float64]:
+) -> NDArray[Any]:
     """Image moved by an affine map, as OpenCV's `warpAffine`.
 
     Parameters
@@ -501,14 +501,14 @@ def warp_affine(
 
     Returns
     -------
-    ndarray, shape (height, width) or (height, width, 3)
+    ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
         uint8 for uint8, else float32.
     """
 def warp_perspective(
     image: ArrayLike,
     out_from_image: ArrayLike,
     **options: Unpack[option_types.WarpOptions],
-) -> NDArray[np.float64]:
+) -> NDArray[Any]:
     """Image moved by a homography, as OpenCV's `warpPerspective`.
 
     Parameters
@@ -522,6 +522,6 @@ def warp_perspective(
 
     Returns
     -------
-    ndarray, shape (height, width) or (height, width, 3)
+    ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
         uint8 for uint8, else float32.
     """

@@ -157,7 +157,7 @@ class Decoded:
         range: Sequence[float] | None,
     ) -> Decoded: ...
     @property
-    def image(self) -> NDArray[np.uint8]:
+    def image(self) -> NDArray[Any]:
         """Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1]."""
     @property
     def focal_px(self) -> float | None:

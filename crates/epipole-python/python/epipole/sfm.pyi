@@ -472,7 +472,7 @@ class PhotoFeatures:
     def image(self) -> SfmImage:
         """Keypoints and their colors, `SfmImage`."""
     @property
-    def descriptors(self) -> NDArray[np.float32]:
+    def descriptors(self) -> NDArray[Any]:
         """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits."""
     @property
     def keypoints(self) -> Keypoints:

@@ -172,7 +172,7 @@ class PixelMap:
         """
     def source(self, u: int, v: int) -> NDArray[np.float64] | None:
         """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None."""
-    def warp(self, source: ArrayLike) -> NDArray[np.float64]:
+    def warp(self, source: ArrayLike) -> NDArray[Any]:
         """Redrawn image, bilinear, 0 where nothing is read.
 
         Parameters
@@ -181,7 +181,7 @@ class PixelMap:
 
         Returns
         -------
-        ndarray, shape (H, W) or (H, W, 3)
+        ndarray of uint8 or float32, shape (H, W) or (H, W, 3)
             uint8 for uint8, else float32.
         """
     def mask(self, source_width: int, source_height: int) -> NDArray[np.uint8]:
@@ -367,8 +367,13 @@ class RectifiedPair:
     def photograph2(self) -> NDArray[np.uint8]:
         """Second photo, uint8 of shape (H, W, 3)."""
     @property
-    def pictures(self) -> NDArray[np.float64]:
-        """Redrawn photos, black where they fill nothing, a pair of uint8 arrays of shape (h, w, 3)."""
+    def pictures(self) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+        """Redrawn photos, black where they fill nothing.
+
+        Returns
+        -------
+        first, second : ndarray of uint8, shape (h, w, 3)
+        """
     @property
     def num_shown(self) -> int:
         """Number of pixels of the first picture that its photo fills."""

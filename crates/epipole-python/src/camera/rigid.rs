@@ -104,6 +104,12 @@ impl RigidTransform {
         PyArray1::from_slice(py, &[q.w, q.i, q.j, q.k])
     }
 
+    /// Angle of the rotation, radians in [0, pi].
+    #[getter]
+    fn angle_rad(&self) -> f64 {
+        self.0.rotation.angle()
+    }
+
     /// Homogeneous matrix, shape (4, 4).
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let matrix: Matrix4<f64> = self.0.to_homogeneous();

@@ -146,7 +146,7 @@ pub(super) fn gaussian_derivative_kernels(
 ///
 /// Returns
 /// -------
-/// ndarray, shape (H, W)
+/// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 #[pyo3(signature = (image, sigma_px, border=None))]
@@ -176,7 +176,7 @@ pub(super) fn gaussian_blur<'py>(
 ///
 /// Returns
 /// -------
-/// ndarray, shape (H, W)
+/// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 #[pyo3(signature = (image, size, border=None))]

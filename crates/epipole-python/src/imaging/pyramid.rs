@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 ///
 /// Returns
 /// -------
-/// ndarray, shape (ceil(H / 2), ceil(W / 2))
+/// ndarray of uint8 or float32, shape (ceil(H / 2), ceil(W / 2))
 ///     uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
 #[pyfunction]
 #[pyo3(signature = (image, border=None))]
@@ -42,7 +42,7 @@ pub(super) fn pyramid_down<'py>(
 ///
 /// Returns
 /// -------
-/// ndarray, shape (height, width)
+/// ndarray of uint8 or float32, shape (height, width)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 pub(super) fn pyramid_up<'py>(
@@ -69,7 +69,7 @@ pub(super) fn pyramid_up<'py>(
 ///
 /// Returns
 /// -------
-/// list of ndarray
+/// list of ndarray of uint8 or float32
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 pub(super) fn gaussian_pyramid<'py>(

@@ -19,7 +19,7 @@ use pyo3::prelude::*;
 ///
 /// Returns
 /// -------
-/// ndarray, shape (height, width)
+/// ndarray of uint8 or float32, shape (height, width)
 ///     uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
 #[pyfunction]
 pub(super) fn resize<'py>(

@@ -22,7 +22,7 @@ use pyo3::types::PyDict;
 ///
 /// Returns
 /// -------
-/// ndarray, shape (height, width) or (height, width, 3)
+/// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, **options))]
@@ -55,7 +55,7 @@ pub(super) fn warp_affine<'py>(
 ///
 /// Returns
 /// -------
-/// ndarray, shape (height, width) or (height, width, 3)
+/// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, **options))]

@@ -75,7 +75,11 @@ impl RectifiedPair {
         from_rgb(py, self.photographs[1].clone())
     }
 
-    /// Redrawn photos, black where they fill nothing, a pair of uint8 arrays of shape (h, w, 3).
+    /// Redrawn photos, black where they fill nothing.
+    ///
+    /// Returns
+    /// -------
+    /// first, second : ndarray of uint8, shape (h, w, 3)
     #[getter]
     fn pictures<'py>(&self, py: Python<'py>) -> PyResult<Colors<'py>> {
         let [first, second] = self.pair.pictures();

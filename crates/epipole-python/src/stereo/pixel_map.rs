@@ -106,7 +106,7 @@ impl PixelMap {
     ///
     /// Returns
     /// -------
-    /// ndarray, shape (H, W) or (H, W, 3)
+    /// ndarray of uint8 or float32, shape (H, W) or (H, W, 3)
     ///     uint8 for uint8, else float32.
     fn warp<'py>(&self, source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let py = source.py();
