@@ -93,10 +93,10 @@ test-hosts: setup build python-module tests/browser/hosts/node_modules/.installe
 test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
 	tests/tools/reproducible.sh
 
-python: build $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheel/
+python: build $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheels/
 	$(PACKAGE)/figures.sh
-	rm -rf target/wheel
-	$(PYTHON) -m maturin build --quiet --release --locked --manifest-path $(PACKAGE)/Cargo.toml --out target/wheel
+	rm -rf target/wheels
+	$(PYTHON) -m maturin build --quiet --locked --manifest-path $(PACKAGE)/Cargo.toml --out target/wheels
 
 test-wheel: python ## the wheel in an empty environment: its size, its description, all tests of the package
 	tests/tools/wheel.sh
@@ -111,7 +111,7 @@ bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us a
 	tests/bench.sh
 
 bench-python: python target/peers/.installed ## the Python package beside OpenCV, PoseLib and scikit-image: milliseconds and quality
-	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheel/*.whl
+	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheels/*.whl
 	target/peers/bin/python tests/peers/time_python.py $${EPIPOLE_DATA:-../shared/data}
 
 bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memory

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 target=${CARGO_TARGET_DIR:-target}
-wheel=$(ls "$target"/wheel/*.whl)
+wheel=$(ls "$target"/wheels/*.whl)
 LARGEST=5000000
 bytes=$(wc -c <"$wheel")
 echo "$wheel: $bytes bytes"
