@@ -48,17 +48,12 @@ import cv2
 import numpy as np
 import superansac
 from two_view_peers import CONFIDENCE, intrinsics, opencv, pose_lib
-from two_view_problems import WORST_PX, collect
+from two_view_problems import MEASURES, WORST_PX, collect
 
 cv2.setNumThreads(1)
 binary = sys.argv[2]
 orders = int(sys.argv[3]) if len(sys.argv) > 3 else 5
 WHO = ("ours", "MAGSAC", "PoseLib", "SupeR.")
-# Measures of the problems without a pose, the main one first; "+": more is better.
-MEASURES = {
-    "adelaide": ["+recall %", "-label 0 %"], "kusvod2": ["-epipolar px"],
-    "homogr": ["-rms px"], "evd": ["+recall %"], "homography": ["-grid px"], "drawn planes": ["-grid px"],
-}
 # Groups of one kind of data, told together as well.
 TOGETHER = {"fountain": "multiview", "dino": "multiview", "euroc": "calib", "boards": "calib"}
 

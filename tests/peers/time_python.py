@@ -13,7 +13,7 @@ import numpy as np
 import poselib
 import skimage.feature
 import two_view_peers as peers
-from two_view_problems import collect
+from two_view_problems import MEASURES, collect
 
 data = pathlib.Path(sys.argv[1])
 turns = int(sys.argv[2]) if len(sys.argv) > 2 else 5
@@ -38,7 +38,7 @@ def row(task, found):
     cells = [f"{who} {ms:9.3f} ms  {quality}" for who, (ms, quality) in found.items()]
     first = next(iter(found.values()))[0]
     ratios = [f"{ms / first:.2f}" for ms, _ in list(found.values())[1:]]
-    print(f"{task:34}" + "   ".join([*cells, "ratio " + " ".join(ratios)]), flush=True)
+    print(f"{task:38}" + "   ".join([*cells, "ratio " + " ".join(ratios)]), flush=True)
 
 
 def gray(path):
@@ -80,7 +80,7 @@ def features():
         return np.array([(m.queryIdx, m.trainIdx) for m, n in found if m.distance < MAX_RATIO * n.distance])
 
     def by_epipole():
-        found = epipole.match_descriptors(descriptors1, descriptors2, max_ratio=MAX_RATIO, mutual=False)
+        found = epipole.match_descriptors(descriptors1, descriptors2, max_ratio=MAX_RATIO, mutual=False, unique=False)
         return found.indices
 
     found = {
@@ -108,7 +108,7 @@ def ours(p, a, b, seed):
         return None, None
     model = report.model
     if p.kind == "E":
-        pose = model.cam2_from_cam1
+        pose = model.cam2_from_cam1()
         model = np.c_[pose.rotation, pose.translation]
     return model, report.inliers
 
@@ -131,7 +131,8 @@ def two_views():
                     bad = model is None or inliers is None
                     inliers = np.zeros(len(order), bool) if bad else np.ravel(inliers).astype(bool)
                     measures.append(p.judge(None if bad else np.asarray(model), inliers, order)[0])
-                found[who] = (statistics.median(times), f"{statistics.median(measures):.3g}")
+                unit = MEASURES.get(group, ["-°"])[0][1:]
+                found[who] = (statistics.median(times), f"{statistics.median(measures):.3g} {unit}")
             row(f"{kind}, {group}, {sum(p.group == group for p in own)} pairs", found)
 
 
@@ -211,7 +212,7 @@ def small_calls():
     for name, call in calls.items():
         count = 2000
         ms, _ = timed(lambda call=call: [call() for _ in range(count)])
-        print(f"{name:34}epipole {1e3 * ms / count:9.3f} µs")
+        print(f"{name:38}epipole {1e3 * ms / count:9.3f} µs")
 
 
 with epipole.threads(1):

@@ -6,6 +6,11 @@ import numpy as np
 from planes import homogeneous, inside, move, shared_grid
 
 POSE_PX, WORST_DEG, WORST_PX, MIN_MATCHES = 1.0, 180.0, 100.0, 15
+# Measures of the problems without a pose, the main one first; "+": more is better.
+MEASURES = {
+    "adelaide": ["+recall %", "-label 0 %"], "kusvod2": ["-epipolar px"],
+    "homogr": ["-rms px"], "evd": ["+recall %"], "homography": ["-grid px"], "drawn planes": ["-grid px"],
+}
 # `judge(model, inliers, order)` returns the measures of an answer to the rows in that order.
 # `model` is None if nothing was found.
 Problem = collections.namedtuple("Problem", "group kind threshold_px trials k rows judge")
