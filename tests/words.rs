@@ -21,11 +21,7 @@ const OPENINGS: &[&str] = &[
 ];
 
 /// Maximum length of a comment's lines by folder, characters.
-const WIDTHS: &[(&str, usize)] = &[
-    ("crates", 100),
-    ("tests", 100),
-    ("web", 120),
-];
+const WIDTHS: &[(&str, usize)] = &[("crates", 100), ("tests", 100), ("web", 120)];
 
 /// Maximum length of documents, lines.
 const DOCUMENTS: &[(&str, usize)] = &[

@@ -6,6 +6,7 @@ import { book } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
 
+const NAMES = { numpy: "NumPy", opencv: "OpenCV", epipole: "Epipole (Python)", rust: "Rust" };
 const part = (page, listing, tab) => page.locator(`#listing-${listing}-${tab}`);
 const tab = (page, listing, name) => page.locator(`#listing-${listing}`).getByRole("tab", { name });
 
@@ -47,6 +48,9 @@ test("the keys choose as well, also where nothing may be stored", async ({ page,
   await first.focus();
   for (const [key, name] of [
     ["ArrowRight", "OpenCV"],
+    ["ArrowRight", "Epipole (Python)"],
+    ["ArrowRight", "Rust"],
+    ["ArrowLeft", "Epipole (Python)"],
     ["End", "Rust"],
     ["ArrowRight", "NumPy"],
     ["ArrowLeft", "Rust"],
@@ -79,7 +83,7 @@ test("without a script and on paper all parts are there, under their names", asy
   await page.goto(`${library}/rays.html`);
   await page.emulateMedia({ media: "print" });
   for (const shown of [plain, page]) {
-    for (const [key, name] of [["numpy", "NumPy"], ["opencv", "OpenCV"], ["rust", "Rust"]]) {
+    for (const [key, name] of Object.entries(NAMES)) {
       const here = part(shown, "one-ray", key);
       await expect(here).toBeVisible();
       await expect(here.locator(".listing-name")).toHaveText(name);
@@ -101,6 +105,23 @@ test("code lines fit the column of the text", async ({ page, library }) => {
       .locator(".listing pre")
       .evaluateAll((boxes) => boxes.filter((box) => box.scrollWidth > box.clientWidth + 1).length);
     expect(wide, name).toBe(0);
+  }
+});
+
+test("on a phone all tabs are on the page, and the choice is remembered", async ({ page, library }) => {
+  await page.setViewportSize({ width: 360, height: 640 });
+  await page.goto(`${library}/rays.html`);
+  const bar = await page.locator("#listing-one-ray .listing-bar").boundingBox();
+  for (const name of Object.values(NAMES)) {
+    const box = await tab(page, "one-ray", name).boundingBox();
+    expect(box.x, name).toBeGreaterThanOrEqual(bar.x);
+    expect(box.x + box.width, name).toBeLessThanOrEqual(bar.x + bar.width);
+  }
+  await tab(page, "one-ray", "Epipole (Python)").click();
+  await page.goto(`${library}/ransac.html`);
+  for (const listing of ["line", "samples", "two-images"]) {
+    await expect(part(page, listing, "epipole")).toBeVisible();
+    await expect(part(page, listing, "rust")).toBeHidden();
   }
 });
 

@@ -4,7 +4,7 @@
 const KEPT = {
   "epipole-theme": /^(light|dark)$/,
   "epipole-contents": /^folded$/,
-  "epipole-listing": /^(numpy|opencv|rust)$/,
+  "epipole-listing": /^(numpy|opencv|epipole|rust)$/,
   "epipole-host": /^[A-Z][\w ,()]+$/,
 };
 const QUIZ = /^epipole-quiz:[\w-]+$/;

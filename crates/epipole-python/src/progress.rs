@@ -6,8 +6,8 @@ use epipole::progress::{Monitor, Status};
 use pyo3::prelude::*;
 use rayon::ThreadPool;
 use std::ops::ControlFlow;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Interval between two looks at Python. Ctrl-C and the callback wait no longer than this.

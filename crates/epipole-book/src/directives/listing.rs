@@ -1,9 +1,10 @@
 //! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, its
 //! output, and cells of the chapter's notebook.
 //!
-//! The fences are any of `python numpy`, `python opencv` and `rust`, in this order. The output of a
-//! tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run it. A listing
-//! with `picture="what it shows"` makes `result.png`, which is recorded as `<chapter>.<name>.png`.
+//! The fences are any of `python numpy`, `python opencv`, `python epipole` and `rust`, in this order.
+//! The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that run
+//! it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
+//! `<chapter>.<name>.png`.
 
 use crate::html::{escape, path_to_root};
 use crate::parse::source::Source;
@@ -18,9 +19,10 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
 /// The tabs: as a fence names them, their languages, and as the page calls them.
-const TABS: [(&str, &str, &str); 3] = [
+const TABS: [(&str, &str, &str); 4] = [
     ("numpy", "python", "NumPy"),
     ("opencv", "python", "OpenCV"),
+    ("epipole", "python", "Epipole (Python)"),
     ("rust", "rust", "Rust"),
 ];
 
@@ -40,7 +42,7 @@ struct Recorded {
     /// `<chapter>.<name>`, the stem of its file names.
     stem: String,
     /// Output of each tab.
-    prints: [Option<Source>; 3],
+    prints: [Option<Source>; TABS.len()],
     picture: Option<Vec<u8>>,
 }
 
@@ -167,13 +169,13 @@ impl Opened {
             let Some(index) = known else {
                 let written = format!("{} {}", fence.language, fence.word);
                 return Err(format!(
-                    "listing {name}: `{}` is no tab; its fences are `python numpy`, `python opencv`, `rust`",
+                    "listing {name}: `{}` is no tab; its fences are `python numpy`, `python opencv`, `python epipole`, `rust`",
                     written.trim()
                 ));
             };
             if last >= Some(index) {
                 return Err(format!(
-                    "listing {name}: each tab comes once, in the order NumPy, OpenCV, Rust"
+                    "listing {name}: each tab comes once, in the order NumPy, OpenCV, Epipole (Python), Rust"
                 ));
             }
             last = Some(index);
@@ -353,6 +355,15 @@ mod tests {
         assert_eq!(
             contradictions(&differ),
             ["NumPy prints \"depth: 2 m\" and Rust \"depth: 3 m\""]
+        );
+        let third = [
+            tab("NumPy", "depth: 2 m"),
+            tab("OpenCV", "rest: 1"),
+            tab("Epipole (Python)", "rest: 2"),
+        ];
+        assert_eq!(
+            contradictions(&third),
+            ["OpenCV prints \"rest: 1\" and Epipole (Python) \"rest: 2\""]
         );
         // A loop may print the same words several times.
         assert!(contradictions(&[tab("NumPy", "Z: 1\nZ: 2")]).is_empty());

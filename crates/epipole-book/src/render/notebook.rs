@@ -33,13 +33,7 @@ pub(crate) fn path(page: &str) -> String {
 
 /// The notebook of a chapter, in the format 4.5.
 pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
-    let uses_opencv = cells
-        .iter()
-        .any(|cell| matches!(cell, Cell::Code { source, .. } if source.contains("import cv2")));
-    let (names, packages) = match uses_opencv {
-        true => ("NumPy and OpenCV", "numpy opencv-python"),
-        false => ("NumPy", "numpy"),
-    };
+    let (names, packages) = needs(cells);
     let head = format!(
         "# {title}\n\nThe code of this chapter of *Epipole*, to run and to change. It needs {names}: \
          `pip install {packages}`. Run the cells from the top, because later ones use what earlier ones define."
@@ -77,6 +71,24 @@ pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
     format!("{notebook:#}\n")
 }
 
+/// What the cells import, as words and as arguments of `pip install`.
+fn needs(cells: &[Cell]) -> (&'static str, &'static str) {
+    let imports = |module: &str| {
+        let starts = [format!("import {module}"), format!("from {module}")];
+        let is_import = |line: &str| starts.iter().any(|start| line.starts_with(start));
+        cells.iter().any(|cell| match cell {
+            Cell::Code { source, .. } => source.lines().any(is_import),
+            Cell::Text(_) => false,
+        })
+    };
+    match (imports("cv2"), imports("epipole")) {
+        (true, true) => ("NumPy, OpenCV and Epipole", "numpy opencv-python epipole"),
+        (true, false) => ("NumPy and OpenCV", "numpy opencv-python"),
+        (false, true) => ("NumPy and Epipole", "numpy epipole"),
+        (false, false) => ("NumPy", "numpy"),
+    }
+}
+
 fn text_cell(id: &str, words: &str) -> Value {
     json!({ "cell_type": "markdown", "id": id, "metadata": {}, "source": lines(words) })
 }
@@ -109,5 +121,27 @@ mod tests {
         assert_eq!(all[2]["source"], json!(["import numpy\n", "print(1)"]));
         assert_eq!(all[2]["outputs"][0]["text"], json!(["1\n"]));
         assert_eq!(path("part/one.html"), "notebooks/part-one.ipynb");
+    }
+
+    #[test]
+    fn the_head_names_the_packages_that_cells_import() {
+        let of = |source: &str| {
+            needs(&[
+                Cell::text("from epipole import nothing".to_owned()),
+                Cell::Code {
+                    id: "a".to_owned(),
+                    source: source.to_owned(),
+                    prints: String::new(),
+                },
+            ])
+            .1
+        };
+        assert_eq!(of("import numpy as np\n"), "numpy");
+        assert_eq!(of("import numpy\nimport cv2\n"), "numpy opencv-python");
+        assert_eq!(of("from epipole import robust\n"), "numpy epipole");
+        assert_eq!(
+            of("import cv2\nimport epipole\n"),
+            "numpy opencv-python epipole"
+        );
     }
 }

@@ -80,6 +80,7 @@ fn what_is_wrong_with_a_listing_is_told() {
             "content/one.md:10: 67 characters: a line of a listing has at most 66",
         ),
         ("```rust", "```rust opencv", "`rust opencv` is no tab"),
+        ("```rust", "```rust epipole", "`rust epipole` is no tab"),
         ("```rust", "```python numpy", "each tab comes once"),
         ("{{/listing}}", "{{/listin}}", "content/one.md:5: "),
         (

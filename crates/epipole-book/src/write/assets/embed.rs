@@ -56,7 +56,11 @@ pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Resu
         let text = BASE64_STANDARD.encode(content(path)?);
         inside.insert(name.to_owned(), json!(text));
     }
-    let glue = read(&tools.project.join("crates/epipole-python/python/epipole/figures/glue.js"))?;
+    let glue = read(
+        &tools
+            .project
+            .join("crates/epipole-python/python/epipole/figures/glue.js"),
+    )?;
     let mut widget = format!("const INSIDE = {};\n", json!(inside)).into_bytes();
     widget.extend(glue);
     let told = json!({"version": VERSION, "integrity": hashes});
