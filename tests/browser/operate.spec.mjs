@@ -32,10 +32,9 @@ test("words in a sentence take a figure where they say, by mouse and by key, and
   await expect(live).toHaveText("60.0 px");
 });
 
-test("every button of the book takes its figure exactly where it says", async ({ page, library }) => {
-  test.setTimeout(300_000);
-  await page.emulateMedia({ reducedMotion: "reduce" });
-  for (const name of chapters) {
+for (const name of chapters) {
+  test(`every button of ${name} takes its figure exactly where it says`, async ({ page, library }) => {
+    await page.emulateMedia({ reducedMotion: "reduce" });
     await page.goto(`${library}/${name}`);
     for (const words of await page.locator(".do").all()) {
       const figure = await figureOf(page, words);
@@ -53,8 +52,8 @@ test("every button of the book takes its figure exactly where it says", async ({
         .poll(async () => (await says()).map(read), { message: `${name}: ${await words.textContent()}` })
         .toEqual(expected);
     }
-  }
-});
+  });
+}
 
 test("without a script sentences read as plain words", async ({ browser, library }) => {
   const context = await browser.newContext({ javaScriptEnabled: false });
