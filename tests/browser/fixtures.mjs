@@ -125,7 +125,7 @@ export function layoutWidth(room) {
 /** Limit of waits in the page, as that of `expect`, milliseconds. */
 const LIMIT_MS = 15_000;
 
-/** Runs in the page, where waiting takes no round trips: brings each figure into view and interest. */
+/** Brings each figure into view and interest. Runs in the page, to wait without round trips. */
 async function firstFrames(some, limit) {
   const frame = () => new Promise((done) => requestAnimationFrame(done));
   for (const element of [some].flat()) {

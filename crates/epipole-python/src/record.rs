@@ -97,7 +97,8 @@ pub(crate) fn reduce<'py>(
     Ok((object.get_type().into_any(), arguments))
 }
 
-/// Gives a class `__repr__`, `_repr_html_`, `__eq__` and `__reduce__`. Its constructor takes these attributes.
+/// Gives a class `__repr__`, `_repr_html_`, `__eq__` and `__reduce__`. Its constructor takes these
+/// attributes.
 macro_rules! plain_class {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]

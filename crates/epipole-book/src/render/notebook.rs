@@ -71,7 +71,7 @@ pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
     format!("{notebook:#}\n")
 }
 
-/// What the cells import, as words and as arguments of `pip install`.
+/// Packages that the cells import, as words and as arguments of `pip install`.
 fn needs(cells: &[Cell]) -> (&'static str, &'static str) {
     let imports = |module: &str| {
         let starts = [format!("import {module}"), format!("from {module}")];
