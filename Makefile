@@ -13,7 +13,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python test-wheel python-docs bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python-figures python python-linux test-wheel python-docs bench bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -93,10 +93,15 @@ test-hosts: setup build python-module tests/browser/hosts/node_modules/.installe
 test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
 	tests/tools/reproducible.sh
 
-python: build $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheels/
+python-figures: build ## scripts, modules and pictures of the figures, in the folder of the Python package
 	$(PACKAGE)/figures.sh
+
+python: python-figures $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheels/
 	rm -rf target/wheels
 	$(PYTHON) -m maturin build --quiet --locked --manifest-path $(PACKAGE)/Cargo.toml --out target/wheels
+
+python-linux: python-figures $(VENV)/.installed target/zig/.installed ## wheels for Linux, x86-64 and aarch64, glibc 2.28, and the source distribution, in target/wheels-linux/
+	tests/tools/wheels_linux.sh
 
 test-wheel: python ## the wheel in an empty environment: its size, its description, all tests of the package
 	tests/tools/wheel.sh
@@ -126,7 +131,7 @@ release-check: ## whether versions, changelog and packages agree with a tag: mak
 	@tests/tools/need.sh node
 	@node tests/tools/release.mjs "$$TAG"
 
-release-files: test-wheel ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheel
+release-files: test-wheel python-linux ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheel
 	$(BOOK) lab
 	tests/tools/release.sh
 
@@ -193,6 +198,13 @@ target/peers/.installed: tests/peers/requirements.txt
 	@tests/tools/need.sh python3
 	python3 -m venv target/peers
 	target/peers/bin/python -m pip install --quiet --disable-pip-version-check -r tests/peers/requirements.txt
+	@touch $@
+
+# A linker for older systems and other processors, only for `make python-linux`.
+target/zig/.installed: tests/tools/zig.txt
+	@tests/tools/need.sh python3
+	python3 -m venv target/zig
+	target/zig/bin/python -m pip install --quiet --disable-pip-version-check -r tests/tools/zig.txt
 	@touch $@
 
 # Only for `make python-docs`.

@@ -26,6 +26,7 @@ const PIP = [
   "tests/browser/hosts/requirements.txt",
   "tests/peers/requirements.txt",
   "tests/requirements.txt",
+  "tests/tools/zig.txt",
 ];
 /** The WebAssembly modules: package, feature, description. */
 const FIGURES = [

@@ -2,8 +2,8 @@
 //! output, and cells of the chapter's notebook.
 //!
 //! The fences are any of `python numpy`, `python opencv`, `python epipole` and `rust`, in this
-//! order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests that
-//! run it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
+//! order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests
+//! that run it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
 //! `<chapter>.<name>.png`.
 
 use crate::html::{escape, path_to_root};
