@@ -63,28 +63,40 @@ impl Step {
             Self::Photographs => (
                 "same-picture",
                 "rays.html",
-                "One photo gives directions, not distances",
+                "One photo gives directions, not distances: the pinhole camera",
             ),
             Self::Calibrate => (
                 "epipolar-plane",
                 "rays.html",
-                "One photo gives directions, not distances",
+                "One photo gives directions, not distances: the pinhole camera",
             ),
             Self::Features => (
                 "sift-descriptor",
                 "matching.html",
-                "A fingerprint for each corner",
+                "A fingerprint for each corner: descriptors and matching",
             ),
             Self::Matches => (
                 "ratio-test",
                 "matching.html",
-                "A fingerprint for each corner",
+                "A fingerprint for each corner: descriptors and matching",
             ),
-            Self::TwoViews => ("epipolar-click", "epipolar.html", "One point, one line"),
+            Self::TwoViews => (
+                "epipolar-click",
+                "epipolar.html",
+                "One point, one line: epipolar geometry",
+            ),
             Self::Reconstruction => ("bundle-adjustment", "sfm.html", "Structure from motion"),
-            Self::Depth => ("disparity-map", "stereo.html", "Two eyes in a row"),
-            Self::Measure => ("scale-ambiguity", "triangulation.html", "Cash in"),
-            Self::Export => ("two-view-sfm", "connections.html", "Where this leads"),
+            Self::Depth => ("disparity-map", "stereo.html", "Two eyes in a row: stereo"),
+            Self::Measure => (
+                "scale-ambiguity",
+                "triangulation.html",
+                "Cash in: triangulation",
+            ),
+            Self::Export => (
+                "two-view-sfm",
+                "connections.html",
+                "Where this leads: SLAM, recent methods, cheat sheet",
+            ),
         };
         Explanation {
             figure,
@@ -103,4 +115,20 @@ pub struct Explanation {
     pub page: &'static str,
     /// The chapter's title.
     pub title: &'static str,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_those_of_the_chapters() {
+        for step in Step::ALL {
+            let Explanation { page, title, .. } = step.explanation();
+            let chapter = page.replace(".html", ".md");
+            let path = format!("{}/../../content/{chapter}", env!("CARGO_MANIFEST_DIR"));
+            let text = std::fs::read_to_string(path).unwrap();
+            assert_eq!(text.lines().next(), Some(&*format!("# {title}")), "{page}");
+        }
+    }
 }
