@@ -18,4 +18,4 @@ $python -m pip install --quiet --disable-pip-version-check -r tests/requirements
 $python -m twine check --strict "$wheel"
 # Without the sources of the package beside them.
 cp -r crates/epipole-python/tests "$target/wheel-environment/tests"
-$python -m pytest --quiet --rootdir "$target/wheel-environment" "$target/wheel-environment/tests"
+$python -m pytest --quiet -rs --rootdir "$target/wheel-environment" "$target/wheel-environment/tests"

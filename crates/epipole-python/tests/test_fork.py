@@ -71,5 +71,7 @@ def test_thread_of_a_child(outliers):
 def test_work_gives_up_the_gil_by_one_function():
     """`progress::detach` prepares threads of forked processes; `Python::detach` does not."""
     source = Path(__file__).parents[1] / "src"
+    if not source.exists():
+        pytest.skip("there is no source of the module")
     files = [f for f in source.rglob("*.rs") if ".detach(" in f.read_text("utf-8")]
     assert files == [source / "progress.rs"], "call progress::detach(py, ...)"

@@ -27,7 +27,10 @@ def run(*command, cwd=None):
 
 
 def test_stubs_are_up_to_date():
-    run(str(HERE.parent / "stubs.py"), "--check")
+    generator = HERE.parent / "stubs.py"
+    if not generator.exists():
+        pytest.skip("there is no generator of the stubs")
+    run(str(generator), "--check")
 
 
 def test_mypy(tmp_path):
