@@ -36,7 +36,8 @@ pub(crate) fn run<T: Send>(
         None => work(&mut watch),
         Some(pool) => spawn(&pool, &signal, || work(&mut watch)),
     });
-    match watch.raised {
+    // Work that ended before it could report still passes on a signal.
+    match watch.raised.or_else(|| lock(&signal).take()) {
         Some(raised) => Err(raised),
         None => result.or_raise(),
     }

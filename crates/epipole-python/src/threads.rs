@@ -7,6 +7,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::cell::RefCell;
 use std::sync::Arc;
 
+/// Largest number of threads that a block may have.
+const MAX_THREADS: usize = 1024;
+
 thread_local! {
     /// Pools of the blocks that this thread has entered, the innermost last.
     static ENTERED: RefCell<Vec<Arc<ThreadPool>>> = const { RefCell::new(Vec::new()) };
@@ -33,10 +36,8 @@ impl Threads {
         ENTERED.with_borrow_mut(|pools| pools.push(self.0.clone()));
     }
 
-    #[pyo3(signature = (*exception))]
-    fn __exit__(&self, exception: &Bound<'_, PyTuple>) -> PyResult<()> {
-        // It goes on to the caller.
-        let _ = exception;
+    #[pyo3(signature = (*_exception))]
+    fn __exit__(&self, _exception: &Bound<'_, PyTuple>) -> PyResult<()> {
         let left = ENTERED.with_borrow_mut(|pools| {
             let place = pools.iter().rposition(|pool| Arc::ptr_eq(pool, &self.0))?;
             Some(pools.remove(place))
@@ -61,7 +62,7 @@ impl Threads {
 /// Parameters
 /// ----------
 /// count : int
-///     >= 1.
+///     1 to 1024.
 ///
 /// Returns
 /// -------
@@ -70,7 +71,9 @@ impl Threads {
 /// Raises
 /// ------
 /// ValueError
-///     If count is 0.
+///     If count is out of this range.
+/// OSError
+///     If the system starts no more threads.
 ///
 /// Examples
 /// --------
@@ -79,8 +82,9 @@ impl Threads {
 /// 1
 #[pyfunction]
 fn threads(count: usize) -> PyResult<Threads> {
-    if count == 0 {
-        return Err(PyValueError::new_err("count must be at least 1, but is 0"));
+    if !(1..=MAX_THREADS).contains(&count) {
+        let message = format!("count must be 1 to {MAX_THREADS}, but is {count}");
+        return Err(PyValueError::new_err(message));
     }
     let pool = ThreadPoolBuilder::new().num_threads(count).build();
     let pool = pool.map_err(|error| PyOSError::new_err(format!("count is {count}: {error}")))?;

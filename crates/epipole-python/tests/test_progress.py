@@ -105,10 +105,13 @@ def test_threads_of_a_block(outliers):
 
 
 def test_wrong_number_of_threads():
-    with pytest.raises(ValueError, match="count must be at least 1, but is 0"):
-        epipole.threads(0)
+    for count in (0, 1025, 2**40):
+        with pytest.raises(ValueError, match=f"count must be 1 to 1024, but is {count}"):
+            epipole.threads(count)
     with pytest.raises((OverflowError, TypeError)):
         epipole.threads(-1)
+    with pytest.raises(TypeError):
+        epipole.threads("all")
     with pytest.raises(RuntimeError, match="another thread"):
         epipole.threads(1).__exit__(None, None, None)
 

@@ -77,7 +77,7 @@ def threads(count: int) -> Threads:
     Parameters
     ----------
     count : int
-        >= 1.
+        1 to 1024.
 
     Returns
     -------
@@ -86,7 +86,9 @@ def threads(count: int) -> Threads:
     Raises
     ------
     ValueError
-        If count is 0.
+        If count is out of this range.
+    OSError
+        If the system starts no more threads.
 
     Examples
     --------
