@@ -59,7 +59,8 @@ def features():
     ours = [timed(lambda i=i: epipole.detect_sift(i)) for i in (first, second)]
     theirs = [timed(lambda i=i: sift.detectAndCompute(i, None)) for i in (first, second)]
     others = [timed(lambda i=i: by_skimage(i), 1) for i in (first, second)]
-    row("SIFT, 800×640", {
+    height, width = first.shape
+    row(f"SIFT, {width}×{height}", {
         "epipole": (ours[0][0], f"{len(ours[0][1])} features"),
         "cv2": (theirs[0][0], f"{len(theirs[0][1][0])} features"),
         "skimage": (others[0][0], f"{len(others[0][1][0])} features"),

@@ -4,6 +4,7 @@ import { execFile, spawn } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { promisify } from "node:util";
+import { deflateRawSync } from "node:zlib";
 import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
 import { elements, here, root } from "../places.mjs";
 import { serve } from "../server.mjs";
@@ -84,12 +85,20 @@ function withPackage(folder) {
 const copyFiles = (folder) =>
   tool(folder, "sh", "-c", "cp node_modules/@epipole/figures/dist/*.wasm node_modules/@epipole/figures/dist/worker.js dist/");
 
-test("the package is small, and says rightly what is in it", async () => {
+/** Bytes that the files of a folder take in a wheel. */
+function wheelBytes(folder) {
+  const entries = readdirSync(folder, { recursive: true, withFileTypes: true });
+  const files = entries.filter((entry) => entry.isFile());
+  return files.reduce((sum, { parentPath, name }) => sum + deflateRawSync(readFileSync(join(parentPath, name))).length, 0);
+}
+
+test("the packages are small, and say rightly what is in them", async () => {
   const packed = join(work, readdirSync(work).find((file) => file.endsWith(".tgz")));
-  const sizes = { npm: packed, _esm: join(root, "crates/epipole-python/python/epipole/figures/glue.js") };
-  const bytes = Object.fromEntries(Object.entries(sizes).map(([what, path]) => [what, statSync(path).size]));
+  const figures = join(root, "crates/epipole-python/python/epipole/figures");
+  const bytes = { npm: statSync(packed).size, wheel: wheelBytes(figures), _esm: statSync(join(figures, "glue.js")).size };
   test.info().annotations.push({ type: "bytes", description: JSON.stringify(bytes) });
   expect(bytes.npm).toBeLessThanOrEqual(1_000_000);
+  expect(bytes.wheel).toBeLessThanOrEqual(1_200_000);
   expect(bytes._esm).toBeLessThanOrEqual(75_000);
   await tool(work, npx("publint"), "run", packed, "--strict");
   // Older module resolution and CommonJS are unsupported: the package is for browsers and bundlers.
