@@ -13,7 +13,6 @@ mod matching;
 mod nms;
 mod options;
 mod orb;
-mod parallel;
 mod patch;
 mod refine;
 mod sift;

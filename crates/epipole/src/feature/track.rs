@@ -1,10 +1,10 @@
 //! Following points from one image to the next.
 
-use super::parallel;
 use crate::imaging::{
     Border, Gradient, GrayImage32, centered_difference, gaussian_pyramid, require_finite,
     sample_bilinear,
 };
+use crate::math::parallel;
 use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::Point2;

@@ -5,6 +5,7 @@ mod length;
 mod line;
 pub(crate) mod null_space;
 pub(crate) mod order;
+pub(crate) mod parallel;
 pub(crate) mod polynomial;
 pub mod random;
 pub(crate) mod real_roots;

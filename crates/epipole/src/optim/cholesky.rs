@@ -1,6 +1,6 @@
 //! Cholesky factorization of large dense matrices, in blocks.
 
-use super::parallel::for_each_chunk;
+use crate::math::parallel::for_each_chunk;
 
 /// Columns that are eliminated together; a panel of it stays in the nearest caches.
 const BLOCK: usize = 48;

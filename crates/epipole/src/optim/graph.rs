@@ -3,8 +3,8 @@
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
 use super::loss::RobustLoss;
-use super::parallel::{for_each, sum};
 use super::sparse::BlockCholesky;
+use crate::math::parallel::{for_each, sum};
 use nalgebra::{SMatrix, SVector};
 
 /// An edge linearized: the residual of `D` components and its Jacobians with respect to the

@@ -20,7 +20,6 @@ mod fixed;
 mod graph;
 mod levenberg_marquardt;
 mod loss;
-pub(crate) mod parallel;
 mod schur;
 pub(crate) mod sparse;
 mod subset;

@@ -102,7 +102,7 @@ pub(super) fn verify_pairs(
     let mut done = 0;
     for group in pairs.chunks(VERIFIED_AT_ONCE) {
         let mut found: Vec<Option<VerifiedPair>> = vec![None; group.len()];
-        crate::optim::parallel::for_each_chunk(&mut found, 1, |n, found| {
+        crate::math::parallel::for_each_chunk(&mut found, 1, |n, found| {
             let needed = options.min_num_inliers;
             // Without a monitor nothing cancels it.
             found[0] = verify_pair(&group[n], views, &ransac, needed, &mut ()).unwrap_or(None);

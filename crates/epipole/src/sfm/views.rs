@@ -56,7 +56,7 @@ pub(super) enum View<'a> {
 /// The rays of all keypoints. Keypoints beyond what a lens model bends rays to have none.
 fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observation>>> {
     let mut seen: Vec<Vec<Option<Observation>>> = vec![Vec::new(); images.len()];
-    crate::optim::parallel::for_each_chunk(&mut seen, 1, |index, seen| {
+    crate::math::parallel::for_each_chunk(&mut seen, 1, |index, seen| {
         let observe = |pixel| cameras[index].observe(pixel).ok();
         seen[0] = images[index].keypoints.iter().map(observe).collect();
     });

@@ -2,7 +2,7 @@
 
 use super::neighbors::{Found, Neighbors};
 use crate::Result;
-use crate::feature::parallel;
+use crate::math::parallel;
 use crate::math::simd::dispatched;
 use crate::progress::{Monitor, Stage, report};
 use std::ops::Range;

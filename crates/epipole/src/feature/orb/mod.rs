@@ -5,8 +5,9 @@ mod pattern;
 
 use super::keypoint::Keypoint;
 use super::nms::strongest_first;
-use super::{Descriptors, Features, parallel};
+use super::{Descriptors, Features};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
+use crate::math::parallel;
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;

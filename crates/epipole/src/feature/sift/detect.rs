@@ -8,9 +8,10 @@ use super::scale_space::{Octave, OctaveGrid};
 use crate::Result;
 use crate::feature::keypoint::Keypoint;
 use crate::feature::nms::stronger;
-use crate::feature::{Descriptors, Features, parallel};
+use crate::feature::{Descriptors, Features};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::{at_rank, order_by};
+use crate::math::parallel;
 use crate::progress::{self, Monitor, Stage};
 
 /// The SIFT features of an image, strongest first: extrema of differences of Gaussians in place

@@ -2,7 +2,7 @@
 
 use super::options::SiftOptions;
 use super::scale_space::{MARGIN, Octave};
-use crate::feature::parallel;
+use crate::math::parallel;
 use crate::math::simd::dispatched;
 use nalgebra::{Matrix3, Vector3};
 

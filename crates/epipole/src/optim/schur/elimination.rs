@@ -1,8 +1,8 @@
 //! Points are eliminated: the reduced system of the cameras, and the way back to the points.
 
 use super::{BundleProblem, SchurSystem};
+use crate::math::parallel::for_each;
 use crate::optim::fixed::damping_scale;
-use crate::optim::parallel::for_each;
 
 impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, S, B> {
     /// `V⁻¹` of every point, and what is multiplied by it.

@@ -7,7 +7,7 @@ mod problem;
 use super::cholesky;
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
-use super::parallel::{for_each, sum};
+use crate::math::parallel::{for_each, sum};
 
 pub(crate) use problem::{BundleProblem, BundleStep, ObservationTerms, PriorTerms};
 

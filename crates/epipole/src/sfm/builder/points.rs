@@ -25,7 +25,7 @@ impl Builder {
             .collect();
         let mut found: Vec<Option<TrackPoint>> = vec![None; candidates.len()];
         let this = &*self;
-        crate::optim::parallel::for_each(&mut found, |n, found| {
+        crate::math::parallel::for_each(&mut found, |n, found| {
             let (elements, sights): (Vec<_>, Vec<_>) = this.tracks[candidates[n]]
                 .iter()
                 .filter_map(|element| Some((*element, this.sight(*element)?)))
@@ -93,7 +93,7 @@ impl Builder {
         loop {
             let mut points = std::mem::take(&mut self.points);
             let this = &*self;
-            crate::optim::parallel::for_each(&mut points, |_, slot| {
+            crate::math::parallel::for_each(&mut points, |_, slot| {
                 let Some(point) = slot else { return };
                 let position = point.position;
                 point.seen.retain(|element| {
