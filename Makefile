@@ -13,7 +13,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python-figures python python-linux test-wheel python-docs bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -93,21 +93,26 @@ test-hosts: setup build python-module tests/browser/hosts/node_modules/.installe
 test-reproducible: setup-build ## the site twice from nothing in two folders, and compares every byte
 	tests/tools/reproducible.sh
 
-python-figures: build ## scripts, modules and pictures of the figures, in the folder of the Python package
-	$(PACKAGE)/figures.sh
-
-python: python-figures $(VENV)/.installed ## the Python package with the figures, a wheel in target/wheels/
-	rm -rf target/wheels
+python: $(VENV)/.installed ## the Python package, a wheel in target/wheels/
+	rm -f target/wheels/epipole-*.whl
 	$(PYTHON) -m maturin build --quiet --locked --manifest-path $(PACKAGE)/Cargo.toml --out target/wheels
 
-python-linux: python-figures $(VENV)/.installed target/zig/.installed ## wheels for Linux, x86-64 and aarch64, glibc 2.28, and the source distribution, in target/wheels-linux/
+python-figures: build $(VENV)/.installed ## the files of its figures, a wheel of their own in target/wheels/
+	$(PACKAGE)/figures.sh
+	rm -f target/wheels/epipole_figures-*.whl
+	$(PYTHON) -m pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir target/wheels $(PACKAGE)/figures
+
+python-linux: $(VENV)/.installed target/zig/.installed ## wheels for Linux, x86-64 and aarch64, glibc 2.28, and the source distribution, in target/wheels-linux/
 	tests/tools/wheels_linux.sh
 
-test-wheel: python ## the wheel in an empty environment: its size, its description, all tests of the package
+test-wheel: python python-figures ## both wheels in an empty environment: sizes, descriptions, all tests of the package
 	tests/tools/wheel.sh
 
-python-docs: python-module target/python-docs-venv/.installed ## the site of the Python package in target/python-docs/: runs the code of its pages
+python-docs: python-module target/python-docs-venv/.installed ## the manual of the Python package in target/python-docs/: runs the code of its pages
 	NO_MKDOCS_2_WARNING=1 target/python-docs-venv/bin/mkdocs build --strict --quiet --config-file $(PACKAGE)/docs/mkdocs.yml
+
+site: setup-build python-docs ## the book with the manual of the Python package, in target/book/: one site, one search
+	$(BOOK) build --manual target/python-docs
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
 	@tests/tools/audit.sh
@@ -116,7 +121,7 @@ bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us a
 	tests/bench.sh
 
 bench-python: python target/peers/.installed ## the Python package beside OpenCV, PoseLib and scikit-image: milliseconds and quality
-	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheels/*.whl
+	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheels/epipole-*.whl
 	target/peers/bin/python tests/peers/time_python.py $${EPIPOLE_DATA:-../shared/data}
 
 bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memory
@@ -131,7 +136,7 @@ release-check: ## whether versions, changelog and packages agree with a tag: mak
 	@tests/tools/need.sh node
 	@node tests/tools/release.mjs "$$TAG"
 
-release-files: test-wheel python-linux ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheels
+release-files: test-wheel python-linux site ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheels
 	$(BOOK) lab
 	tests/tools/release.sh
 

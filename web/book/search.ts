@@ -45,6 +45,8 @@ export function find(all: Section[], query: string): Hit[] {
       }
       score += 8 * inTitle + 3 * inChapter + Math.min(inText, 5);
     }
+    // The reference of the package has a section for every name.
+    if (section.u.startsWith("python/")) score /= 2;
     if (score > 0) hits.push({ section, score });
   }
   return hits.sort((a, b) => b.score - a.score).slice(0, MAX_HITS);

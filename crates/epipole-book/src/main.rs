@@ -33,6 +33,9 @@ enum Command {
         /// Output folder; target/book if not given.
         #[arg(long)]
         out: Option<PathBuf>,
+        /// Folder with the manual of the Python package, to become a part of the site.
+        #[arg(long)]
+        manual: Option<PathBuf>,
         /// As for `serve`: faster, larger, pages that reload.
         #[arg(long, hide = true)]
         live: bool,
@@ -81,20 +84,25 @@ fn run(cli: &Cli) -> Result<bool> {
     let project = std::path::absolute(&cli.project)
         .with_context(|| format!("{} is not a folder", cli.project.display()))?;
     let out = project.join("target/book");
+    let mut options = Options {
+        project: project.clone(),
+        out: out.clone(),
+        assets: true,
+        live: true,
+        check: false,
+        notebooks: None,
+        manual: None,
+    };
     match &cli.command {
-        Command::Build { out: chosen, live } => {
-            let out = chosen.clone().unwrap_or(out);
-            once(
-                &Options {
-                    project,
-                    out,
-                    assets: true,
-                    live: *live,
-                    check: false,
-                    notebooks: None,
-                },
-                cli.timings,
-            )
+        Command::Build {
+            out: chosen,
+            manual,
+            live,
+        } => {
+            options.out = chosen.clone().unwrap_or(out);
+            options.manual.clone_from(manual);
+            options.live = *live;
+            once(&options, cli.timings)
         }
         Command::Lab { out: chosen } => {
             let start = Instant::now();
@@ -107,42 +115,23 @@ fn run(cli: &Cli) -> Result<bool> {
             );
             Ok(true)
         }
-        Command::Check => once(
-            &Options {
-                project,
-                out,
-                assets: false,
-                live: true,
-                check: true,
-                notebooks: None,
-            },
-            cli.timings,
-        ),
-        Command::Notebooks { folder } => once(
-            &Options {
-                project,
-                out,
-                assets: false,
-                live: true,
-                check: true,
-                notebooks: Some(folder.clone()),
-            },
-            cli.timings,
-        ),
+        Command::Check => {
+            options.assets = false;
+            options.check = true;
+            once(&options, cli.timings)
+        }
+        Command::Notebooks { folder } => {
+            options.assets = false;
+            options.check = true;
+            options.notebooks = Some(folder.clone());
+            once(&options, cli.timings)
+        }
         Command::Stills { folder } => {
             let count = stills::write(&Widgets, folder)?;
             println!("{count} pictures in {}", folder.display());
             Ok(true)
         }
         Command::Serve { port, no_watch } => {
-            let options = Options {
-                project,
-                out,
-                assets: true,
-                live: true,
-                check: false,
-                notebooks: None,
-            };
             serve::serve(&options, *port, !no_watch)?;
             Ok(true)
         }

@@ -8,7 +8,8 @@ use crate::problems::Problem;
 use crate::render::links::LAB_FOLDER;
 use crate::resolve::figures::Widgets;
 use crate::site::{Options, Outcome, build};
-use crate::write::policy::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY};
+use crate::write::manual::MANUAL_FOLDER;
+use crate::write::policy::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY, MANUAL_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;
@@ -110,10 +111,14 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
 fn policy_of(path: &str) -> &'static str {
     let is_in = |folder: &str| path.contains(&format!("/{folder}/"));
     // The pages of single figures are there for the frames of others.
-    match (is_in("embed"), is_in(LAB_FOLDER)) {
-        (true, _) => FRAME_POLICY,
-        (_, true) => LAB_POLICY,
-        _ => CONTENT_SECURITY_POLICY,
+    if is_in("embed") {
+        FRAME_POLICY
+    } else if is_in(LAB_FOLDER) {
+        LAB_POLICY
+    } else if is_in(MANUAL_FOLDER) {
+        MANUAL_POLICY
+    } else {
+        CONTENT_SECURITY_POLICY
     }
 }
 

@@ -20,6 +20,7 @@ use crate::write::compress;
 use crate::write::disk::{STAND_IN, write};
 use crate::write::frames::{self, Frame};
 use crate::write::gathered;
+use crate::write::manual::Manual;
 use crate::write::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
@@ -40,6 +41,8 @@ pub struct Options {
     pub check: bool,
     /// Additional output folder for the notebooks of the chapters.
     pub notebooks: Option<PathBuf>,
+    /// Folder with the manual of the Python package, which becomes a part of the site.
+    pub manual: Option<PathBuf>,
     /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
     pub live: bool,
 }
@@ -146,12 +149,14 @@ fn build_beside(
         Assets::default()
     };
     files.extend(assets.files.clone());
+    let manual = options.manual.as_deref().map(Manual::read).transpose()?;
     phases.run("fill templates", 0, |_| {
         let book = Bound {
             config: &config,
             contents: &contents,
             pages: &mut pages,
             frames,
+            manual,
         };
         book.add(options, &assets, &mut files)
     })?;
@@ -203,6 +208,7 @@ struct Bound<'a> {
     contents: &'a [book::Entry],
     pages: &'a mut [Page],
     frames: Vec<Frame>,
+    manual: Option<Manual>,
 }
 
 impl Bound<'_> {
@@ -213,12 +219,16 @@ impl Bound<'_> {
             contents,
             pages,
             frames,
+            manual,
         } = self;
+        let has_manual = manual.is_some();
+        let manual = manual.unwrap_or_default();
         let sections = pages.iter().flat_map(|page| &page.sections);
+        let sections = sections.chain(&manual.sections);
         let search = serde_json::to_vec(&sections.collect::<Vec<_>>())?;
         let search = assets::add_hashed(files, "search", "json", search);
         let file = options.project.join("web/theme/index.hbs");
-        let template = Template::load(&file, config, assets, &search, options.live)?;
+        let template = Template::load(&file, config, assets, &search, has_manual, options.live)?;
         for page in pages.iter_mut() {
             let styles = assets.figure_css.as_deref().unwrap_or_default();
             let address = format!("{}{styles}", path_to_root(&page.path));
@@ -249,6 +259,7 @@ impl Bound<'_> {
             (".nojekyll".to_owned(), String::new()),
         ];
         files.extend(others.map(|(path, text)| (path, text.into_bytes())));
+        files.extend(manual.files);
         Ok(())
     }
 }

@@ -6,6 +6,7 @@ import ast
 import base64
 import html
 import io
+import json
 import logging
 import os
 import posixpath
@@ -111,9 +112,33 @@ def on_page_content(content: str, page: Any, config: Any, files: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
+    site = Path(config.site_dir)
     # Both need the address of the site, which is unknown.
     for name in ("404.html", "sitemap.xml", "sitemap.xml.gz"):
-        Path(config.site_dir, name).unlink(missing_ok=True)
+        (site / name).unlink(missing_ok=True)
+    _write_sections(site / "search")
+
+
+def _write_sections(folder: Path) -> None:
+    """Writes the sections of the search index in the format of the book's own search."""
+    docs = json.loads((folder / "search_index.json").read_text("utf-8"))["docs"]
+    pages = {doc["location"]: _plain(doc["title"]) for doc in docs if "#" not in doc["location"]}
+    sections = [
+        {
+            "u": doc["location"],
+            "c": f"Python: {pages[doc['location'].partition('#')[0]]}",
+            "t": _plain(doc["title"]),
+            "w": _plain(doc["text"]),
+        }
+        for doc in docs
+    ]
+    text = json.dumps(sections, ensure_ascii=False, separators=(",", ":"))
+    (folder / "sections.json").write_text(text, "utf-8")
+
+
+def _plain(text: str) -> str:
+    """Words of a piece of HTML."""
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", text)).split())
 
 
 def _execute(name: str, parts: list[str | Cell]) -> Any:

@@ -2,7 +2,7 @@
 
 use super::notebook::Cell;
 use crate::problems::Place;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A heading of a page.
@@ -43,7 +43,7 @@ pub struct Link {
 }
 
 /// A stretch of a page that the search can find.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Deserialize, Serialize)]
 pub struct Section {
     /// Path and anchor.
     #[serde(rename = "u")]

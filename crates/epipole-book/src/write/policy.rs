@@ -23,3 +23,11 @@ pub const FRAME_POLICY: &str = policy!("", "; frame-ancestors *");
 /// The same for the Lab, which also opens the reader's own videos, and whose workers check a URL of
 /// the page for cancellation.
 pub const LAB_POLICY: &str = policy!(" blob:", "; media-src blob:");
+
+/// Content-Security-Policy of the manual of the Python package, whose theme has inline scripts and
+/// styles.
+pub const MANUAL_POLICY: &str = concat!(
+    "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; ",
+    "img-src 'self' data:; font-src 'self'; connect-src 'self'; worker-src 'self'; ",
+    "base-uri 'none'; form-action 'none'"
+);

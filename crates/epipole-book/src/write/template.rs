@@ -20,6 +20,7 @@ pub(crate) struct Template<'a> {
     language: String,
     assets: &'a Assets,
     search: &'a str,
+    has_manual: bool,
     live: bool,
 }
 
@@ -41,6 +42,8 @@ struct Data<'a> {
     /// come.
     has_references: bool,
     search: &'a str,
+    /// Whether the manual of the Python package is part of the site.
+    has_manual: bool,
     live: bool,
     #[serde(flatten)]
     nav: &'a Nav,
@@ -145,6 +148,7 @@ impl<'a> Template<'a> {
         config: &Config,
         assets: &'a Assets,
         search: &'a str,
+        has_manual: bool,
         live: bool,
     ) -> Result<Template<'a>> {
         let source = std::fs::read_to_string(file)
@@ -169,6 +173,7 @@ impl<'a> Template<'a> {
                 .unwrap_or_else(|| "en".to_owned()),
             assets,
             search,
+            has_manual,
             live,
         })
     }
@@ -204,6 +209,7 @@ impl<'a> Template<'a> {
             has_figures: !page.figures.is_empty() && self.assets.elements.is_some(),
             has_references: page.has_references,
             search: self.search,
+            has_manual: self.has_manual,
             live: self.live,
             nav,
         };

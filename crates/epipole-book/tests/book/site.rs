@@ -19,6 +19,39 @@ fn the_lab_stays_where_it_is_when_the_book_is_built_again() {
 }
 
 #[test]
+fn the_manual_becomes_a_part_of_the_site_and_of_its_search() {
+    let mut book = Book::of_chapter("# A title\n\nWords.\n");
+    book.must_build();
+    assert!(!book.page("one.html").contains("python/index.html"));
+    for (path, text) in [
+        ("index.html", "<p>Quick start"),
+        ("reference/camera.html", "<p>Cameras"),
+        (
+            "search/sections.json",
+            r##"[{"u":"reference/camera.html#lens","c":"Python: camera","t":"Lens","w":"A lens"}]"##,
+        ),
+    ] {
+        book.write(&format!("manual/{path}"), text);
+    }
+    book.manual = Some(book.path("manual"));
+    book.must_build();
+    assert_eq!(book.page("python/reference/camera.html"), "<p>Cameras");
+    assert!(book.page("one.html").contains("\"python/index.html\""));
+    let assets = fs::read_dir(book.out().join("assets")).unwrap();
+    let mut names = assets.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let index = names.find(|name| name.starts_with("search-") && name.ends_with(".json"));
+    let index = book.page(&format!("assets/{}", index.unwrap()));
+    assert!(
+        index.contains("one.html") && index.contains("python/reference/camera.html#lens"),
+        "{index}"
+    );
+
+    book.manual = Some(book.path("nothing"));
+    let error = format!("{:#}", book.try_build().unwrap_err());
+    assert!(error.contains("make python-docs"), "{error}");
+}
+
+#[test]
 fn links_to_the_lab_are_not_dead_while_there_is_no_lab() {
     let book = Book::new(&[
         ("SUMMARY.md", "- [One](part/one.md)\n"),

@@ -66,12 +66,17 @@ impl Figure for Dot {
 /// A project with the real template and these content files.
 pub(crate) struct Book {
     folder: TempDir,
+    /// Folder of the manual, if it is part of the site.
+    pub(crate) manual: Option<PathBuf>,
 }
 
 impl Book {
     pub(crate) fn new(files: &[(&str, &str)]) -> Book {
         let folder = tempfile::tempdir().unwrap();
-        let book = Book { folder };
+        let book = Book {
+            folder,
+            manual: None,
+        };
         for template in ["web/theme/index.hbs", "web/theme/frame.hbs"] {
             let own = Path::new(env!("CARGO_MANIFEST_DIR"))
                 .join("../..")
@@ -100,6 +105,10 @@ impl Book {
     }
 
     pub(crate) fn build(&self) -> Outcome {
+        self.try_build().unwrap()
+    }
+
+    pub(crate) fn try_build(&self) -> anyhow::Result<Outcome> {
         let options = Options {
             project: self.folder.path().to_path_buf(),
             out: self.out(),
@@ -107,8 +116,14 @@ impl Book {
             live: false,
             check: false,
             notebooks: None,
+            manual: self.manual.clone(),
         };
-        build(&options, &OneDot, &Phases::silent()).unwrap()
+        build(&options, &OneDot, &Phases::silent())
+    }
+
+    /// A path inside the project.
+    pub(crate) fn path(&self, path: &str) -> PathBuf {
+        self.folder.path().join(path)
     }
 
     pub(crate) fn out(&self) -> PathBuf {
