@@ -2,7 +2,7 @@
 # Writes the files that epipole.figures sends to the page: scripts, modules and pictures of the book.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-static=crates/epipole-python/python/epipole/figures/static
+static=crates/epipole-python/python/epipole_figures/static
 (cd web && node build.mjs)
 rm -rf "$static"
 mkdir -p "$static"

@@ -38,6 +38,8 @@ function problemsOf() {
   same("web/package.json", npm.version);
   same("web/package-lock.json", JSON.parse(read("web/package-lock.json")).version);
   same("CITATION.cff", read("CITATION.cff").match(/^version: (.*)/m)?.[1]);
+  const python = read("crates/epipole-python/pyproject.toml").match(/"epipole-figures==([^"]*)"/)?.[1];
+  same("crates/epipole-python/pyproject.toml: the dependency epipole-figures", python);
   if (npm.private) problems.push("web/package.json is private: remove that line to publish it");
   if (!npm.repository) problems.push("web/package.json lacks repository, needed for provenance");
   const { heading, text } = section();

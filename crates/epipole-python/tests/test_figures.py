@@ -10,7 +10,7 @@ pytest.importorskip("anywidget")
 from epipole.figures import Figure, _assets  # noqa: E402
 
 needs_pictures = pytest.mark.skipif(
-    not (_assets.STATIC / "stills").is_dir(), reason="`make python` writes the pictures"
+    not (_assets.STATIC / "stills").is_dir(), reason="`make python-figures` writes the pictures"
 )
 
 

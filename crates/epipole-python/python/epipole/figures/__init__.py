@@ -2,9 +2,10 @@
 
 try:
     import anywidget  # noqa: F401
+    import epipole_figures  # noqa: F401
 except ImportError as error:
     raise ImportError(
-        "epipole.figures needs anywidget: pip install epipole[figures]", name="anywidget"
+        f"epipole.figures needs {error.name}: pip install epipole[figures]", name=error.name
     ) from error
 
 from ._figure import Figure

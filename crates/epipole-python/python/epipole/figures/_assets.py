@@ -6,7 +6,9 @@ import functools
 import json
 import pathlib
 
-STATIC = pathlib.Path(__file__).parent / "static"
+import epipole_figures
+
+STATIC = pathlib.Path(epipole_figures.__file__).parent / "static"
 
 #: As `glue.js` calls them.
 FILES = {
@@ -22,7 +24,7 @@ def contents() -> dict[str, bytes]:
     """All files, by the names of `FILES`."""
     missing = [name for name in FILES.values() if not (STATIC / name).is_file()]
     if missing:
-        raise FileNotFoundError(f"{', '.join(missing)} not in {STATIC}: `make python` puts them there")
+        raise FileNotFoundError(f"{', '.join(missing)} not in {STATIC}: `make python-figures` puts them there")
     return {key: (STATIC / name).read_bytes() for key, name in FILES.items()}
 
 
@@ -30,7 +32,7 @@ def contents() -> dict[str, bytes]:
 def inline_source() -> str:
     """The glue with all files inside, for pages without a kernel."""
     inside = {key: base64.b64encode(content).decode() for key, content in contents().items()}
-    glue = (STATIC.parent / "glue.js").read_text(encoding="utf-8")
+    glue = (pathlib.Path(__file__).parent / "glue.js").read_text(encoding="utf-8")
     return f"const INSIDE = {json.dumps(inside)};\n{glue}"
 
 

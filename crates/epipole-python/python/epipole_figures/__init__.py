@@ -1,0 +1,1 @@
+"""Scripts, WebAssembly modules and pictures that ``epipole.figures`` shows."""
