@@ -38,7 +38,10 @@ DTYPES |= {name: name for name in ("uint8", "uint16", "int32", "int64", "float32
 # Scalars of Rust.
 RUST = {"bool": "bool", "String": "str", "str": "str", "()": "None", "char": "str"}
 RUST |= {f"{kind}{bits}": "int" for kind in "iu" for bits in (8, 16, 32, 64, "size")}
-RUST |= {"Any": "Any", "f32": "float", "f64": "float", "PathBuf": "str | os.PathLike[str]"}
+RUST |= {"Any": "Any", "_Model": "_Model", "f32": "float", "f64": "float", "PathBuf": "str | os.PathLike[str]"}
+
+# Attribute whose type is the parameter of a class.
+GENERIC = {"RansacReport": "model", "LeastMedian": "model"}
 
 # Special methods that need no docstring.
 SPECIAL = {
@@ -47,6 +50,7 @@ SPECIAL = {
     "__enter__": "(self, /) -> None",
     "__exit__": "(self, /, *exception: object) -> None",
     "__bool__": "(self) -> bool",
+    "__class_getitem__": "(cls, model: Any) -> Any",
     "__contains__": "(self, item: object, /) -> bool",
     "__getnewargs_ex__": "(self, /) -> tuple[tuple[Any, ...], dict[str, Any]]",
 }
@@ -229,6 +233,9 @@ class Room:
             if is_argument or outer == "sequence":
                 return f"Sequence[{inner}]"
             return f"list[{inner}]" if outer == "list" else f"tuple[{inner}, ...]"
+        if outer in GENERIC and inner:
+            self.class_hint(outer)
+            return f"{outer}[{self.one(inner, is_argument)}]"
         if text in NAMED:
             return NAMED[text][0 if is_argument else 1]
         if re.fullmatch(r"[A-Za-z_.0-9]+", text):
@@ -248,6 +255,8 @@ class Room:
         plain = {"bool", "float", "int", "str"}
         if {exact, documented} <= plain and exact != documented:
             return self.fail(f"{what} is {exact}, but {documented} in the docstring")
+        if exact and documented and documented.startswith(f"{exact}["):
+            return documented
         if exact or documented:
             return exact or documented
         return self.fail(f"the docstring gives {what} no type")
@@ -357,6 +366,8 @@ class Room:
             others = re.findall(r"or (\w+) of shape \(", doc.split("\n\n")[0])
             dtypes = " or ".join([dtype, *(other for other in others if other in DTYPES)])
             result = self.hint(kind, f"ndarray of {dtypes}", False, cls.__name__, name)
+        elif GENERIC.get(cls.__name__) == name:
+            result = "_Model"
         elif kind in ("Py<PyAny>", "Option<Py<PyAny>>") and not section(doc, "Returns"):
             # Objects of the caller, such as the model of `ransac`.
             result = "Any"
@@ -379,21 +390,28 @@ class Room:
         lines = ["@final", f"class {name}:", *docstring(doc, "    ")]
         if base is not object:
             lines[1] = f"class {name}({base.__name__}):"
+        if name in GENERIC:
+            lines[1] = f"class {name}(Generic[_Model]):"
         names = vars(cls)
         if cls.__text_signature__ and "__new__" in names:
             self.where = f"{name}.__new__"
             rust = {f: k for (c, f), k in self.rust.fields.items() if c == name}
             # A record takes objects of any kind where it has them.
             rust = {f: "Any" if k == "Py<PyAny>" else k for f, k in rust.items()}
+            if name in GENERIC:
+                rust[GENERIC[name]] = "_Model"
             rust |= self.rust.functions.get((name, "new"), ({}, None, ""))[0]
             is_strict = bool(section(doc, "Parameters"))
             parts = self.parameters(inspect.signature(cls), rust, doc, name, is_strict)
-            lines += definition("__new__", ["cls", *parts], name, "    ", "")
+            made = f"{name}[_Model]" if name in GENERIC else name
+            lines += definition("__new__", ["cls", *parts], made, "    ", "")
         for key in sorted(names, key=lambda key: self.place(name, key)):
             value = names[key]
             is_rust = (name, key) in self.rust.functions
             if key in HIDDEN or key.startswith("_") and not key.startswith("__"):
                 continue
+            if key == "__class_getitem__":
+                lines.append("    @classmethod")
             if key in SPECIAL:
                 lines.append(f"    def {key}{SPECIAL[key]}: ...")
             elif key.startswith("__") and not is_rust:
@@ -496,7 +514,9 @@ def imports(body, classes):
     uses = lambda name: re.search(rf"\b{name}\b", text)  # noqa: E731
     lines = ["import os"] if uses(r"os\.PathLike") else []
     abstract = [n for n in ("Callable", "Iterator", "Mapping", "Sequence") if uses(n)]
-    typing = [n for n in ("Any", "ClassVar", "Literal", "final", "overload") if uses(n)]
+    typing = ["Any", "ClassVar", "Generic", "Literal", "TypeVar", "final", "overload"]
+    is_generic = uses("Generic")
+    typing = [n for n in typing if uses(n) or n == "TypeVar" and is_generic]
     array = [n for n in ("ArrayLike", "NDArray") if uses(n)]
     lines += [f"from collections.abc import {', '.join(abstract)}"] if abstract else []
     lines += [f"from typing import {', '.join(typing)}"] if typing else []
@@ -504,6 +524,7 @@ def imports(body, classes):
     lines += [f"from numpy.typing import {', '.join(array)}"] if array else []
     lines += ["from typing_extensions import Unpack"] if uses("Unpack") else []
     lines += ["", *sorted(classes)] if classes else []
+    lines += ["", '_Model = TypeVar("_Model")'] if is_generic else []
     return [*lines, ""]
 
 

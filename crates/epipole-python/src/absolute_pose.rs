@@ -61,7 +61,7 @@ impl AbsolutePoseWithFocal {
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of RigidTransform
 ///     Its model is ``cam_from_world``, a `RigidTransform`.
 ///
 /// Raises
@@ -105,7 +105,7 @@ fn estimate_absolute_pose(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of AbsolutePoseWithFocal
 ///     Its model is an `AbsolutePoseWithFocal`.
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]

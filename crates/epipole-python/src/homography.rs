@@ -37,7 +37,7 @@ record! {
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of ndarray
 ///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
 ///
 /// Raises
@@ -76,7 +76,7 @@ fn estimate_homography(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of ndarray
 ///     Its model is H of rays, shape (3, 3).
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]

@@ -221,7 +221,7 @@ fn estimate_two_view_calibrated(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of ndarray
 ///     Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]

@@ -32,14 +32,13 @@ LEFT_OUT = {
     "traits and parts of Rust estimators; in Python, ransac takes callables": """
         absolute_pose::AbsolutePoseEstimator epipolar::EssentialEstimator
         epipolar::FundamentalEstimator epipolar::GravityEstimator homography::HomographyEstimator
-        robust::Data robust::Estimator robust::Evidence robust::LineEstimator robust::MatchSet
+        robust::Data robust::Estimator robust::Evidence robust::MatchSet
         robust::Problem robust::Ransac robust::SimilarityEstimator robust::Step robust::Support
         robust::Trial robust::Unique two_view::RotationEstimator optim::DenseProblem
         optim::EdgeTerms sfm::GraphPose""",
-    "for Rust estimators only": """
-        robust::LeastMedian robust::LeastMedianOptions robust::least_median""",
+    "robust.estimate_line runs it": "robust::LineEstimator",
     "steps inside the eight-point method and the refinement": """
-        camera::Observation epipolar::Normalization epipolar::tangent_sampson_px""",
+        camera::Observation epipolar::Normalization""",
 }
 
 

@@ -145,3 +145,13 @@ def test_focal_lengths(world):
     f = inverse.T @ world.essential @ inverse
     focals = epipolar.focal_lengths_from_fundamental(f, principal, principal)
     np.testing.assert_allclose(focals, 500, rtol=1e-6)
+
+
+def test_tangent_sampson_error_is_that_of_pinhole_cameras(world):
+    pixels2 = world.pixels2 + [1.5, -2]
+    cameras = world.motion, world.camera, world.camera
+    tangent = epipolar.tangent_sampson_px(*cameras, world.pixels1, pixels2)
+    np.testing.assert_allclose(
+        tangent, epipolar.sampson_px(world.fundamental, world.pixels1, pixels2), rtol=1e-4
+    )
+    assert np.isnan(epipolar.tangent_sampson_px(*cameras, [np.nan, 0], [0, 0]))

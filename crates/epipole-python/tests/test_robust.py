@@ -43,6 +43,38 @@ def test_exceptions_of_callables_are_raised(points):
         epipole.ransac(25, 2, lambda sample: None, lambda model: np.zeros(25))
 
 
+def test_least_median_needs_no_threshold(points):
+    def fit(sample):
+        p, q = points[sample]
+        return None if q[0] == p[0] else np.polyfit(*points[sample].T, 1)
+
+    def errors(line):
+        return points[:, 1] - np.polyval(line, points[:, 0])
+
+    found = robust.least_median(25, 2, fit, errors, num_samples=200, seed=1)
+    np.testing.assert_allclose(found.model, (0.5, 2), atol=1e-9)
+    assert found.num_inliers == 20
+    assert found.sigma_px < 1e-9
+    with pytest.raises(KeyError, match="fit"):
+        robust.least_median(25, 2, lambda sample: {}["fit"], errors)
+    with pytest.raises(epipole.DegenerateError):
+        robust.least_median(25, 2, lambda sample: None, errors)
+
+
+def test_line_with_outliers(points):
+    report = robust.estimate_line(points, max_error_px=0.1)
+    a, b, c = report.model
+    assert abs(a * 4 + b * 4 + c) < 1e-9 and a * a + b * b == pytest.approx(1)
+    assert report.num_inliers == 20
+    with pytest.raises(ValueError, match="points"):
+        robust.estimate_line(points[:, :1])
+
+
+def test_reports_name_their_model_in_annotations():
+    assert robust.RansacReport[int].__origin__ is robust.RansacReport
+    assert robust.LeastMedian[int].__args__ == (int,)
+
+
 def test_lines(points):
     a, b, c = robust.fit_line_total_least_squares(points[:20])
     assert abs(a * 4 + b * 4 + c) < 1e-9 and a * a + b * b == pytest.approx(1)

@@ -1,7 +1,5 @@
 """Calls with the types that type checkers must find, and calls that they must refuse."""
 
-from typing import Any
-
 import epipole
 import numpy as np
 from epipole import camera, epipolar, robust, triangulation, two_view
@@ -16,10 +14,10 @@ pixels2 = [(1, 2.5)] * 20
 
 options: RansacOptions = {"max_error_px": 0.5, "score": "msac"}
 report = epipole.estimate_fundamental(pixels1, pixels2, **options)
-assert_type(report, robust.RansacReport)
+assert_type(report, robust.RansacReport[Floats])
 assert_type(report.inliers, NDArray[np.bool_])
 assert_type(report.log10_false_alarms, float | None)
-assert_type(report.model, Any)
+assert_type(report.model, Floats)
 epipole.estimate_fundamental(pixels1, pixels2, progress=lambda stage, share: print(stage, share))
 epipole.estimate_fundamental(pixels1, pixels2, max_eror_px=1)  # type: ignore[call-arg]
 epipole.estimate_fundamental(pixels1, pixels2, score="mac")  # type: ignore[arg-type]

@@ -56,7 +56,7 @@ def estimate_absolute_pose(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[RigidTransform]:
     """Pose of a calibrated camera from points with outliers, by RANSAC.
 
     Parameters
@@ -72,7 +72,7 @@ def estimate_absolute_pose(
 
     Returns
     -------
-    RansacReport
+    RansacReport of RigidTransform
         Its model is ``cam_from_world``, a `RigidTransform`.
 
     Raises
@@ -86,7 +86,7 @@ def estimate_absolute_pose_and_focal(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[AbsolutePoseWithFocal]:
     """Pose and focal length of a camera from points with outliers, by RANSAC.
 
     Parameters
@@ -103,7 +103,7 @@ def estimate_absolute_pose_and_focal(
 
     Returns
     -------
-    RansacReport
+    RansacReport of AbsolutePoseWithFocal
         Its model is an `AbsolutePoseWithFocal`.
     """
 def pose_p3p(rays: ArrayLike, points_in_world: ArrayLike) -> list[RigidTransform]:

@@ -50,6 +50,7 @@ __all__ = [
     "sampson_px",
     "select_pose",
     "symmetric_epipolar_px",
+    "tangent_sampson_px",
 ]
 
 @final
@@ -174,7 +175,7 @@ def estimate_fundamental(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[NDArray[np.float64]]:
     """Fundamental matrix of matches with outliers, by RANSAC.
 
     Parameters
@@ -188,7 +189,7 @@ def estimate_fundamental(
 
     Returns
     -------
-    RansacReport
+    RansacReport of ndarray
         Its model is F, shape (3, 3), with ``x2 @ F @ x1 == 0`` and unit norm.
 
     Raises
@@ -203,7 +204,7 @@ def estimate_essential(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[NDArray[np.float64]]:
     """Essential matrix of matches with outliers, by RANSAC.
 
     Parameters
@@ -218,7 +219,7 @@ def estimate_essential(
 
     Returns
     -------
-    RansacReport
+    RansacReport of ndarray
         Its model is E, shape (3, 3), of unit norm.
 
     Raises
@@ -233,7 +234,7 @@ def estimate_relative_pose(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[RelativePose]:
     """Relative pose of two calibrated cameras from matches with outliers, by RANSAC.
 
     Parameters
@@ -248,7 +249,7 @@ def estimate_relative_pose(
 
     Returns
     -------
-    RansacReport
+    RansacReport of RelativePose
         Its model is a `RelativePose`.
 
     Raises
@@ -265,7 +266,7 @@ def estimate_relative_pose_with_gravity(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[RelativePose]:
     """Relative pose of two calibrated cameras that know the direction of gravity, by RANSAC.
 
     Parameters
@@ -282,7 +283,7 @@ def estimate_relative_pose_with_gravity(
 
     Returns
     -------
-    RansacReport
+    RansacReport of RelativePose
         Its model is a `RelativePose`.
     """
 def estimate_relative_pose_and_focal(
@@ -293,7 +294,7 @@ def estimate_relative_pose_and_focal(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[PoseWithFocal]:
     """Relative pose and common focal length of two cameras, by RANSAC.
 
     Parameters
@@ -309,7 +310,7 @@ def estimate_relative_pose_and_focal(
 
     Returns
     -------
-    RansacReport
+    RansacReport of PoseWithFocal
         Its model is a `PoseWithFocal`.
     """
 def fundamental_7point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
@@ -482,6 +483,28 @@ def sampson_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> 
     >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
     >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
     array([0., 0.])
+    """
+def tangent_sampson_px(
+    cam2_from_cam1: RigidTransform,
+    camera1: Camera,
+    camera2: Camera,
+    pixel1: ArrayLike,
+    pixel2: ArrayLike,
+) -> Any:
+    """Tangent Sampson errors of matches between cameras of any lens.
+
+    Parameters
+    ----------
+    cam2_from_cam1 : RigidTransform
+        The length of its translation does not matter.
+    camera1, camera2 : Camera
+    pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+
+    Returns
+    -------
+    float or ndarray, shape (N,)
+        Pixels of both images; inf where the rays cannot meet in front of both cameras, NaN where a
+        pixel has no ray. Between pinhole cameras, as `sampson_px`.
     """
 def symmetric_epipolar_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
     """Symmetric epipolar distances of matches from a fundamental matrix.

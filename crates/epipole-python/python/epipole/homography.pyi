@@ -50,7 +50,7 @@ def estimate_homography(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[NDArray[np.float64]]:
     """Homography of matches with outliers, by RANSAC.
 
     Parameters
@@ -64,7 +64,7 @@ def estimate_homography(
 
     Returns
     -------
-    RansacReport
+    RansacReport of ndarray
         Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
 
     Raises
@@ -79,7 +79,7 @@ def estimate_homography_calibrated(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[NDArray[np.float64]]:
     """Homography between the rays of two calibrated cameras, by RANSAC.
 
     Parameters
@@ -94,7 +94,7 @@ def estimate_homography_calibrated(
 
     Returns
     -------
-    RansacReport
+    RansacReport of ndarray
         Its model is H of rays, shape (3, 3).
     """
 def homography_4point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:

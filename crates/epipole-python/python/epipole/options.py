@@ -75,6 +75,11 @@ class Grid(TypedDict, total=False):
     rows: int | None
 
 
+class LeastMedianOptions(TypedDict, total=False):
+    num_samples: int  # 500
+    seed: int  # 0
+
+
 class LmOptions(TypedDict, total=False):
     max_iterations: int  # 50
     gradient_tolerance: float  # 1e-10

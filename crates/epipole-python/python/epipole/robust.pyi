@@ -1,7 +1,7 @@
 # Written by stubs.py. Do not edit.
 
 from collections.abc import Callable
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar, Generic, TypeVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,14 +9,19 @@ from typing_extensions import Unpack
 
 from epipole import options as option_types
 
+_Model = TypeVar("_Model")
+
 __all__ = [
     "FARTHEST_PX",
+    "LeastMedian",
     "PlaneSimilarity",
     "RansacReport",
+    "estimate_line",
     "estimate_similarity",
     "fit_line_huber",
     "fit_line_total_least_squares",
     "fit_similarity",
+    "least_median",
     "log10_false_alarms",
     "num_trials_with_replacement",
     "num_trials_without_replacement",
@@ -25,11 +30,11 @@ __all__ = [
 
 FARTHEST_PX: float
 @final
-class RansacReport:
+class RansacReport(Generic[_Model]):
     """Result of a robust estimation."""
     def __new__(
         cls,
-        model: Any,
+        model: _Model,
         inliers: NDArray[np.bool_],
         num_inliers: int,
         num_unique_inliers: int,
@@ -41,9 +46,9 @@ class RansacReport:
         log10_false_alarms: float | None,
         refinements: int,
         stop: str,
-    ) -> RansacReport: ...
+    ) -> RansacReport[_Model]: ...
     @property
-    def model(self) -> Any:
+    def model(self) -> _Model:
         """Best model."""
     @property
     def inliers(self) -> NDArray[np.bool_]:
@@ -79,8 +84,37 @@ class RansacReport:
     def stop(self) -> str:
         """Why the search ended: "confident", "exhausted" or "interrupted"."""
     def __eq__(self, other: object, /) -> bool: ...
+    @classmethod
+    def __class_getitem__(cls, model: Any) -> Any: ...
     def could_be_chance(self) -> bool:
         """Whether unrelated data might show as much support: the model is then not significant."""
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class LeastMedian(Generic[_Model]):
+    """Result of `least_median`."""
+    def __new__(
+        cls,
+        model: _Model,
+        median_px: float,
+        sigma_px: float,
+        num_inliers: int,
+    ) -> LeastMedian[_Model]: ...
+    @property
+    def model(self) -> _Model:
+        """Model, fitted to its inliers."""
+    @property
+    def median_px(self) -> float:
+        """Median error of the best model of a sample, in the unit of the errors."""
+    @property
+    def sigma_px(self) -> float:
+        """Standard deviation of the noise that follows from the median, in the same unit."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of data within 2.5 standard deviations of the model."""
+    def __eq__(self, other: object, /) -> bool: ...
+    @classmethod
+    def __class_getitem__(cls, model: Any) -> Any: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -208,6 +242,34 @@ def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
     ndarray, shape (3,)
         Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
     """
+def estimate_line(
+    points: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.RansacOptions],
+) -> RansacReport[NDArray[np.float64]]:
+    """Line of points with outliers, by RANSAC.
+
+    Parameters
+    ----------
+    points : array_like, shape (N, 2)
+        Pixels.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : RansacOptions
+        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+
+    Returns
+    -------
+    RansacReport of ndarray
+        Its model is the line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+
+    Examples
+    --------
+    >>> report = estimate_line([[0, 2], [1, 2], [2, 2], [3, 2], [4, 9]])
+    >>> report.num_inliers
+    4
+    """
 def fit_similarity(pixels1: ArrayLike, pixels2: ArrayLike) -> PlaneSimilarity:
     """Similarity of matches by least squares, without outliers.
 
@@ -231,7 +293,7 @@ def estimate_similarity(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[PlaneSimilarity]:
     """Similarity of matches with outliers, by RANSAC.
 
     Parameters
@@ -245,8 +307,49 @@ def estimate_similarity(
 
     Returns
     -------
-    RansacReport
+    RansacReport of PlaneSimilarity
         Its model is a `PlaneSimilarity`.
+    """
+def least_median(
+    num_data: int,
+    sample_size: int,
+    fit: Callable[..., Any],
+    errors: Callable[..., Any],
+    refine: Callable[..., Any] | None = None,
+    **options: Unpack[option_types.LeastMedianOptions],
+) -> LeastMedian[Any]:
+    """Model of your own with the least median of squared errors; needs no threshold.
+
+    Parameters
+    ----------
+    num_data : int
+        Number of data, less than half of them outliers.
+    sample_size : int
+        Number of data in a minimal sample.
+    fit : callable
+        ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+    errors : callable
+        ``errors(model)`` returns the errors of all data, shape (num_data,).
+    refine : callable, optional
+        ``refine(model, indices)`` returns a better model from the inliers, or None.
+    **options : LeastMedianOptions
+        ``num_samples=500``, ``seed=0``.
+
+    Returns
+    -------
+    LeastMedian of Any
+
+    Notes
+    -----
+    An exception in a callable ends the run and is raised.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> values = np.array([1.0, 1.1, 0.9, 1.0, 30.0])
+    >>> found = least_median(5, 1, lambda i: values[i[0]], lambda model: np.abs(values - model))
+    >>> found.num_inliers
+    4
     """
 def ransac(
     num_data: int,
@@ -257,7 +360,7 @@ def ransac(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[Any]:
     """Model of your own by RANSAC.
 
     Parameters
@@ -280,7 +383,7 @@ def ransac(
 
     Returns
     -------
-    RansacReport
+    RansacReport of Any
 
     Notes
     -----

@@ -218,7 +218,7 @@ def estimate_rotation(
     *,
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
-) -> RansacReport:
+) -> RansacReport[NDArray[np.float64]]:
     """Rotation between two calibrated views from the same place, by RANSAC.
 
     Parameters
@@ -233,7 +233,7 @@ def estimate_rotation(
 
     Returns
     -------
-    RansacReport
+    RansacReport of ndarray
         Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
     """
 def find_degeneracy(

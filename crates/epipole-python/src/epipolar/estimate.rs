@@ -23,7 +23,7 @@ use pyo3::types::PyDict;
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of ndarray
 ///     Its model is F, shape (3, 3), with ``x2 @ F @ x1 == 0`` and unit norm.
 ///
 /// Raises
@@ -62,7 +62,7 @@ pub(super) fn estimate_fundamental(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of ndarray
 ///     Its model is E, shape (3, 3), of unit norm.
 ///
 /// Raises
@@ -104,7 +104,7 @@ pub(super) fn estimate_essential(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of RelativePose
 ///     Its model is a `RelativePose`.
 ///
 /// Raises
@@ -148,7 +148,7 @@ pub(super) fn estimate_relative_pose(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of RelativePose
 ///     Its model is a `RelativePose`.
 #[pyfunction]
 #[pyo3(signature = (
@@ -199,7 +199,7 @@ pub(super) fn estimate_relative_pose_with_gravity(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of PoseWithFocal
 ///     Its model is a `PoseWithFocal`.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, principal1, principal2, *, progress=None, **options))]

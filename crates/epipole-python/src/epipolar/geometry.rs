@@ -2,7 +2,7 @@
 
 use super::relative_pose::SelectedPose;
 use crate::arrays::{Batch, Pairs, from_matrix, from_vector, matrix, points2, vector};
-use crate::camera::{Intrinsics, PosedCamera, RigidTransform};
+use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use epipole::epipolar::{self, Epipole};
 use epipole::nalgebra::{Matrix3, Point2, SVector};
@@ -35,6 +35,40 @@ pub(super) fn sampson_px<'py>(
     let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
     Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
         epipolar::sampson_px(&f, &Point2::from(*p), &Point2::from(*q))
+    })
+}
+
+/// Tangent Sampson errors of matches between cameras of any lens.
+///
+/// Parameters
+/// ----------
+/// cam2_from_cam1 : RigidTransform
+///     The length of its translation does not matter.
+/// camera1, camera2 : Camera
+/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+///
+/// Returns
+/// -------
+/// float or ndarray, shape (N,)
+///     Pixels of both images; inf where the rays cannot meet in front of both cameras, NaN where a
+///     pixel has no ray. Between pinhole cameras nearly `sampson_px`.
+#[pyfunction]
+pub(super) fn tangent_sampson_px<'py>(
+    cam2_from_cam1: &RigidTransform,
+    camera1: &Camera,
+    camera2: &Camera,
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+        let seen1 = camera1.0.observe(&Point2::from(*p));
+        let seen2 = camera2.0.observe(&Point2::from(*q));
+        match (seen1, seen2) {
+            (Ok(seen1), Ok(seen2)) => {
+                epipolar::tangent_sampson_px(&cam2_from_cam1.0, &seen1, &seen2)
+            }
+            _ => f64::NAN,
+        }
     })
 }
 

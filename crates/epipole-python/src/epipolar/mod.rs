@@ -43,6 +43,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(solvers::refine_fundamental, module)?)?;
     module.add_function(wrap_pyfunction!(solvers::refine_relative_pose, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::sampson_px, module)?)?;
+    module.add_function(wrap_pyfunction!(geometry::tangent_sampson_px, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::symmetric_epipolar_px, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::epipolar_row, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::epipolar_line1, module)?)?;

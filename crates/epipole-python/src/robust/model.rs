@@ -13,13 +13,13 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
 /// Model with its errors, computed once.
-struct Scored {
-    model: Py<PyAny>,
+pub(super) struct Scored {
+    pub(super) model: Py<PyAny>,
     errors_sq: Vec<f64>,
 }
 
 /// Estimator whose parts are Python callables.
-struct Callables<'a> {
+pub(super) struct Callables<'a> {
     num_data: usize,
     sample_size: usize,
     fit: &'a Py<PyAny>,
@@ -30,6 +30,29 @@ struct Callables<'a> {
 }
 
 impl Callables<'_> {
+    /// Runs an estimation with callables; the first exception of one of them is its error.
+    pub(super) fn run<T>(
+        num_data: usize,
+        sample_size: usize,
+        [fit, errors]: [&Py<PyAny>; 2],
+        refine: Option<&Py<PyAny>>,
+        work: impl FnOnce(Callables<'_>) -> PyResult<T>,
+    ) -> PyResult<T> {
+        let raised = Mutex::new(None);
+        let found = work(Callables {
+            num_data,
+            sample_size,
+            fit,
+            errors,
+            refine,
+            raised: &raised,
+        });
+        match raised.into_inner() {
+            Ok(Some(error)) => Err(error),
+            _ => found,
+        }
+    }
+
     /// Computes the errors of models; none after an exception.
     fn scored(
         &self,
@@ -144,7 +167,7 @@ impl Estimator for Callables<'_> {
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of Any
 ///
 /// Notes
 /// -----
@@ -163,27 +186,18 @@ pub(super) fn ransac(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
     let options = options::read(options)?;
-    let raised = Mutex::new(None);
-    let callables = Callables {
-        num_data,
-        sample_size,
-        fit: &fit,
-        errors: &errors,
-        refine: refine.as_ref(),
-        raised: &raised,
-    };
-    let work = |monitor: &mut dyn Monitor| {
-        let mut watch = |status: Status| match raised.lock() {
-            Ok(raised) if raised.is_none() => monitor.report(status),
-            _ => ControlFlow::Break(()),
+    let callables = [&fit, &errors];
+    Callables::run(num_data, sample_size, callables, refine.as_ref(), |model| {
+        let raised = model.raised;
+        let work = |monitor: &mut dyn Monitor| {
+            let mut watch = |status: Status| match raised.lock() {
+                Ok(raised) if raised.is_none() => monitor.report(status),
+                _ => ControlFlow::Break(()),
+            };
+            robust::ransac(model, &options, &mut watch)
         };
-        robust::ransac(callables, &options, &mut watch)
-    };
-    let report = estimate(py, progress, work, |best| {
-        Ok(best.model.clone_ref(py).into_bound(py))
-    });
-    match raised.into_inner() {
-        Ok(Some(error)) => Err(error),
-        _ => report,
-    }
+        estimate(py, progress, work, |best| {
+            Ok(best.model.clone_ref(py).into_bound(py))
+        })
+    })
 }

@@ -7,6 +7,7 @@ use epipole::robust::{self, StopReason};
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 
 record! {
     /// Result of a robust estimation.
@@ -40,6 +41,15 @@ record! {
 
 #[pymethods]
 impl RansacReport {
+    /// ``RansacReport[RelativePose]`` in annotations.
+    #[classmethod]
+    fn __class_getitem__<'py>(
+        cls: &Bound<'py, PyType>,
+        model: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        alias(cls, model)
+    }
+
     /// Whether unrelated data might show as much support: the model is then not significant.
     fn could_be_chance(&self) -> bool {
         let report = robust::RansacReport {
@@ -58,6 +68,15 @@ impl RansacReport {
         };
         report.could_be_chance()
     }
+}
+
+/// Class with the type of its model.
+pub(super) fn alias<'py>(
+    class: &Bound<'py, PyType>,
+    model: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let types = class.py().import("types")?;
+    types.call_method1("GenericAlias", (class, model))
 }
 
 /// Name of the reason.

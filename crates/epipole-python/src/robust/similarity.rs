@@ -119,7 +119,7 @@ pub(super) fn fit_similarity(
 ///
 /// Returns
 /// -------
-/// RansacReport
+/// RansacReport of PlaneSimilarity
 ///     Its model is a `PlaneSimilarity`.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]

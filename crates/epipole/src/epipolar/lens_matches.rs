@@ -238,7 +238,7 @@ impl SampsonErrors for RayErrors<'_> {
 /// * `cam2_from_cam1`: the length of its translation does not matter
 /// * `seen1`, `seen2`: the observations of both cameras
 ///
-/// Between pinhole cameras it is [`sampson_px`](super::sampson_px).
+/// Between pinhole cameras it is [`sampson_px`](super::sampson_px) up to terms of second order.
 ///
 /// Source: Terekhov & Larsson 2023, "Tangent Sampson error: fast approximate two-view reprojection
 /// error for central camera models".

@@ -1,0 +1,95 @@
+//! Least median of squares for models defined in Python.
+
+use super::model::Callables;
+use super::report::alias;
+use crate::errors::OrRaise;
+use crate::options;
+use crate::record::record;
+use epipole::robust::{self, LeastMedianOptions};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+record! {
+    /// Result of `least_median`.
+    "epipole.robust" LeastMedian {
+        /// Model, fitted to its inliers.
+        model: Py<PyAny>,
+        /// Median error of the best model of a sample, in the unit of the errors.
+        median_px: f64,
+        /// Standard deviation of the noise that follows from the median, in the same unit.
+        sigma_px: f64,
+        /// Number of data within 2.5 standard deviations of the model.
+        num_inliers: usize,
+    }
+}
+
+#[pymethods]
+impl LeastMedian {
+    /// ``LeastMedian[MyModel]`` in annotations.
+    #[classmethod]
+    fn __class_getitem__<'py>(
+        cls: &Bound<'py, PyType>,
+        model: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        alias(cls, model)
+    }
+}
+
+/// Model of your own with the least median of squared errors; needs no threshold.
+///
+/// Parameters
+/// ----------
+/// num_data : int
+///     Number of data, less than half of them outliers.
+/// sample_size : int
+///     Number of data in a minimal sample.
+/// fit : callable
+///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+/// errors : callable
+///     ``errors(model)`` returns the errors of all data, shape (num_data,).
+/// refine : callable, optional
+///     ``refine(model, indices)`` returns a better model from the inliers, or None.
+/// **options : LeastMedianOptions
+///     ``num_samples=500``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// LeastMedian of Any
+///
+/// Notes
+/// -----
+/// An exception in a callable ends the run and is raised.
+///
+/// Examples
+/// --------
+/// >>> import numpy as np
+/// >>> values = np.array([1.0, 1.1, 0.9, 1.0, 30.0])
+/// >>> found = least_median(5, 1, lambda i: values[i[0]], lambda model: np.abs(values - model))
+/// >>> found.num_inliers
+/// 4
+#[pyfunction]
+#[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, **options))]
+pub(super) fn least_median(
+    py: Python<'_>,
+    num_data: usize,
+    sample_size: usize,
+    fit: Py<PyAny>,
+    errors: Py<PyAny>,
+    refine: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<LeastMedian> {
+    let options: LeastMedianOptions = options::read(options)?;
+    let found = Callables::run(
+        num_data,
+        sample_size,
+        [&fit, &errors],
+        refine.as_ref(),
+        |model| robust::least_median(model, &options).or_raise(),
+    )?;
+    Ok(LeastMedian {
+        model: found.model.model.clone_ref(py),
+        median_px: found.median_px,
+        sigma_px: found.sigma_px,
+        num_inliers: found.num_inliers,
+    })
+}

@@ -1,0 +1,91 @@
+//! Lines through points.
+
+use super::{RansacReport, estimate};
+use crate::arrays::{from_vector, points2};
+use crate::errors::OrRaise;
+use crate::options;
+use epipole::robust::{self, LineEstimator};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Line with the least sum of squared distances.
+///
+/// Parameters
+/// ----------
+/// points : array_like, shape (N, 2)
+///     Pixels, N >= 2.
+///
+/// Returns
+/// -------
+/// ndarray, shape (3,)
+///     Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+#[pyfunction]
+pub(super) fn fit_line_total_least_squares<'py>(
+    points: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let line = robust::fit_line_total_least_squares(&points2("points", points)?).or_raise()?;
+    Ok(from_vector(points.py(), &line.homogeneous()))
+}
+
+/// Line with the least sum of Huber losses of the distances.
+///
+/// Parameters
+/// ----------
+/// points : array_like, shape (N, 2)
+///     Pixels, N >= 2.
+/// width_px : float
+///     Distance at which the loss becomes linear, pixels, > 0.
+///
+/// Returns
+/// -------
+/// ndarray, shape (3,)
+///     Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+#[pyfunction]
+pub(super) fn fit_line_huber<'py>(
+    points: &Bound<'py, PyAny>,
+    width_px: f64,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let line = robust::fit_line_huber(&points2("points", points)?, width_px).or_raise()?;
+    Ok(from_vector(points.py(), &line.homogeneous()))
+}
+
+/// Line of points with outliers, by RANSAC.
+///
+/// Parameters
+/// ----------
+/// points : array_like, shape (N, 2)
+///     Pixels.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options : RansacOptions
+///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///
+/// Returns
+/// -------
+/// RansacReport of ndarray
+///     Its model is the line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+///
+/// Examples
+/// --------
+/// >>> report = estimate_line([[0, 2], [1, 2], [2, 2], [3, 2], [4, 9]])
+/// >>> report.num_inliers
+/// 4
+#[pyfunction]
+#[pyo3(signature = (points, *, progress=None, **options))]
+pub(super) fn estimate_line(
+    py: Python<'_>,
+    points: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<RansacReport> {
+    let points = points2("points", points)?;
+    let options = options::read(options)?;
+    let line = LineEstimator::new(&points).or_raise()?;
+    estimate(
+        py,
+        progress,
+        |monitor| robust::ransac(line, &options, monitor),
+        |model| Ok(from_vector(py, &model.homogeneous()).into_any()),
+    )
+}
