@@ -23,12 +23,43 @@ let sections: Promise<Section[]> | undefined;
 let asking = new AbortController();
 let dialog: HTMLDialogElement | undefined;
 
+/** Abbreviations of the field, with words of the sections that explain them. */
+const ABBREVIATIONS: Readonly<Record<string, string>> = {
+  ba: "bundle adjustment",
+  dlt: "direct linear",
+  lk: "lucas kanade",
+  lm: "levenberg marquardt",
+  lmeds: "least median",
+  ncc: "normalized cross-correlation",
+  pnp: "absolute pose",
+  sfm: "structure from motion",
+  sgm: "semi-global matching",
+  ssd: "squared differences",
+  svd: "singular value",
+  vo: "visual odometry",
+};
+
 const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
-/** Sections that contain every word (as a prefix at least), best first. */
+/** Sections that contain every word (as a prefix at least) or what it abbreviates, best first. */
 export function find(all: Section[], query: string): Hit[] {
-  const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
-  if (words.length === 0) return [];
+  const words = wordsOf(query);
+  const best = new Map<Section, number>();
+  for (const wanted of [words, words.flatMap(spelledOut)]) {
+    for (const { section, score } of containing(all, wanted)) {
+      best.set(section, Math.max(score, best.get(section) ?? 0));
+    }
+  }
+  const hits = [...best].map(([section, score]) => ({ section, score }));
+  return hits.sort((a, b) => b.score - a.score).slice(0, MAX_HITS);
+}
+
+const wordsOf = (text: string) => fold(text).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
+
+const spelledOut = (word: string) => wordsOf(ABBREVIATIONS[word] ?? word);
+
+/** Sections that contain every word; none without words. */
+function containing(all: Section[], words: string[]): Hit[] {
   const hits: Hit[] = [];
   for (const section of all) {
     const title = ` ${fold(section.t)}`;
@@ -49,7 +80,7 @@ export function find(all: Section[], query: string): Hit[] {
     if (section.u.startsWith("python/")) score /= 2;
     if (score > 0) hits.push({ section, score });
   }
-  return hits.sort((a, b) => b.score - a.score).slice(0, MAX_HITS);
+  return hits;
 }
 
 /** Number of words in the text that start with `word`. */
@@ -63,8 +94,8 @@ function startsIn(text: string, word: string): number {
 
 /** About 140 characters around the first match, with the matches marked. */
 function excerpt(text: string, query: string): HTMLElement {
-  const words = fold(query).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
   const folded = fold(text);
+  const words = wordsOf(query).flatMap((word) => (folded.includes(word) ? word : spelledOut(word)));
   const places = words.map((word) => folded.indexOf(word)).filter((place) => place >= 0);
   const first = places.length > 0 ? Math.min(...places) : 0;
   const from = first > 60 ? text.indexOf(" ", first - 60) + 1 : 0;

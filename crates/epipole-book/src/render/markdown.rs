@@ -5,7 +5,7 @@ use super::blocks::{code_of, collect, lone_block, lone_opening};
 use super::insert::{Block, Insert, Words, substitute};
 use super::links;
 use super::listing::listing;
-use super::math::{Layout, mathml};
+use super::math::{self, Layout, mathml};
 use super::page::Heading;
 use super::symbols;
 use super::tables;
@@ -271,6 +271,8 @@ impl Writer<'_> {
         }
         self.page.start_section(&id, &title);
         let html = self.events(inner, text, true);
+        // The search shows the title beside the words of its section.
+        self.page.words.clear();
         let heading = Heading {
             level,
             id: id.clone(),
@@ -296,14 +298,15 @@ impl Writer<'_> {
 
     fn formula(&mut self, latex: &str, layout: Layout, text: &Text, place: Place) -> String {
         let latex = substitute(latex, text.inserts, Insert::text);
-        // A formula that is readable as it is written can be searched for, and belongs into
-        // excerpts.
-        match latex.contains(['\\', '{', '^', '_', '&']) {
-            true => self.page.words.push(' '),
-            false => self.page.words.push_str(latex.trim()),
-        }
         match mathml(&latex, layout) {
-            Ok(html) => symbols::mark(&html, self.symbols),
+            Ok(html) => {
+                let words = math::words(&html);
+                self.page.words.push_str(&match layout {
+                    Layout::Inline => words,
+                    Layout::Display => format!(" {words} "),
+                });
+                symbols::mark(&html, self.symbols)
+            }
             Err(message) => {
                 self.report(place, format!("formula `{}`: {message}", latex.trim()));
                 String::new()

@@ -136,6 +136,46 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Signs with a space on both sides in [`words`].
+const SPACED: &[&str] = &[
+    "=", "≈", "∼", "<", ">", "≤", "≥", "+", "−", "·", "×", "→", "∈",
+];
+
+/// Letters and signs of a formula in MathML, for the search: `x′T F x = 0`.
+pub(super) fn words(html: &str) -> String {
+    let shown = html.split("<annotation").next().unwrap_or(html);
+    let mut words = String::new();
+    for part in shown.split('<') {
+        let (tag, text) = part.split_once('>').unwrap_or(("", ""));
+        let text = text.replace("&lt;", "<").replace("&gt;", ">");
+        let text = text.replace("&amp;", "&");
+        let text = text.trim_matches([' ', '\n', '\u{2061}', '\u{2062}']);
+        // Cells of a matrix, numerator and denominator.
+        if tag == "/mtd" || tag.starts_with("mtd") || tag.starts_with("mfrac") {
+            words.push(' ');
+        }
+        match tag.starts_with("mo") && SPACED.contains(&text) {
+            true => words.push_str(&format!(" {text} ")),
+            false => words.extend(text.chars().map(plain_letter)),
+        }
+    }
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Letter or digit of a mathematical alphabet (bold, script, …) as on a keyboard.
+fn plain_letter(letter: char) -> char {
+    let code = letter as u32;
+    let plain = match code {
+        0x1D400..0x1D6A4 => match (code - 0x1D400) % 52 {
+            n @ 0..26 => u32::from(b'A') + n,
+            n => u32::from(b'a') + n - 26,
+        },
+        0x1D7CE..0x1D800 => u32::from(b'0') + (code - 0x1D7CE) % 10,
+        _ => code,
+    };
+    char::from_u32(plain).unwrap_or(letter)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,6 +208,18 @@ mod tests {
                 html.contains("<math") && html.ends_with("</math></span>"),
                 "{html}"
             );
+        }
+    }
+
+    #[test]
+    fn formulas_can_be_searched() {
+        for (latex, found) in [
+            (r"\mathbf{x}_2^\top F \, \mathbf{x}_1 = 0", "x2⊤Fx1 = 0"),
+            (r"Z = \frac{f B}{d}", "Z = fBd"),
+            ("a < b", "a < b"),
+        ] {
+            let html = mathml(latex, Layout::Inline).unwrap();
+            assert_eq!(words(&html), found, "{html}");
         }
     }
 

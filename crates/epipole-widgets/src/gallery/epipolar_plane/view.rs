@@ -210,69 +210,84 @@ fn draw_name(canvas: &mut Canvas, labels: &mut Labels, place: Place, name: &str,
     labels.name(canvas, (place, 10.0), name, (role, TEXT + 1.0));
 }
 
-/// A piece of a formula: its text, whether it is raised, and the elements that highlight it.
-type Piece = (&'static str, bool, &'static [Lit]);
+/// Vertical place of a piece of a formula.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Base,
+    Raised,
+    Lowered,
+}
+
+/// A piece of a formula: its text, its level, and the elements that highlight it.
+type Piece = (&'static str, Level, &'static [Lit]);
 
 /// Returns the formula of the highlighted element.
 fn formula(lit: Lit) -> &'static [Piece] {
-    const T: Piece = ("T", true, &[]);
+    use Level::{Base, Lowered, Raised};
+    const T: Piece = ("T", Raised, &[]);
+    const C: Piece = ("c", Lowered, &[]);
     match lit {
         Lit::Point => &[
-            ("x′", false, &[Lit::Point]),
-            T,
-            (" F ", false, &[]),
-            ("x", false, &[Lit::Point]),
-            (" = 0", false, &[]),
+            ("p", Base, &[Lit::Point]),
+            (" ~ K P,  ", Base, &[]),
+            ("p′", Base, &[Lit::Point]),
+            (" ~ K (R P + t)", Base, &[]),
         ],
         Lit::Baseline => &[
-            ("x′", false, &[]),
+            ("x′", Base, &[]),
+            C,
             T,
-            (" · (", false, &[]),
-            ("t", false, &[Lit::Baseline]),
-            (" × R x) = 0", false, &[]),
+            (" · (", Base, &[]),
+            ("t", Base, &[Lit::Baseline]),
+            (" × R x", Base, &[]),
+            C,
+            (") = 0", Base, &[]),
         ],
         Lit::Plane => &[
-            ("x′", false, &[]),
+            ("x′", Base, &[]),
+            C,
             T,
-            (" · ", false, &[]),
-            ("(t × R x)", false, &[Lit::Plane]),
-            (" = 0", false, &[]),
+            (" · ", Base, &[]),
+            ("(t × R x", Base, &[Lit::Plane]),
+            ("c", Lowered, &[Lit::Plane]),
+            (")", Base, &[Lit::Plane]),
+            (" = 0", Base, &[]),
         ],
-        Lit::Line => &[("l′", false, &[Lit::Line]), (" = F x", false, &[])],
+        Lit::Line => &[("l′", Base, &[Lit::Line]), (" = F x", Base, &[])],
         Lit::Epipole => &[
-            ("F ", false, &[]),
-            ("e", false, &[Lit::Epipole]),
-            (" = 0,  F", false, &[]),
+            ("F ", Base, &[]),
+            ("e", Base, &[Lit::Epipole]),
+            (" = 0,  F", Base, &[]),
             T,
-            (" ", false, &[]),
-            ("e′", false, &[Lit::Epipole]),
-            (" = 0", false, &[]),
+            (" ", Base, &[]),
+            ("e′", Base, &[Lit::Epipole]),
+            (" = 0", Base, &[]),
         ],
     }
 }
 
 fn draw_formula(model: &EpipolarPlane, layout: &Layout, canvas: &mut Canvas) {
     const SIZE: f64 = 16.0;
-    const RAISED: f64 = 11.0;
+    const SMALLER: f64 = 11.0;
     let lit = model.lit();
     let (mut x, y) = (0.0, layout.height - FORMULA / 2.0 + 1.0);
-    for (text, is_raised, lights) in formula(lit) {
-        let (size, up) = if *is_raised {
-            (RAISED, 5.0)
-        } else {
-            (SIZE, 0.0)
+    for (text, level, lights) in formula(lit) {
+        let (size, down) = match level {
+            Level::Base => (SIZE, 0.0),
+            Level::Raised => (SMALLER, -5.0),
+            Level::Lowered => (SMALLER, 4.0),
         };
         let is_lit = lights.contains(&lit);
         let role = if is_lit { LIT } else { Role::Ink };
         let width = text_width(text, size);
-        canvas.label((x, y - up), text, TextStyle::new(role, size));
+        canvas.label((x, y + down), text, TextStyle::new(role, size));
         if is_lit {
             canvas.fill_rect(Rect::new(x, y + 10.0, width, 2.0), LIT, 1.0);
         }
-        x += width + if *is_raised { 1.0 } else { 0.0 };
+        x += width + if *level == Level::Base { 0.0 } else { 1.0 };
     }
     let words = match lit {
-        Lit::Point => "x and x′ are the images of P",
+        Lit::Point => "the images of P",
         Lit::Baseline => "t leads from camera to camera",
         Lit::Plane => "the normal of the plane",
         Lit::Line => "where the plane cuts photograph 2",
