@@ -84,7 +84,9 @@ impl Calls {
         self.add_robust(&world)?;
         self.add_epipolar(&exact)?;
         self.add_triangulation(&exact)?;
-        self.add_absolute_pose(&world, &exact)
+        self.add_absolute_pose(&world, &exact)?;
+        self.add_features()?;
+        self.add_stereo(&exact)
     }
 
     fn add_homography(&mut self, wall: &Value) -> Result<(), Failure> {
@@ -292,6 +294,97 @@ impl Calls {
         Ok(())
     }
 
+    fn add_features(&mut self) -> Result<(), Failure> {
+        let (first, second) = (texture(96, 64, 0), texture(96, 64, 2));
+        let (gray1, gray2) = (floats(&first), floats(&second));
+        self.add("photoToGray", std::slice::from_ref(&first))?;
+        self.add("photoToGray", &[colors(&first, 4)])?;
+        let corners = record([("kind", text("harris"))]);
+        self.add("detectFeatures", &[colors(&first, 3), corners])?;
+        for name in ["detectSift", "detectOrb"] {
+            let features1 = self.add(name, std::slice::from_ref(&first))?;
+            let features2 = self.add(name, std::slice::from_ref(&second))?;
+            let descriptors = [
+                get(&features1, "descriptors"),
+                get(&features2, "descriptors"),
+            ];
+            self.add("nearestTwo", &descriptors)?;
+            self.add("matchDescriptors", &descriptors)?;
+            if name == "detectSift" {
+                self.add(
+                    "describeSift",
+                    &[first.clone(), get(&features1, "keypoints")],
+                )?;
+            }
+        }
+        self.add("harrisResponse", &[gray1.clone(), Value::Number(0.05)])?;
+        self.add("minEigenvalueResponse", std::slice::from_ref(&gray1))?;
+        let corners = self.add("goodFeaturesToTrack", std::slice::from_ref(&gray1))?;
+        let points = get(&corners, "points");
+        self.add("refineCorners", &[gray1.clone(), points.clone()])?;
+        let back = record([("maxForwardBackwardPx", Value::Number(1.0))]);
+        self.add("trackLucasKanade", &[gray1, gray2, points, back])?;
+        Ok(())
+    }
+
+    fn add_stereo(&mut self, exact: &Value) -> Result<(), Failure> {
+        let (left, right) = (texture(96, 64, 0), texture(96, 64, 6));
+        let near = record([("numDisparities", Value::Number(16.0))]);
+        self.add("stereoBm", &[left.clone(), right.clone(), near.clone()])?;
+        let found = self.add("stereoSgm", &[left.clone(), right.clone(), near.clone()])?;
+        self.add("stereoSgm", &[floats(&left), floats(&right), near])?;
+        let (size, range) = (Value::Number(20.0), Value::Number(1.0));
+        let clean = self.add("removeSpeckles", &[found, size, range])?;
+        let (focal, baseline) = (Value::Number(500.0), Value::Number(0.1));
+        self.add(
+            "depthImage",
+            &[clean.clone(), focal.clone(), baseline.clone()],
+        )?;
+        self.add(
+            "depthFromDisparity",
+            &[focal, baseline, Value::Number(12.5)],
+        )?;
+        let k = record([
+            ("fuPx", Value::Number(90.0)),
+            ("fvPx", Value::Number(90.0)),
+            ("cuPx", Value::Number(47.5)),
+            ("cvPx", Value::Number(31.5)),
+        ]);
+        let brown = Value::Doubles(vec![-0.1, 0.02, 0.001, -0.001, 0.0]);
+        let lens = record([("kind", text("brown")), ("coefficients", brown)]);
+        let camera = record([
+            ("width", Value::Number(96.0)),
+            ("height", Value::Number(64.0)),
+            ("intrinsics", k),
+            ("lens", lens),
+        ]);
+        let motion = record([
+            (
+                "rotation",
+                Value::Doubles(vec![0.96, 0.0, 0.28, 0.0, 1.0, 0.0, -0.28, 0.0, 0.96]),
+            ),
+            ("translation", Value::Doubles(vec![-0.1, 0.002, 0.004])),
+        ]);
+        let rig = [camera.clone(), camera.clone(), motion.clone()];
+        let rectified = self.add("rectifyCalibrated", &rig)?;
+        self.add("pointCloud", &[clean, get(&rectified, "q")])?;
+        for (image1, image2) in [
+            (left.clone(), right.clone()),
+            (floats(&left), floats(&right)),
+            (colors(&left, 4), colors(&right, 3)),
+        ] {
+            let mut given = vec![image1, image2];
+            given.extend(rig.clone());
+            self.add("rectifyImages", &given)?;
+        }
+        let (pixels1, pixels2) = (get(exact, "pixels1"), get(exact, "pixels2"));
+        let (camera1, camera2) = cameras(exact);
+        let f = self.add("fundamentalFromCameras", &[camera1, camera2])?;
+        let (width, height) = (Value::Number(640.0), Value::Number(480.0));
+        self.add("rectifyUncalibrated", &[f, pixels1, pixels2, width, height])?;
+        Ok(())
+    }
+
     fn add_absolute_pose(&mut self, world: &Value, exact: &Value) -> Result<(), Failure> {
         let (points, pixels) = (get(world, "points"), get(world, "pixels2"));
         let posed = get(world, "camera2");
@@ -357,6 +450,53 @@ fn numbers(value: &Value, key: &str) -> f64 {
 
 fn first(value: &Value, count: usize) -> Value {
     Value::Doubles(doubles(value).into_iter().take(count).collect())
+}
+
+/// Gray image of squares of random brightness, moved to the left.
+fn texture(width: usize, height: usize, shift: usize) -> Value {
+    let gray = |u: usize, v: usize| {
+        let (column, row) = ((u + shift) / 7, v / 5);
+        let mixed = (column * 7919 + row * 104_729 + column * row * 31) % 251;
+        mixed as u8
+    };
+    let data = (0..width * height).map(|place| gray(place % width, place / width));
+    image(width as f64, height as f64, Value::Bytes(data.collect()))
+}
+
+fn image(width: f64, height: f64, data: Value) -> Value {
+    record([
+        ("width", Value::Number(width)),
+        ("height", Value::Number(height)),
+        ("data", data),
+    ])
+}
+
+/// The same image with other data.
+fn with_data(gray: &Value, data: impl FnOnce(&[u8]) -> Value) -> Value {
+    let Value::Bytes(bytes) = get(gray, "data") else {
+        return Value::Nothing;
+    };
+    image(
+        numbers(gray, "width"),
+        numbers(gray, "height"),
+        data(&bytes),
+    )
+}
+
+/// The same image in floats.
+fn floats(gray: &Value) -> Value {
+    let float = |&byte: &u8| f32::from(byte) / 255.0;
+    with_data(gray, |bytes| {
+        Value::Floats(bytes.iter().map(float).collect())
+    })
+}
+
+/// The same image in color.
+fn colors(gray: &Value, channels: usize) -> Value {
+    let pixel = |&byte: &u8| [byte, byte / 2, 255 - byte, 255].into_iter().take(channels);
+    with_data(gray, |bytes| {
+        Value::Bytes(bytes.iter().flat_map(pixel).collect())
+    })
 }
 
 fn cameras(world: &Value) -> (Value, Value) {
@@ -435,6 +575,10 @@ fn json(value: &Value, out: &mut String) {
         Value::Indices(list) => {
             let list = list.iter().flat_map(|number| number.to_le_bytes());
             bytes("Uint32Array", list.collect(), out);
+        }
+        Value::Integers(list) => {
+            let list = list.iter().flat_map(|number| number.to_le_bytes());
+            bytes("Int32Array", list.collect(), out);
         }
         Value::Floats(list) => {
             let list = list.iter().flat_map(|number| number.to_le_bytes());

@@ -78,6 +78,8 @@ plain! {
     Indices => "Uint32Array", indices => {
         Value::Indices(indices.0.into_iter().map(|index| index as u32).collect())
     };
+    Floats => "Float32Array", floats => Value::Floats(floats.0);
+    Integers => "Int32Array", integers => Value::Integers(integers.0);
     Line2 => "Float64Array", line => Value::Doubles(vec![line.a, line.b, line.c]);
 }
 
@@ -86,6 +88,12 @@ pub struct Mask(pub Vec<bool>);
 
 /// A list of numbers.
 pub struct Numbers(pub Vec<f64>);
+
+/// A list of numbers of single precision.
+pub struct Floats(pub Vec<f32>);
+
+/// A list of signed integers.
+pub struct Integers(pub Vec<i32>);
 
 /// A list of indices below 2³².
 pub struct Indices(pub Vec<usize>);

@@ -4,8 +4,8 @@ use crate::fault::Fault;
 use crate::value::{Key, Value};
 use epipole::progress::Status;
 use js_sys::{
-    Array, Float32Array, Float64Array, Function, Int8Array, Int16Array, Int32Array, Object,
-    Reflect, Uint8Array, Uint8ClampedArray, Uint16Array, Uint32Array,
+    Array, ArrayBuffer, Float32Array, Float64Array, Function, Int32Array, Object, Reflect,
+    Uint8Array, Uint8ClampedArray, Uint32Array,
 };
 use std::ops::ControlFlow;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -97,18 +97,11 @@ fn typed_from_js(value: &JsValue) -> Option<Value> {
     if let Some(list) = value.dyn_ref::<Uint32Array>() {
         return Some(Value::Indices(list.to_vec()));
     }
-    let doubles = if let Some(list) = value.dyn_ref::<Int32Array>() {
-        list.to_vec().into_iter().map(f64::from).collect()
-    } else if let Some(list) = value.dyn_ref::<Int16Array>() {
-        list.to_vec().into_iter().map(f64::from).collect()
-    } else if let Some(list) = value.dyn_ref::<Uint16Array>() {
-        list.to_vec().into_iter().map(f64::from).collect()
-    } else if let Some(list) = value.dyn_ref::<Int8Array>() {
-        list.to_vec().into_iter().map(f64::from).collect()
-    } else {
-        return None;
-    };
-    Some(Value::Doubles(doubles))
+    if let Some(list) = value.dyn_ref::<Int32Array>() {
+        return Some(Value::Integers(list.to_vec()));
+    }
+    // Any other kind of array becomes numbers.
+    ArrayBuffer::is_view(value).then(|| Value::Doubles(Float64Array::new(value).to_vec()))
 }
 
 fn record_from_js(object: &Object, depth: usize) -> Value {
@@ -137,6 +130,7 @@ fn to_js(value: Value) -> JsValue {
         Value::Text(text) | Value::Other(text) => JsValue::from_str(&text),
         Value::Bytes(list) => Uint8Array::from(list.as_slice()).into(),
         Value::Indices(list) => Uint32Array::from(list.as_slice()).into(),
+        Value::Integers(list) => Int32Array::from(list.as_slice()).into(),
         Value::Floats(list) => Float32Array::from(list.as_slice()).into(),
         Value::Doubles(list) => Float64Array::from(list.as_slice()).into(),
         Value::List(list) => list.into_iter().map(to_js).collect::<Array>().into(),

@@ -15,15 +15,21 @@ pub mod pairs;
 pub mod types;
 pub mod value;
 
-#[cfg(feature = "absolute_pose")]
+#[cfg(feature = "geometry")]
 mod absolute_pose;
-#[cfg(feature = "epipolar")]
+#[cfg(feature = "geometry")]
 mod epipolar;
+#[cfg(feature = "images")]
+mod feature;
 #[cfg(feature = "homography")]
 mod homography;
-#[cfg(feature = "synthetic")]
+#[cfg(feature = "images")]
+pub mod images;
+#[cfg(feature = "images")]
+mod stereo;
+#[cfg(feature = "geometry")]
 mod synthetic;
-#[cfg(feature = "epipolar")]
+#[cfg(feature = "geometry")]
 mod triangulation;
 
 use epipole::progress::Monitor;
@@ -48,25 +54,35 @@ pub const GROUPS: &[Group] = &[
         part: "homography",
         functions: homography::FUNCTIONS,
     },
-    #[cfg(feature = "epipolar")]
+    #[cfg(feature = "geometry")]
     Group {
-        part: "epipolar",
+        part: "geometry",
         functions: epipolar::FUNCTIONS,
     },
-    #[cfg(feature = "epipolar")]
+    #[cfg(feature = "geometry")]
     Group {
-        part: "epipolar",
+        part: "geometry",
         functions: triangulation::FUNCTIONS,
     },
-    #[cfg(feature = "absolute_pose")]
+    #[cfg(feature = "geometry")]
     Group {
-        part: "absolute_pose",
+        part: "geometry",
         functions: absolute_pose::FUNCTIONS,
     },
-    #[cfg(feature = "synthetic")]
+    #[cfg(feature = "geometry")]
     Group {
-        part: "synthetic",
+        part: "geometry",
         functions: synthetic::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: feature::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: stereo::FUNCTIONS,
     },
 ];
 
@@ -75,14 +91,18 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
     vec![
         #[cfg(feature = "homography")]
         homography::signatures(types),
-        #[cfg(feature = "epipolar")]
+        #[cfg(feature = "geometry")]
         epipolar::signatures(types),
-        #[cfg(feature = "epipolar")]
+        #[cfg(feature = "geometry")]
         triangulation::signatures(types),
-        #[cfg(feature = "absolute_pose")]
+        #[cfg(feature = "geometry")]
         absolute_pose::signatures(types),
-        #[cfg(feature = "synthetic")]
+        #[cfg(feature = "geometry")]
         synthetic::signatures(types),
+        #[cfg(feature = "images")]
+        feature::signatures(types),
+        #[cfg(feature = "images")]
+        stereo::signatures(types),
     ]
 }
 

@@ -10,8 +10,8 @@ use crate::types::Types;
 use crate::value::{Key, Value, camel};
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    self, DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    self, DeserializeOwned, DeserializeSeed, EnumAccess, Expected, IntoDeserializer, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use serde::{Deserializer, Serialize};
 use std::fmt::Display;
@@ -50,6 +50,29 @@ impl<T: DeserializeOwned> Argument for Setting<T> {
 impl de::Error for Fault {
     fn custom<T: Display>(message: T) -> Self {
         Self::of_type(message.to_string())
+    }
+
+    // Serde's own words bring its printing of values into every module.
+    fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::of_type(format!("an option must be {expected}"))
+    }
+
+    fn invalid_value(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::of_type(format!("an option must be {expected}"))
+    }
+
+    fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
+        Self::of_range(format!(
+            "an option must be {expected}, but has length {length}"
+        ))
+    }
+
+    fn unknown_variant(variant: &str, _: &'static [&'static str]) -> Self {
+        Self::of_type(format!("there is no choice {variant}"))
+    }
+
+    fn unknown_field(field: &str, _: &'static [&'static str]) -> Self {
+        Self::of_type(format!("there is no option {field}"))
     }
 }
 

@@ -20,6 +20,8 @@ pub enum Value {
     Bytes(Vec<u8>),
     /// `Uint32Array`.
     Indices(Vec<u32>),
+    /// `Int32Array`.
+    Integers(Vec<i32>),
     /// `Float32Array`.
     Floats(Vec<f32>),
     /// `Float64Array`, or an array of numbers.
@@ -42,6 +44,7 @@ impl Value {
             Self::Text(text) => format!("the string {text:?}"),
             Self::Bytes(list) => format!("an array of {} bytes", list.len()),
             Self::Indices(list) => format!("an array of {} integers", list.len()),
+            Self::Integers(list) => format!("an array of {} integers", list.len()),
             Self::Floats(list) => format!("an array of {} numbers", list.len()),
             Self::Doubles(list) => format!("an array of {} numbers", list.len()),
             Self::List(list) => format!("an array of {} elements", list.len()),
@@ -54,6 +57,7 @@ impl Value {
     pub(crate) fn numbers(&self) -> Option<Cow<'_, [f64]>> {
         match self {
             Self::Doubles(list) => Some(Cow::Borrowed(list)),
+            Self::Integers(list) => Some(list.iter().map(|&x| f64::from(x)).collect()),
             Self::Floats(list) => Some(list.iter().map(|&x| f64::from(x)).collect()),
             Self::Bytes(list) => Some(list.iter().map(|&x| f64::from(x)).collect()),
             Self::Indices(list) => Some(list.iter().map(|&x| f64::from(x)).collect()),

@@ -3,7 +3,7 @@
 import type { Source } from "./source.js";
 
 /** A part of the library. */
-export type Part = "homography" | "epipolar" | "absolutePose" | "synthetic";
+export type Part = "homography" | "geometry" | "images";
 
 /** Script and module of each part: literal addresses, which bundlers find. */
 export const PARTS: Readonly<Record<Part, Source>> = {
@@ -11,16 +11,12 @@ export const PARTS: Readonly<Record<Part, Source>> = {
     script: () => import("./parts/homography.part.js"),
     wasm: () => new URL("./parts/homography.wasm", import.meta.url),
   },
-  epipolar: {
-    script: () => import("./parts/epipolar.part.js"),
-    wasm: () => new URL("./parts/epipolar.wasm", import.meta.url),
+  geometry: {
+    script: () => import("./parts/geometry.part.js"),
+    wasm: () => new URL("./parts/geometry.wasm", import.meta.url),
   },
-  absolutePose: {
-    script: () => import("./parts/absolutePose.part.js"),
-    wasm: () => new URL("./parts/absolutePose.wasm", import.meta.url),
-  },
-  synthetic: {
-    script: () => import("./parts/synthetic.part.js"),
-    wasm: () => new URL("./parts/synthetic.wasm", import.meta.url),
+  images: {
+    script: () => import("./parts/images.part.js"),
+    wasm: () => new URL("./parts/images.wasm", import.meta.url),
   },
 };

@@ -116,6 +116,68 @@ for (const worker of [false, true]) {
     await assert.rejects(vision.fundamentalFromCameras(camera1, long), /^RangeError: camera2.camFromWorld.quaternion must have length 1/);
   });
 
+  withVision("images are gray, color or floats, also an ImageData", async (vision) => {
+    const [width, height] = [3, 2];
+    const gray = Uint8Array.from([0, 51, 102, 153, 204, 255]);
+    const rgba = Uint8ClampedArray.from([...gray].flatMap((value) => [value, value, value, 255]));
+    const rgb = Uint8Array.from([...gray].flatMap((value) => [value, value, value]));
+    const expected = { width, height, data: Float32Array.from(gray, (value) => value / 255) };
+    for (const data of [gray, rgba, rgb, expected.data]) {
+      assert.deepEqual(await vision.photoToGray({ width, height, data }), expected, `${data.length} values`);
+    }
+    // As in pages: an object whose properties are those of its prototype.
+    if (!worker) {
+      class ImageData {
+        get width() { return width; }
+        get height() { return height; }
+        get data() { return rgba; }
+      }
+      assert.deepEqual(await vision.photoToGray(new ImageData()), expected);
+    }
+  });
+
+  withVision("bad images name what is wrong", async (vision) => {
+    const data = new Uint8Array(12);
+    const cases = [
+      [undefined, TypeError, "photo must be an image with width, height and data, but is missing"],
+      [{ width: 4, height: 4, data }, RangeError, "photo.data must have 1, 3 or 4 bytes a pixel for 4 x 4 pixels, but has 12"],
+      [{ width: 0, height: 4, data }, RangeError, "photo.width must be from 1 to 65535, but is 0"],
+      [{ width: 3, height: 4.5, data }, RangeError, "photo.height must be an integer from 0 to 4294967295, but is 4.5"],
+      [{ width: 3, height: 4 }, TypeError, "photo.data must be an array of bytes or floats, but is missing"],
+      [{ width: 2, height: 1, data: Float32Array.of(0, NaN) }, RangeError, "photo has NaN at pixel (1, 0)"],
+      [{ width: 2, height: 1, data: Float32Array.of(0, 200) }, RangeError, "photo must have gray values in [0, 1], but has 200; divide by the value of white"],
+      [{ width: 2, height: 1, data: Float32Array.of(0) }, RangeError, "photo.data must have 1 float a pixel for 2 x 1 pixels, but has 1"],
+    ];
+    for (const [photo, type, message] of cases) {
+      await assert.rejects(vision.photoToGray(photo), (problem) => {
+        assert.equal(problem.message, message);
+        assert.equal(problem.constructor, type);
+        return true;
+      });
+    }
+    const empty = { kind: "bytes", dimension: 128, data: new Float32Array(128) };
+    await assert.rejects(vision.matchDescriptors(empty, empty), /^TypeError: descriptors1.data must be a Uint8Array/);
+    const short = { kind: "bits", dimension: 256, data: new Uint8Array(31) };
+    await assert.rejects(vision.matchDescriptors(short, short), /^RangeError: descriptors1 must have 256 bits each/);
+    const left = { width: 4, height: 3, data };
+    const right = { width: 4, height: 3, data: new Float32Array(12) };
+    await assert.rejects(vision.stereoSgm(left, right), /^TypeError: left and right must be both bytes or both floats/);
+    await assert.rejects(vision.stereoSgm(left, { width: 3, height: 4, data }), RangeError);
+    await assert.rejects(vision.stereoBm(left, left, { numDisparities: 1e6 }), RangeError);
+  });
+
+  withVision("features of two images match", async (vision) => {
+    const [width, height] = [96, 64];
+    // Blocks of random brightness, and the same two pixels to the left.
+    const at = (u, v) => ((Math.floor(u / 7) * 7919 + Math.floor(v / 5) * 104729 + Math.floor(u / 7) * Math.floor(v / 5) * 31) % 251);
+    const picture = (shift) => ({ width, height, data: Uint8Array.from({ length: width * height }, (_, i) => at((i % width) + shift, Math.floor(i / width))) });
+    const [first, second] = await Promise.all([0, 2].map((shift) => vision.detectSift(picture(shift))));
+    const { indices1, indices2 } = await vision.matchDescriptors(first.descriptors, second.descriptors);
+    assert.ok(indices1.length > 20, `${indices1.length} matches`);
+    const moved = [...indices1].map((index, k) => first.keypoints.points[2 * index] - second.keypoints.points[2 * indices2[k]]);
+    assert.ok(moved.filter((shift) => Math.abs(shift - 2) < 0.3).length > 0.8 * moved.length);
+  });
+
   withVision("a detached buffer is an error", async (vision) => {
     const pixels = Float64Array.from(SQUARE.flat());
     structuredClone(pixels, { transfer: [pixels.buffer] });
@@ -173,7 +235,7 @@ for (const worker of [false, true]) {
   test(`two loads at once are independent ${where}`, async () => {
     const [first, second] = await Promise.all([
       Vision.load({ worker, parts: ["homography"] }),
-      Vision.load({ worker, parts: ["homography", "epipolar"] }),
+      Vision.load({ worker, parts: ["homography", "geometry"] }),
     ]);
     const results = await Promise.all([first, second, first].map((vision) => vision.fitHomography(SQUARE, moved(SQUARE))));
     assert.deepEqual(results[0], results[1]);

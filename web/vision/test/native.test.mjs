@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { FUNCTIONS } from "../dist/api.js";
 import { Vision } from "../dist/index.js";
 
-const ARRAYS = { Float64Array, Float32Array, Uint32Array, Uint8Array };
+const ARRAYS = { Float64Array, Float32Array, Int32Array, Uint32Array, Uint8Array };
 
 /** The value that a program wrote: arrays as bytes, so that all bits are kept. */
 function read(value) {
