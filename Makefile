@@ -70,7 +70,7 @@ test-listings: setup-test python-module ## the Python listings and the notebooks
 	$(BOOK) notebooks target/book-work/notebooks
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
-test-browser: setup build ## the book and the figures in a real browser
+test-browser: setup build vision ## the book, the figures and the npm package of the core in a real browser
 	cd tests/browser && npm test --silent
 
 test-lab: setup build tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it

@@ -110,11 +110,12 @@ fn record_from_js(object: &Object, depth: usize) -> Value {
         .iter()
         .map(|key| (Key::from(key.as_string().unwrap_or_default()), get(&key)))
         .collect();
-    // The properties of an ImageData are those of its prototype.
-    if entries.is_empty() {
+    // Properties of an ImageData are those of its prototype, in Chromium all but the data.
+    if entries.iter().all(|(key, _)| key == "data") {
         for name in ["width", "height", "data"] {
+            let is_own = entries.iter().any(|(key, _)| key == name);
             let value = get(&JsValue::from_str(name));
-            if value != Value::Nothing {
+            if !is_own && value != Value::Nothing {
                 entries.push((Key::from(name), value));
             }
         }
