@@ -80,6 +80,7 @@ impl Calls {
                 ("seed", Value::Number(3.0)),
             ])],
         )?;
+        self.add_camera(&exact)?;
         self.add_homography(&wall)?;
         self.add_robust(&world)?;
         self.add_epipolar(&exact)?;
@@ -87,6 +88,41 @@ impl Calls {
         self.add_absolute_pose(&world, &exact)?;
         self.add_features()?;
         self.add_stereo(&exact)
+    }
+
+    fn add_camera(&mut self, exact: &Value) -> Result<(), Failure> {
+        let (camera1, camera2) = cameras(exact);
+        let pixels = get(exact, "pixels1");
+        self.add("projectFromWorld", &[camera2.clone(), get(exact, "points")])?;
+        for (kind, coefficients) in [
+            ("brown", vec![-0.1, 0.02, 0.001, -0.001, 0.003]),
+            (
+                "rational",
+                vec![-0.1, 0.02, 0.001, -0.001, 0.003, 0.1, 0.01, 0.002],
+            ),
+            ("fisheye", vec![0.01, -0.02, 0.003, -0.001]),
+            ("division", vec![-0.1]),
+        ] {
+            let coefficients = Value::Doubles(coefficients);
+            let camera = record([
+                ("width", Value::Number(640.0)),
+                ("height", Value::Number(480.0)),
+                ("intrinsics", intrinsics(exact)),
+                (
+                    "lens",
+                    record([("kind", text(kind)), ("coefficients", coefficients)]),
+                ),
+            ]);
+            let rays = self.add("unproject", &[camera.clone(), pixels.clone()])?;
+            self.add("project", &[camera.clone(), rays])?;
+            self.add("pinholePixel", &[camera, pixels.clone()])?;
+        }
+        let poses = [get(&camera1, "camFromWorld"), get(&camera2, "camFromWorld")];
+        self.add("relativeMotion", &poses)?;
+        let [center, target, up] = [[1.0, -2.0, 3.0], [0.0, 0.5, 0.0], [0.0, -1.0, 0.0]]
+            .map(|vector| Value::Doubles(vector.to_vec()));
+        self.add("lookAt", &[center.clone(), target, up.clone()])?;
+        self.fail("lookAt", &[center.clone(), center, up])
     }
 
     fn add_homography(&mut self, wall: &Value) -> Result<(), Failure> {

@@ -18,6 +18,8 @@ pub mod value;
 #[cfg(feature = "geometry")]
 mod absolute_pose;
 #[cfg(feature = "geometry")]
+mod camera;
+#[cfg(feature = "geometry")]
 mod epipolar;
 #[cfg(feature = "images")]
 mod feature;
@@ -57,6 +59,11 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "geometry")]
     Group {
         part: "geometry",
+        functions: camera::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
         functions: epipolar::FUNCTIONS,
     },
     #[cfg(feature = "geometry")]
@@ -91,6 +98,8 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
     vec![
         #[cfg(feature = "homography")]
         homography::signatures(types),
+        #[cfg(feature = "geometry")]
+        camera::signatures(types),
         #[cfg(feature = "geometry")]
         epipolar::signatures(types),
         #[cfg(feature = "geometry")]

@@ -16,6 +16,12 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   homographyFromMotion: ["homography", "cam2FromCam1", "normalInCam1", "distance", "k1", "k2"],
   estimateSimilarity: ["homography", "pixels1", "pixels2", "options"],
   fitSimilarity: ["homography", "pixels1", "pixels2"],
+  project: ["geometry", "camera", "pointsInCam"],
+  projectFromWorld: ["geometry", "camera", "pointsInWorld"],
+  unproject: ["geometry", "camera", "pixels"],
+  pinholePixel: ["geometry", "camera", "pixels"],
+  lookAt: ["geometry", "centerInWorld", "targetInWorld", "upInWorld"],
+  relativeMotion: ["geometry", "cam1FromWorld", "cam2FromWorld"],
   estimateFundamental: ["geometry", "pixels1", "pixels2", "options"],
   estimateEssential: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateRelativePose: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
@@ -895,6 +901,18 @@ export interface Functions {
   estimateSimilarity(pixels1: Points2, pixels2: Points2, options?: RansacOptions & Control): Promise<RansacReport<PlaneSimilarity>>;
   /** Similarity of matches without outliers, by least squares. */
   fitSimilarity(pixels1: Points2, pixels2: Points2): Promise<PlaneSimilarity>;
+  /** Pixels of points in the camera frame; NaN for points that the lens does not see. */
+  project(camera: Camera, pointsInCam: Points3): Promise<Float64Array>;
+  /** Pixels of points in the world; NaN for points that the camera does not see. */
+  projectFromWorld(camera: PosedCameraLike, pointsInWorld: Points3): Promise<Float64Array>;
+  /** Unit rays through pixels, in the camera frame; NaN for pixels without one. */
+  unproject(camera: Camera, pixels: Points2): Promise<Float64Array>;
+  /** Undistorted pixels, those of a camera with the same K and no lens; NaN for pixels without one. */
+  pinholePixel(camera: Camera, pixels: Points2): Promise<Float64Array>;
+  /** Pose of a camera at a center that looks at a target. */
+  lookAt(centerInWorld: ArrayLike<number>, targetInWorld: ArrayLike<number>, upInWorld: ArrayLike<number>): Promise<RigidTransform>;
+  /** Motion between two poses, `cam2FromCam1`. */
+  relativeMotion(cam1FromWorld: RigidTransformLike, cam2FromWorld: RigidTransformLike): Promise<RigidTransform>;
   /** Fundamental matrix of matches with outliers, by RANSAC: `x2' F x1 = 0`, unit norm. */
   estimateFundamental(pixels1: Points2, pixels2: Points2, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
   /** Essential matrix of matches with outliers, by RANSAC: unit norm. */
