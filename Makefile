@@ -61,6 +61,7 @@ vision: setup-build ## the npm package of the core, in web/vision/dist/
 
 # Without -p, as above.
 test-vision: vision ## the npm package of the core: calls, errors, examples, sizes, the bits of every function
+	@mkdir -p target
 	cargo run --locked --quiet --example js_native -- target/vision-native.json
 	EPIPOLE_NATIVE=target/vision-native.json node --test --test-reporter=spec web/vision/test/
 
@@ -140,7 +141,7 @@ release-check: ## whether versions, changelog and packages agree with a tag: mak
 	@tests/tools/need.sh node
 	@node tests/tools/release.mjs "$$TAG"
 
-release-files: test-wheel python-linux ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheels
+release-files: test-wheel python-linux vision ## what a release contains, in target/release-files/: the book with the Lab, npm packages, wheels
 	$(BOOK) lab
 	tests/tools/release.sh
 

@@ -261,11 +261,8 @@ impl Argument for Descriptors {
                     )));
                 }
                 let word = |eight: &[u8]| {
-                    let bits = eight
-                        .iter()
-                        .rev()
-                        .fold(0, |sum, &byte| sum << 8 | u64::from(byte));
-                    bits
+                    let bits = eight.iter().rev();
+                    bits.fold(0, |sum, &byte| sum << 8 | u64::from(byte))
                 };
                 let words = bytes.chunks_exact(BYTES_OF_BITS).map(|bytes| {
                     std::array::from_fn(|index| word(&bytes[8 * index..8 * index + 8]))
