@@ -57,34 +57,47 @@ fn api() -> String {
             methods += &format!("  {}({parameters}): Promise<{result}>;\n", signature.name);
         }
     }
+    let names = part_names();
+    let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
     format!(
         "/** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */\n\n\
-         import type {{ Control }} from \"./control.js\";\n\
-         import type {{ Part }} from \"./parts.js\";\n\n\
+         import type {{ Control }} from \"./control.js\";\n\n\
+         /** Parts of the library, each a module. */\n\
+         export const PART_NAMES = [{}] as const;\n\n\
+         /** A part of the library. */\nexport type Part = (typeof PART_NAMES)[number];\n\n\
          /** Part and parameters of each function. */\n\
          export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {{\n{table}}};\n\n\
          {}\n/** Functions by part. */\nexport interface Functions {{\n{methods}}}\n",
+        names.join(", "),
         types.text()
     )
 }
 
-fn parts() -> String {
+fn part_names() -> Vec<String> {
     let mut names: Vec<String> = GROUPS.iter().map(|group| camel(group.part)).collect();
     names.dedup();
-    let union: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    names
+}
+
+/// Imports are static: bundlers make workers of one script, which cannot load others.
+fn parts() -> String {
+    let names = part_names();
+    let imports = names
+        .iter()
+        .map(|name| format!("import * as {name} from \"./parts/{name}.part.js\";\n"));
     let lines = names.iter().map(|name| {
         format!(
-            "  {name}: {{\n    script: () => import(\"./parts/{name}.part.js\"),\n    \
-             wasm: () => new URL(\"./parts/{name}.wasm\", import.meta.url),\n  }},\n"
+            "  {name}: {{ script: {name}, wasm: () => \
+             new URL(\"./parts/{name}.wasm\", import.meta.url) }},\n"
         )
     });
     format!(
         "/** Parts, each a module. Written by `make bless-vision` from `epipole-js`. */\n\n\
-         import type {{ Source }} from \"./source.js\";\n\n\
-         /** A part of the library. */\nexport type Part = {};\n\n\
+         import type {{ Part }} from \"./api.js\";\n\
+         {}import type {{ Source }} from \"./source.js\";\n\n\
          /** Script and module of each part: literal addresses, which bundlers find. */\n\
          export const PARTS: Readonly<Record<Part, Source>> = {{\n{}}};\n",
-        union.join(" | "),
+        imports.collect::<String>(),
         lines.collect::<String>()
     )
 }

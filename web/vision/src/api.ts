@@ -1,7 +1,12 @@
 /** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */
 
 import type { Control } from "./control.js";
-import type { Part } from "./parts.js";
+
+/** Parts of the library, each a module. */
+export const PART_NAMES = ["homography", "geometry", "images"] as const;
+
+/** A part of the library. */
+export type Part = (typeof PART_NAMES)[number];
 
 /** Part and parameters of each function. */
 export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {

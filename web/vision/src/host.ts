@@ -1,6 +1,7 @@
 /** Loads the modules of the parts and calls them, in this thread. */
 
-import { PARTS, type Part } from "./parts.js";
+import type { Part } from "./api.js";
+import { PARTS } from "./parts.js";
 import type { Bindings } from "./source.js";
 
 /** Receives stage and completed share; cancels by returning false. */
@@ -24,9 +25,8 @@ async function load(part: Part): Promise<Bindings> {
   if (typeof WebAssembly === "undefined") throw new Error("WebAssembly is not available here");
   const { script, wasm } = PARTS[part];
   try {
-    const [bindings, compiled] = await Promise.all([script(), compile(wasm())]);
-    await bindings.default({ module_or_path: compiled });
-    return bindings;
+    await script.default({ module_or_path: await compile(wasm()) });
+    return script;
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);
     throw new Error(`the part ${part} cannot be loaded: ${why}`, { cause });

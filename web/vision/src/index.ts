@@ -1,17 +1,16 @@
+/// <reference lib="esnext.disposable" preserve="true" />
 /** Multi-view geometry in JavaScript: `const vision = await Vision.load()`. */
 
-import { FUNCTIONS, type Functions } from "./api.js";
-import { PARTS, type Part } from "./parts.js";
+import { FUNCTIONS, PART_NAMES, type Functions, type Part } from "./api.js";
 import { findStart, isPage } from "./ports.js";
-import { ThreadRunner, WorkerRunner, type Runner } from "./runner.js";
+import { WorkerRunner, type Runner } from "./runner.js";
 
 export { VisionError, type Code } from "./errors.js";
-export type { Part } from "./parts.js";
 export type * from "./api.js";
 
 /** Options of `Vision.load`. */
 export interface LoadOptions {
-  /** Whether calls run in a worker. Default: in pages, not in Node, Deno and Bun. */
+  /** Whether calls run in a worker. Default: in pages, not in Node. */
   worker?: boolean;
   /** Parts to load at once. Others load with the first call of one of their functions. */
   parts?: readonly Part[];
@@ -37,11 +36,12 @@ export class Vision {
     }
     if (typeof worker !== "boolean") throw new TypeError(`worker must be true or false, but is ${String(worker)}`);
     for (const part of parts) {
-      if (!Object.hasOwn(PARTS, part)) {
-        throw new TypeError(`there is no part ${String(part)}; the parts are ${Object.keys(PARTS).join(", ")}`);
+      if (!PART_NAMES.includes(part)) {
+        throw new TypeError(`there is no part ${String(part)}; the parts are ${PART_NAMES.join(", ")}`);
       }
     }
-    const runner = worker ? new WorkerRunner(await findStart()) : new ThreadRunner();
+    // A page with a worker does without the scripts of the modules.
+    const runner = worker ? new WorkerRunner(await findStart()) : new (await import("./thread.js")).ThreadRunner();
     const vision = new Vision(runner);
     await Promise.all(parts.map((part) => runner.run({ part, given: [] })));
     return vision;

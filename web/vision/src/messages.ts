@@ -1,7 +1,7 @@
 /** Messages to and from a worker. */
 
+import type { Part } from "./api.js";
 import type { Fault } from "./errors.js";
-import type { Part } from "./parts.js";
 
 /** A call; without a name, the part is only loaded. */
 export interface Call {

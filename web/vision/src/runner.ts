@@ -1,9 +1,8 @@
-/** Runners of calls: in this thread, or in a worker. */
+/** Runs calls in a worker. */
 
-import { errorOf, faultOf } from "./errors.js";
-import { callPart, loadPart, type Report } from "./host.js";
+import type { Part } from "./api.js";
+import { errorOf } from "./errors.js";
 import type { Answer, Call } from "./messages.js";
-import type { Part } from "./parts.js";
 
 /** A call with its options of control. */
 export interface Job {
@@ -22,45 +21,8 @@ export interface Runner {
   closeLater(): void;
 }
 
-const closed = () => new Error("this Vision is closed");
-
-/** Runs calls in this thread. */
-export class ThreadRunner implements Runner {
-  #isClosed = false;
-
-  async run({ part, name, given, signal, progress }: Job): Promise<unknown> {
-    if (this.#isClosed) throw closed();
-    signal?.throwIfAborted();
-    const bindings = await loadPart(part);
-    if (this.#isClosed) throw closed();
-    signal?.throwIfAborted();
-    if (name === undefined) return undefined;
-    const thrown: unknown[] = [];
-    const report: Report = (stage, share) => {
-      try {
-        progress?.(stage, share);
-      } catch (problem) {
-        thrown.push(problem);
-      }
-      return thrown.length === 0 && !signal?.aborted;
-    };
-    try {
-      return callPart(bindings, part, name, given, progress || signal ? report : undefined);
-    } catch (problem) {
-      if (thrown.length > 0) throw thrown[0];
-      signal?.throwIfAborted();
-      throw Array.isArray(problem) ? errorOf(faultOf(problem)) : problem;
-    }
-  }
-
-  close(): void {
-    this.#isClosed = true;
-  }
-
-  closeLater(): void {
-    // Nothing is held outside the caller's memory.
-  }
-}
+/** Error of calls after the end. */
+export const closed = () => new Error("this Vision is closed");
 
 /** A worker of the browser or of Node. */
 export interface Port {

@@ -4,8 +4,8 @@ export interface Bindings {
   call(name: string, given: readonly unknown[], report?: (stage: string, share: number) => boolean): unknown;
 }
 
-/** Addresses of a part. */
+/** Script of a part, and address of its module. */
 export interface Source {
-  script(): Promise<Bindings>;
+  script: Bindings;
   wasm(): URL;
 }

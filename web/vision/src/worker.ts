@@ -38,9 +38,9 @@ if (typeof self === "object" && typeof self.postMessage === "function") {
   self.addEventListener("message", ({ data }: MessageEvent<Call>) => void answer(data, post));
 } else {
   const name = "node:worker_threads";
-  const { parentPort } = (await import(
-    /* webpackIgnore: true */ /* @vite-ignore */ name
-  )) as typeof import("node:worker_threads");
-  const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
-  parentPort?.on("message", (call: Call) => void answer(call, post));
+  const loading = import(/* webpackIgnore: true */ /* @vite-ignore */ name) as Promise<typeof import("node:worker_threads")>;
+  void loading.then(({ parentPort }) => {
+    const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
+    parentPort?.on("message", (call: Call) => void answer(call, post));
+  });
 }
