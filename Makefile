@@ -13,7 +13,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz vision test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -29,7 +29,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-python test-web test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
+test: setup check test-rust test-python test-web test-vision test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -55,13 +55,23 @@ test-python: setup-test python-module ## the Python package
 test-web: setup-build ## unit tests of the elements, without a browser
 	cd web && npm test --silent
 
+vision: setup-build ## the npm package of the core, in web/vision/dist/
+	$(BOOK) vision
+	node web/vision/build.mjs
+
+# Without -p, as above.
+test-vision: vision ## the npm package of the core: calls, errors, examples, sizes, the bits of every function
+	@mkdir -p target
+	cargo run --locked --quiet --example js_native -- target/vision-native.json
+	EPIPOLE_NATIVE=target/vision-native.json node --test --test-reporter=spec web/vision/test/
+
 # PYTHONPATH is absolute, because listings and notebooks run in folders of their own.
 test-listings: setup-test python-module ## the Python listings and the notebooks of the chapters
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/run.py
 	$(BOOK) notebooks target/book-work/notebooks
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
-test-browser: setup build ## the book and the figures in a real browser
+test-browser: setup build vision ## the book, the figures and the npm package of the core in a real browser
 	cd tests/browser && npm test --silent
 
 test-lab: setup build tests/engines/node_modules/.installed ## the Lab in Chromium, Firefox and WebKit, after building it
@@ -136,7 +146,7 @@ release-check: ## whether versions, changelog and packages agree with a tag: mak
 	@tests/tools/need.sh node
 	@node tests/tools/release.mjs "$$TAG"
 
-release-files: test-wheel python-linux site ## what a release contains, in target/release-files/: the book with the Lab, npm package, wheels
+release-files: test-wheel python-linux vision site ## what a release contains, in target/release-files/: the book with the Lab, npm packages, wheels
 	$(BOOK) lab
 	tests/tools/release.sh
 
@@ -149,6 +159,9 @@ bless: setup-build ## makes the golden images anew; commit them alone, with the 
 
 bless-contract: setup-build ## writes web/src/contract.ts anew from the types of epipole-widgets
 	EPIPOLE_BLESS=1 cargo test --locked --quiet -p epipole-widgets --lib typescript
+
+bless-vision: setup-build ## writes web/vision/src/api.ts and parts.ts anew from the functions of epipole-js
+	EPIPOLE_BLESS=1 cargo test --locked --quiet -p epipole-js --test typescript
 
 bless-licenses: setup-build ## lists anew what we ship that is not ours; read the difference before you commit it
 	node tests/tools/supply.mjs --bless

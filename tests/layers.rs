@@ -30,13 +30,18 @@ const CRATES: &[(&str, &[&str])] = &[
         &["epipole", "epipole-io", "epipole-scenes", "epipole-canvas"],
     ),
     ("epipole-python", &["epipole", "epipole-io"]),
+    ("epipole-js", &["epipole"]),
 ];
 
 /// Dependencies that only the given crates may have, to keep their use in one place.
 const RESERVED: &[(&str, &[&str])] = &[
     ("tiny-skia", &["epipole-canvas"]),
     ("ttf-parser", &["epipole-canvas"]),
-    ("wasm-bindgen", &["epipole-web", "epipole-lab"]),
+    (
+        "wasm-bindgen",
+        &["epipole-web", "epipole-lab", "epipole-js"],
+    ),
+    ("js-sys", &["epipole-js"]),
     ("wasm-bindgen-futures", &["epipole-lab"]),
     ("egui", &["epipole-lab"]),
     ("eframe", &["epipole-lab"]),

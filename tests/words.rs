@@ -34,6 +34,7 @@ const DOCUMENTS: &[(&str, usize)] = &[
     ("crates/epipole-io/README.md", 110),
     ("crates/epipole-python/README.md", 110),
     ("web/README.md", 110),
+    ("web/vision/README.md", 110),
 ];
 
 /// Documents with narrow lines, beside the decisions.

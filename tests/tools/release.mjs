@@ -1,7 +1,7 @@
 // Checks before a release: node tests/tools/release.mjs TAG
 //
 // The tag is v and the version of the workspace; packages, their lock files, citation and changelog
-// have the same version; the npm package can be published. Lists what is missing, and fails. Needs
+// have the same version; the npm packages can be published. Lists what is missing, and fails. Needs
 // no network. With --notes it prints the section of the changelog instead.
 
 import { readFileSync } from "node:fs";
@@ -34,14 +34,16 @@ function problemsOf() {
   for (const [, crate, found] of dependencies) {
     same(`Cargo.toml: the dependency ${crate}`, found);
   }
-  const npm = JSON.parse(read("web/package.json"));
-  same("web/package.json", npm.version);
+  for (const place of ["web/package.json", "web/vision/package.json"]) {
+    const npm = JSON.parse(read(place));
+    same(place, npm.version);
+    if (npm.private) problems.push(`${place} is private: remove that line to publish it`);
+    if (!npm.repository) problems.push(`${place} lacks repository, needed for provenance`);
+  }
   same("web/package-lock.json", JSON.parse(read("web/package-lock.json")).version);
   same("CITATION.cff", read("CITATION.cff").match(/^version: (.*)/m)?.[1]);
   const python = read("crates/epipole-python/pyproject.toml").match(/"epipole-figures==([^"]*)"/)?.[1];
   same("crates/epipole-python/pyproject.toml: the dependency epipole-figures", python);
-  if (npm.private) problems.push("web/package.json is private: remove that line to publish it");
-  if (!npm.repository) problems.push("web/package.json lacks repository, needed for provenance");
   const { heading, text } = section();
   const isDated = /\d{4}-\d{2}-\d{2}/.test(heading);
   if (!text) problems.push(`CHANGELOG.md has no section ${version}`);

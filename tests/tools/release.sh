@@ -1,6 +1,6 @@
 #!/bin/sh
 # Collects the files of a release in target/release-files: an archive of the book with the Lab, the npm
-# package, the wheels, their checksums, the notes. Times in the archive are that of the commit.
+# packages, the wheels, their checksums, the notes. Times in the archive are that of the commit.
 set -eu
 cd "$(dirname "$0")/../.."
 out=target/release-files
@@ -10,6 +10,7 @@ mkdir -p "$out/book" "$out/npm" "$out/wheel"
 tar --sort=name --mtime="@$(git log -1 --format=%ct)" --owner=0 --group=0 --numeric-owner \
     --mode=a+rX,u+w,go-w -C target/book -cf - . | gzip -n9 >"$out/book/epipole-book-$version.tar.gz"
 npm pack ./web --pack-destination "$out/npm" --loglevel error >/dev/null
+npm pack ./web/vision --ignore-scripts --pack-destination "$out/npm" --loglevel error >/dev/null
 target=${CARGO_TARGET_DIR:-target}
 cp "$target"/wheels-linux/* "$target"/wheels/epipole_figures-*.whl "$out/wheel/"
 # Names without folders, as the release shows them.

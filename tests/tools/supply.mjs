@@ -4,7 +4,8 @@
 // crate of the workspace's graph has a license that deny.toml allows. 3. web/THIRD-PARTY.txt lists
 // all third-party parts of the site with their license texts: crates in the WebAssembly modules,
 // npm packages in the scripts, fonts. web/THIRD-PARTY-FIGURES.txt lists those in the packages of
-// the figures alone. `--bless` writes both files.
+// the figures alone, web/vision/THIRD-PARTY.txt those in the npm package of the core. `--bless`
+// writes the files.
 //
 // Needs no network once everything is installed. `make audit` checks advisories, with network.
 
@@ -39,6 +40,8 @@ const MODULES = [
   ["epipole-lab", "vision-worker", "Lab's workers"],
   ["epipole-lab", "files-worker", "Lab's workers"],
 ];
+/** Modules of the npm package of the core. */
+const VISION = ["homography", "geometry", "images"].map((part) => ["epipole-js", part, part]);
 /** Entry points that esbuild bundles. */
 const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
 const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
@@ -49,6 +52,7 @@ const STIX = ["STIX Two Text and STIX Two Math, cut to the letters of the book",
 const LISTS = [
   { file: "web/THIRD-PARTY.txt", of: "Epipole's pages, modules and packages", modules: MODULES, scripts: SCRIPTS, fonts: [STIX, FIGURE_SANS] },
   { file: "web/THIRD-PARTY-FIGURES.txt", of: "the figures of Epipole", modules: FIGURES, scripts: ELEMENTS, fonts: [FIGURE_SANS] },
+  { file: "web/vision/THIRD-PARTY.txt", of: "the npm package of the core", modules: VISION, scripts: ["web/vision/src/index.ts"], fonts: [] },
 ];
 
 function cargo(...args) {
@@ -142,7 +146,7 @@ async function bundled(scripts) {
   const { build } = await import(join(root, "web/node_modules/esbuild/lib/main.js"));
   const { look } = await import(join(root, "web/look.mjs"));
   const entryPoints = scripts.map((path) => join(root, path));
-  const external = ["epipole-web", "epipole-jobs", "epipole-lab*", "stix-two:*"];
+  const external = ["epipole-web", "epipole-jobs", "epipole-lab*", "stix-two:*", "*.part.js"];
   const { metafile } = await build({
     absWorkingDir: root, entryPoints, external, bundle: true, write: false, metafile: true, outdir: "out", format: "esm", plugins: [look], logLevel: "error",
   });
@@ -193,7 +197,7 @@ async function thirdParty(all, allow, { of, modules, scripts, fonts: cut }) {
     `\n${line}\nnpm packages in the scripts\n`,
     ...(npm.length > 0 ? npm : ["none"]),
     `\n${line}\nFonts\n`,
-    ...fonts,
+    ...(fonts.length > 0 ? fonts : ["none"]),
     ...[...texts].map(([text, who]) => `\n${line}\n${who.join(", ")}\n\n${text}`),
     "",
   ].join("\n");

@@ -6,7 +6,7 @@ use epipole_book::phases::Phases;
 use epipole_book::resolve::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
-use epipole_book::write::assets::make_lab;
+use epipole_book::write::assets::{make_lab, make_vision};
 use epipole_book::write::stills;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,6 +55,8 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Make the WebAssembly modules of the npm package of the core.
+    Vision,
     /// Look for mistakes in the content only: no scripts, no fonts, nothing written.
     Check,
     /// Write the notebooks of the chapters only.
@@ -112,6 +114,16 @@ fn run(cli: &Cli) -> Result<bool> {
             println!(
                 "the Lab, {files} files in {}/lab ({seconds:.1} s)",
                 out.display()
+            );
+            Ok(true)
+        }
+        Command::Vision => {
+            let start = Instant::now();
+            let folder = make_vision(&project)?;
+            let seconds = start.elapsed().as_secs_f64();
+            println!(
+                "the modules of the core in {} ({seconds:.1} s)",
+                folder.display()
             );
             Ok(true)
         }

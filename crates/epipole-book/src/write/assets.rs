@@ -14,6 +14,7 @@ pub use files::{Assets, add_hashed};
 pub use lab::make as make_lab;
 pub use letters::{Letters, used_letters};
 pub(crate) use wasm::Modules;
+pub use wasm::make_parts as make_vision;
 
 use crate::tools::{Tools, read};
 use anyhow::Result;

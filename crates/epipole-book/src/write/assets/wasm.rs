@@ -1,7 +1,8 @@
 //! The figures as WebAssembly: cargo and wasm-bindgen (as a library).
 //!
 //! Two modules of the same crate: the figures, which every page with a figure loads, and their long
-//! computations, which a worker loads when a figure asks for one.
+//! computations, which a worker loads when a figure asks for one. The npm package of the core has
+//! one module per part.
 
 use super::likeness;
 use crate::tools::{Tools, read, target_folder};
@@ -34,6 +35,26 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
     })
 }
 
+/// Features of `epipole-js`: the parts of the npm package of the core, a module each.
+const PARTS: &[&str] = &["homography", "geometry", "images"];
+
+/// Builds the modules of the npm package of the core. Returns their folder.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub fn make_parts(project: &Path) -> Result<PathBuf> {
+    let tools = Tools::find(project)?;
+    for part in PARTS {
+        build(&tools, "epipole-js", part)?;
+    }
+    Ok(bindings(&tools))
+}
+
+/// Folder of the finished modules and their scripts.
+fn bindings(tools: &Tools) -> PathBuf {
+    tools.work.join("bindgen")
+}
+
 /// Compiler flags for every crate, as a setting of cargo. Cargo joins them to those of
 /// `.cargo/config.toml`.
 ///
@@ -59,8 +80,8 @@ fn for_every_crate(project: &Path, more: &[&str]) -> String {
 
 /// The cargo profile of a module: small for the page's drawing code, fast for the worker's
 /// computations.
-fn profile(feature: &str) -> &'static str {
-    match feature == "jobs" || feature.ends_with("-worker") {
+fn profile(package: &str, feature: &str) -> &'static str {
+    match package == "epipole-js" || feature == "jobs" || feature.ends_with("-worker") {
         true => "web-worker",
         false => "web",
     }
@@ -87,7 +108,7 @@ struct Way {
 fn way(package: &str, feature: &str) -> Way {
     const AS_ONE: &[&str] = &["--crate-type", "cdylib"];
     match (package, feature) {
-        ("epipole-web", "jobs") => Way {
+        ("epipole-web", "jobs") | ("epipole-js", _) => Way {
             of_cargo: AS_ONE,
             of_every_crate: &[
                 "-C",
@@ -113,7 +134,7 @@ fn way(package: &str, feature: &str) -> Way {
 /// Builds one module: a package with one of its features.
 pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     let target = target_folder(&tools.project);
-    let profile = profile(feature);
+    let profile = profile(package, feature);
     let way = way(package, feature);
     let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["rustc", "--package", package, "--lib"])
@@ -144,7 +165,7 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         package.replace('-', "_")
     );
     let built = target.join(file);
-    let folder = tools.work.join("bindgen");
+    let folder = bindings(tools);
     let name = match package {
         "epipole-web" => format!("epipole_{feature}"),
         other => format!("{other}_{feature}").replace('-', "_"),

@@ -1,0 +1,340 @@
+//! Answers: from results of the core to values.
+
+use crate::argument::Argument;
+use crate::types::Types;
+use crate::value::{Key, Value};
+use epipole::ArrayVec;
+use epipole::camera::{Camera, Intrinsics, Lens, PosedCamera, RigidTransform};
+use epipole::math::Line2;
+use epipole::nalgebra::{Const, OPoint, SMatrix, SVector};
+use epipole::robust::{RansacReport, StopReason};
+
+/// A result of a function.
+pub trait Answer {
+    /// Type in TypeScript.
+    fn typescript(types: &mut Types) -> String;
+
+    /// Plain data.
+    fn give(self) -> Value;
+}
+
+/// Makes plain objects of structs, field by field.
+macro_rules! records {
+    ($($(#[doc = $docs:literal])+ $type:ty as $name:ident {
+        $($(#[doc = $field_docs:literal])+ $field:ident: $field_type:ty,)+
+    })+) => {$(
+        impl $crate::answer::Answer for $type {
+            fn typescript(types: &mut $crate::types::Types) -> String {
+                let fields = [$((
+                    $crate::value::camel(stringify!($field)),
+                    <$field_type as $crate::answer::Answer>::typescript(types),
+                    concat!($($field_docs),+).trim(),
+                )),+];
+                let fields = fields.each_ref().map(|(field, of, docs)| (&**field, &**of, *docs));
+                types.interface(stringify!($name), concat!($($docs),+).trim(), &fields);
+                stringify!($name).to_owned()
+            }
+
+            fn give(self) -> $crate::value::Value {
+                $crate::value::Value::Record(vec![$((
+                    $crate::value::camel(stringify!($field)).into(),
+                    $crate::answer::Answer::give(self.$field),
+                )),+])
+            }
+        }
+    )+};
+}
+pub(crate) use records;
+
+/// Types that are as they are in JavaScript.
+macro_rules! plain {
+    ($($type:ty => $name:literal, $value:ident => $give:expr;)+) => {$(
+        impl Answer for $type {
+            fn typescript(_: &mut Types) -> String {
+                $name.to_owned()
+            }
+
+            fn give(self) -> Value {
+                let $value = self;
+                $give
+            }
+        }
+    )+};
+}
+
+plain! {
+    f64 => "number", number => Value::Number(number);
+    f32 => "number", number => Value::Number(f64::from(number));
+    bool => "boolean", flag => Value::Flag(flag);
+    u32 => "number", number => Value::Number(f64::from(number));
+    usize => "number", number => Value::Number(number as f64);
+    StopReason => "\"confident\" | \"exhausted\" | \"interrupted\"", reason => Value::Text(match reason {
+        StopReason::Confident => "confident",
+        StopReason::Exhausted => "exhausted",
+        StopReason::Interrupted => "interrupted",
+    }.to_owned());
+    Mask => "Uint8Array", mask => Value::Bytes(mask.0.into_iter().map(u8::from).collect());
+    Numbers => "Float64Array", numbers => Value::Doubles(numbers.0);
+    Indices => "Uint32Array", indices => {
+        Value::Indices(indices.0.into_iter().map(|index| index as u32).collect())
+    };
+    Floats => "Float32Array", floats => Value::Floats(floats.0);
+    Integers => "Int32Array", integers => Value::Integers(integers.0);
+    Line2 => "Float64Array", line => Value::Doubles(vec![line.a, line.b, line.c]);
+}
+
+/// Flags, 1 for true.
+pub struct Mask(pub Vec<bool>);
+
+/// A list of numbers.
+pub struct Numbers(pub Vec<f64>);
+
+/// A list of numbers of single precision.
+pub struct Floats(pub Vec<f32>);
+
+/// A list of signed integers.
+pub struct Integers(pub Vec<i32>);
+
+/// A list of indices below 2³².
+pub struct Indices(pub Vec<usize>);
+
+impl Numbers {
+    /// Interleaved coordinates.
+    pub fn of_points<const D: usize>(points: &[OPoint<f64, Const<D>>]) -> Self {
+        Self(
+            points
+                .iter()
+                .flat_map(|point| point.iter().copied())
+                .collect(),
+        )
+    }
+
+    /// Interleaved coordinates, NaN for failures.
+    pub fn or_nan<const D: usize>(
+        rows: impl IntoIterator<Item = epipole::Result<SVector<f64, D>>>,
+    ) -> Self {
+        let row = |row: epipole::Result<SVector<f64, D>>| {
+            row.unwrap_or_else(|_| SVector::repeat(f64::NAN))
+        };
+        let rows = rows.into_iter().map(row);
+        Self(rows.flat_map(|row| row.as_slice().to_vec()).collect())
+    }
+}
+
+impl<const R: usize, const C: usize> Answer for SMatrix<f64, R, C> {
+    fn typescript(_: &mut Types) -> String {
+        "Float64Array".to_owned()
+    }
+
+    fn give(self) -> Value {
+        let by_row = (0..R).flat_map(|row| (0..C).map(move |column| (row, column)));
+        Value::Doubles(by_row.map(|place| self[place]).collect())
+    }
+}
+
+impl<const D: usize> Answer for OPoint<f64, Const<D>> {
+    fn typescript(_: &mut Types) -> String {
+        "Float64Array".to_owned()
+    }
+
+    fn give(self) -> Value {
+        self.coords.give()
+    }
+}
+
+impl<T: Answer> Answer for Option<T> {
+    fn typescript(types: &mut Types) -> String {
+        format!("{} | null", T::typescript(types))
+    }
+
+    fn give(self) -> Value {
+        self.map_or(Value::Nothing, T::give)
+    }
+}
+
+impl<T: Answer> Answer for Vec<T> {
+    fn typescript(types: &mut Types) -> String {
+        format!("{}[]", T::typescript(types))
+    }
+
+    fn give(self) -> Value {
+        Value::List(self.into_iter().map(T::give).collect())
+    }
+}
+
+impl<T: Answer, const N: usize> Answer for ArrayVec<T, N> {
+    fn typescript(types: &mut Types) -> String {
+        Vec::<T>::typescript(types)
+    }
+
+    fn give(self) -> Value {
+        Value::List(self.into_iter().map(T::give).collect())
+    }
+}
+
+fn record<const N: usize>(entries: [(&'static str, Value); N]) -> Value {
+    let entries = entries.map(|(key, value)| (Key::from(key), value));
+    Value::Record(entries.into())
+}
+
+impl Answer for RigidTransform {
+    fn typescript(types: &mut Types) -> String {
+        types.interface(
+            "RigidTransform",
+            "Rotation and translation: `x_in_a = a_from_b * x_in_b`.",
+            &[
+                (
+                    "rotation",
+                    "Float64Array",
+                    "Rotation matrix, 9 numbers by row.",
+                ),
+                (
+                    "quaternion",
+                    "Float64Array",
+                    "The same rotation as (w, x, y, z).",
+                ),
+                ("translation", "Float64Array", "3 numbers."),
+            ],
+        );
+        "RigidTransform".to_owned()
+    }
+
+    fn give(self) -> Value {
+        let q = self.rotation.quaternion();
+        record([
+            (
+                "rotation",
+                self.rotation.to_rotation_matrix().into_inner().give(),
+            ),
+            ("quaternion", Value::Doubles(vec![q.w, q.i, q.j, q.k])),
+            ("translation", self.translation.vector.give()),
+        ])
+    }
+}
+
+impl Answer for Intrinsics {
+    fn typescript(types: &mut Types) -> String {
+        <Self as Argument>::typescript(types)
+    }
+
+    fn give(self) -> Value {
+        let principal = self.principal_point();
+        record([
+            ("fuPx", self.fu_px().give()),
+            ("fvPx", self.fv_px().give()),
+            ("cuPx", principal.x.give()),
+            ("cvPx", principal.y.give()),
+        ])
+    }
+}
+
+impl Answer for Lens {
+    fn typescript(types: &mut Types) -> String {
+        <Self as Argument>::typescript(types)
+    }
+
+    fn give(self) -> Value {
+        record([
+            ("kind", Value::Text(self.kind().name().to_owned())),
+            ("coefficients", Value::Doubles(self.coefficients())),
+        ])
+    }
+}
+
+impl Answer for Camera {
+    fn typescript(types: &mut Types) -> String {
+        <Self as Argument>::typescript(types)
+    }
+
+    fn give(self) -> Value {
+        record([
+            ("width", self.width.give()),
+            ("height", self.height.give()),
+            ("intrinsics", self.intrinsics.give()),
+            ("lens", self.lens.give()),
+        ])
+    }
+}
+
+records! {
+    /// A camera with its pose.
+    PosedCamera as PosedCamera {
+        /// Size, intrinsics and lens.
+        camera: Camera,
+        /// Pose.
+        cam_from_world: RigidTransform,
+    }
+}
+
+impl<M: Answer> Answer for RansacReport<M> {
+    fn typescript(types: &mut Types) -> String {
+        let stop = StopReason::typescript(types);
+        types.interface(
+            "RansacReport<M>",
+            "Result of a robust estimation.",
+            &[
+                ("model", "M", "Best model, refined from its inliers."),
+                (
+                    "inliers",
+                    "Uint8Array",
+                    "1 for each datum within the threshold, otherwise 0.",
+                ),
+                ("numInliers", "number", "Number of inliers."),
+                (
+                    "numUniqueInliers",
+                    "number",
+                    "The same, equal data counted once.",
+                ),
+                (
+                    "numLeftOut",
+                    "number",
+                    "Data with infinite or huge coordinates, no inliers.",
+                ),
+                ("iterations", "number", "Samples drawn."),
+                (
+                    "requiredIterations",
+                    "number",
+                    "Samples required by the inlier ratio; Infinity if no number is enough.",
+                ),
+                ("maxErrorPx", "number", "Threshold of an inlier, pixels."),
+                ("score", "number", "Score of the model."),
+                (
+                    "log10FalseAlarms",
+                    "number | null",
+                    "Expected number of such models in random data, as a decimal logarithm.",
+                ),
+                ("refinements", "number", "Local optimizations."),
+                ("stop", &stop, "Reason for the end of the loop."),
+                (
+                    "couldBeChance",
+                    "boolean",
+                    "Whether random data might show as much support.",
+                ),
+            ],
+        );
+        format!("RansacReport<{}>", M::typescript(types))
+    }
+
+    fn give(self) -> Value {
+        let could_be_chance = self.could_be_chance();
+        let required = match self.required_iterations {
+            u64::MAX => f64::INFINITY,
+            number => number as f64,
+        };
+        record([
+            ("model", self.model.give()),
+            ("inliers", Mask(self.inliers).give()),
+            ("numInliers", self.num_inliers.give()),
+            ("numUniqueInliers", self.num_unique_inliers.give()),
+            ("numLeftOut", self.num_left_out.give()),
+            ("iterations", self.iterations.give()),
+            ("requiredIterations", required.give()),
+            ("maxErrorPx", self.max_error_px.give()),
+            ("score", self.score.give()),
+            ("log10FalseAlarms", self.log10_false_alarms.give()),
+            ("refinements", self.refinements.give()),
+            ("stop", self.stop.give()),
+            ("couldBeChance", could_be_chance.give()),
+        ])
+    }
+}

@@ -1,0 +1,202 @@
+//! Images: gray values, or colors of eight bits.
+
+use crate::answer::Answer;
+use crate::argument::{Argument, not};
+use crate::fault::{Fault, Result};
+use crate::types::Types;
+use crate::value::Value;
+use epipole::feature::photo_to_gray;
+use epipole::image::{GrayImage, ImageBuffer, Pixel, Rgb, RgbImage, RgbaImage};
+use epipole::imaging::{GrayImage32, gray_from_values, gray_to_f32, rgb_to_gray};
+
+/// Values beyond [0, 1] that filters may leave.
+const OVERSHOOT: f32 = 0.5;
+
+/// An image of any kind.
+pub enum Image {
+    /// Bytes, one a pixel.
+    Gray8(GrayImage),
+    /// Bytes, three a pixel.
+    Rgb8(RgbImage),
+    /// Bytes, four a pixel: an `ImageData`. Opacity is ignored where gray values are needed.
+    Rgba8(RgbaImage),
+    /// Floats, one a pixel.
+    Gray32(GrayImage32),
+}
+
+/// A gray image of floats with black 0 and white 1, from an image of any kind.
+pub struct Gray(pub GrayImage32);
+
+impl Image {
+    /// Gray values of bytes; floats stay as they are.
+    pub fn into_gray(self) -> Self {
+        match self {
+            Self::Rgb8(image) => Self::Gray8(rgb_to_gray(&image)),
+            Self::Rgba8(image) => Self::Gray8(rgb_to_gray(&opaque(&image))),
+            gray => gray,
+        }
+    }
+}
+
+fn opaque(image: &RgbaImage) -> RgbImage {
+    let color = |u, v| Rgb([0, 1, 2].map(|channel| image.get_pixel(u, v).0[channel]));
+    RgbImage::from_fn(image.width(), image.height(), color)
+}
+
+impl Argument for Image {
+    fn typescript(types: &mut Types) -> String {
+        types.interface(
+            "ImageLike",
+            "An image, rows from top to bottom: an ImageData, or an object like it.",
+            &[
+                ("width", "number", "Pixels."),
+                ("height", "number", "Pixels."),
+                (
+                    "data",
+                    "Uint8Array | Uint8ClampedArray | Float32Array | Float64Array | ArrayLike<number>",
+                    "Bytes: 1 (gray), 3 (RGB) or 4 (RGBA) a pixel. Floats: 1 a pixel, black 0 and white 1.",
+                ),
+            ],
+        );
+        "ImageLike".to_owned()
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        let Value::Record(_) = value else {
+            return Err(not(name, "an image with width, height and data", value));
+        };
+        let side = |key| {
+            let pixels = u32::read(&format!("{name}.{key}"), value.get(key))?;
+            match pixels {
+                1..=65_535 => Ok(pixels),
+                _ => Err(Fault::of_range(format!(
+                    "{name}.{key} must be from 1 to 65535, but is {pixels}"
+                ))),
+            }
+        };
+        let (width, height) = (side("width")?, side("height")?);
+        let count = width as usize * height as usize;
+        let wrong = |got: usize, expected: &str| {
+            Fault::of_range(format!(
+                "{name}.data must have {expected} for {width} x {height} pixels, but has {got}"
+            ))
+        };
+        let data = value.get("data");
+        if let Value::Bytes(bytes) = data {
+            let (got, bytes) = (bytes.len(), bytes.clone());
+            let image = match got {
+                _ if got == count => ImageBuffer::from_raw(width, height, bytes).map(Self::Gray8),
+                _ if got == 3 * count => {
+                    ImageBuffer::from_raw(width, height, bytes).map(Self::Rgb8)
+                }
+                _ if got == 4 * count => {
+                    ImageBuffer::from_raw(width, height, bytes).map(Self::Rgba8)
+                }
+                _ => None,
+            };
+            return image.ok_or_else(|| wrong(got, "1, 3 or 4 bytes a pixel"));
+        }
+        let floats: Vec<f32> = match data {
+            Value::Floats(floats) => floats.clone(),
+            Value::Doubles(doubles) => doubles.iter().map(|&x| x as f32).collect(),
+            _ => {
+                let expected = "an array of bytes or floats";
+                return Err(not(&format!("{name}.data"), expected, data));
+            }
+        };
+        if floats.len() != count {
+            return Err(wrong(floats.len(), "1 float a pixel"));
+        }
+        if let Some(place) = floats.iter().position(|value| !value.is_finite()) {
+            let (u, v) = (place % width as usize, place / width as usize);
+            return Err(Fault::of_range(format!(
+                "{name} has {} at pixel ({u}, {v})",
+                floats[place]
+            )));
+        }
+        Ok(Self::Gray32(gray_from_values(width, height, floats)?))
+    }
+}
+
+impl Argument for Gray {
+    fn typescript(types: &mut Types) -> String {
+        <Image as Argument>::typescript(types)
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        let image = match Image::read(name, value)? {
+            Image::Gray8(image) => gray_to_f32(&image),
+            Image::Rgb8(image) => photo_to_gray(&image),
+            Image::Rgba8(image) => photo_to_gray(&opaque(&image)),
+            Image::Gray32(image) => image,
+        };
+        let range = -OVERSHOOT..=1.0 + OVERSHOOT;
+        match image.as_raw().iter().find(|value| !range.contains(value)) {
+            None => Ok(Self(image)),
+            Some(value) => Err(Fault::of_range(format!(
+                "{name} must have gray values in [0, 1], but has {value}; divide by the value of white"
+            ))),
+        }
+    }
+}
+
+fn give<P: Pixel>(image: ImageBuffer<P, Vec<P::Subpixel>>, data: Value) -> Value {
+    Value::Record(vec![
+        ("width".into(), image.width().give()),
+        ("height".into(), image.height().give()),
+        ("data".into(), data),
+    ])
+}
+
+impl Answer for GrayImage32 {
+    fn typescript(types: &mut Types) -> String {
+        types.interface(
+            "GrayImage",
+            "Floats, one a pixel, rows from top to bottom.",
+            &[
+                ("width", "number", "Pixels."),
+                ("height", "number", "Pixels."),
+                ("data", "Float32Array", "Values."),
+            ],
+        );
+        "GrayImage".to_owned()
+    }
+
+    fn give(self) -> Value {
+        let data = Value::Floats(self.as_raw().clone());
+        give(self, data)
+    }
+}
+
+impl Answer for Image {
+    fn typescript(types: &mut Types) -> String {
+        types.interface(
+            "ImageOfKind",
+            "An image of the kind that was given: bytes or floats, with as many channels.",
+            &[
+                ("width", "number", "Pixels."),
+                ("height", "number", "Pixels."),
+                ("data", "Uint8Array | Float32Array", "Values."),
+            ],
+        );
+        "ImageOfKind".to_owned()
+    }
+
+    fn give(self) -> Value {
+        match self {
+            Self::Gray8(image) => {
+                let data = Value::Bytes(image.as_raw().clone());
+                give(image, data)
+            }
+            Self::Rgb8(image) => {
+                let data = Value::Bytes(image.as_raw().clone());
+                give(image, data)
+            }
+            Self::Rgba8(image) => {
+                let data = Value::Bytes(image.as_raw().clone());
+                give(image, data)
+            }
+            Self::Gray32(image) => image.give(),
+        }
+    }
+}

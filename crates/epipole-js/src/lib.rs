@@ -1,0 +1,129 @@
+//! The core for JavaScript: functions of plain data, by name.
+//!
+//! A call reads its arguments ([`argument`], [`options`]), computes, and gives plain data
+//! ([`answer`]); [`functions`] declares it. Files are named for the modules of the core. Each part
+//! is a cargo feature and a WebAssembly module of its own. The same table gives the calls, the type
+//! declarations in `web/vision/src/api.ts`, and the native results that tests compare bit for bit.
+
+pub mod answer;
+pub mod argument;
+pub mod bridge;
+pub mod fault;
+pub mod functions;
+pub mod options;
+pub mod pairs;
+pub mod types;
+pub mod value;
+
+#[cfg(feature = "geometry")]
+mod absolute_pose;
+#[cfg(feature = "geometry")]
+mod camera;
+#[cfg(feature = "geometry")]
+mod epipolar;
+#[cfg(feature = "images")]
+mod feature;
+#[cfg(feature = "homography")]
+mod homography;
+#[cfg(feature = "images")]
+pub mod images;
+#[cfg(feature = "images")]
+mod stereo;
+#[cfg(feature = "geometry")]
+mod synthetic;
+#[cfg(feature = "geometry")]
+mod triangulation;
+
+use epipole::progress::Monitor;
+use fault::{Fault, Result};
+use functions::{Function, Signature};
+use types::Types;
+use value::Value;
+
+/// Functions of one file.
+#[derive(Debug)]
+pub struct Group {
+    /// Part that the file belongs to.
+    pub part: &'static str,
+    /// Its functions.
+    pub functions: &'static [Function],
+}
+
+/// Functions of the parts of this build.
+pub const GROUPS: &[Group] = &[
+    #[cfg(feature = "homography")]
+    Group {
+        part: "homography",
+        functions: homography::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: camera::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: epipolar::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: triangulation::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: absolute_pose::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: synthetic::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: feature::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: stereo::FUNCTIONS,
+    },
+];
+
+/// Signatures of [`GROUPS`], in the same order.
+pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
+    vec![
+        #[cfg(feature = "homography")]
+        homography::signatures(types),
+        #[cfg(feature = "geometry")]
+        camera::signatures(types),
+        #[cfg(feature = "geometry")]
+        epipolar::signatures(types),
+        #[cfg(feature = "geometry")]
+        triangulation::signatures(types),
+        #[cfg(feature = "geometry")]
+        absolute_pose::signatures(types),
+        #[cfg(feature = "geometry")]
+        synthetic::signatures(types),
+        #[cfg(feature = "images")]
+        feature::signatures(types),
+        #[cfg(feature = "images")]
+        stereo::signatures(types),
+    ]
+}
+
+/// Calls a function by its name in JavaScript.
+///
+/// # Errors
+/// The error to throw.
+pub fn call(name: &str, given: &[Value], monitor: &mut dyn Monitor) -> Result<Value> {
+    let function = GROUPS
+        .iter()
+        .flat_map(|group| group.functions)
+        .find(|function| value::camel(function.name) == name)
+        .ok_or_else(|| Fault::of_type(format!("there is no function {name}")))?;
+    (function.call)(given, monitor)
+}

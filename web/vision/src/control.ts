@@ -1,0 +1,7 @@
+/** Control of a call, beside its options. */
+export interface Control {
+  /** Cancels the call: it rejects with the reason of the signal. */
+  signal?: AbortSignal | undefined;
+  /** Receives the stage in words and the completed share of the work, 0 to 1. */
+  progress?: ((stage: string, share: number) => void) | undefined;
+}

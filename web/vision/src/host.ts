@@ -1,0 +1,68 @@
+/** Loads the modules of the parts and calls them, in this thread. */
+
+import type { Part } from "./api.js";
+import { PARTS } from "./parts.js";
+import type { Bindings } from "./source.js";
+
+/** Receives stage and completed share; cancels by returning false. */
+export type Report = (stage: string, share: number) => boolean;
+
+const loading = new Map<Part, Promise<Bindings>>();
+const broken = new Set<Part>();
+
+/** Loads a part once; after a failure, the next call tries again. */
+export function loadPart(part: Part): Promise<Bindings> {
+  let bindings = loading.get(part);
+  if (bindings === undefined) {
+    bindings = load(part);
+    loading.set(part, bindings);
+    bindings.catch(() => loading.delete(part));
+  }
+  return bindings;
+}
+
+async function load(part: Part): Promise<Bindings> {
+  if (typeof WebAssembly === "undefined") throw new Error("WebAssembly is not available here");
+  const { script, wasm } = PARTS[part];
+  try {
+    await script.default({ module_or_path: await compile(wasm()) });
+    return script;
+  } catch (cause) {
+    const why = cause instanceof Error ? cause.message : String(cause);
+    throw new Error(`the part ${part} cannot be loaded: ${why}`, { cause });
+  }
+}
+
+async function compile(url: URL): Promise<WebAssembly.Module> {
+  if (url.protocol === "file:") {
+    // A variable, so that bundlers for browsers leave the import alone.
+    const name = "node:fs/promises";
+    const fs = (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)) as typeof import("node:fs/promises");
+    return WebAssembly.compile(await fs.readFile(url));
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url.href} answers ${response.status}`);
+  // Some servers send another type, which streaming refuses.
+  if (response.headers.get("content-type")?.startsWith("application/wasm")) {
+    return WebAssembly.compileStreaming(response);
+  }
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** Calls a function of a loaded part. Throws a fault, or the error of a module that stops. */
+export function callPart(
+  bindings: Bindings,
+  part: Part,
+  name: string,
+  given: readonly unknown[],
+  report?: Report,
+): unknown {
+  if (broken.has(part)) throw new Error(`the part ${part} has stopped: use a worker, or reload the page`);
+  try {
+    return bindings.call(name, given, report);
+  } catch (problem) {
+    if (!(problem instanceof WebAssembly.RuntimeError)) throw problem;
+    broken.add(part);
+    throw new Error(`${name} has stopped: ${problem.message} (out of memory?)`, { cause: problem });
+  }
+}

@@ -1,0 +1,289 @@
+// Tests calls with good and bad input, in this thread and in a worker.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Vision, VisionError } from "../dist/index.js";
+
+/** A square, and the same moved by (2, 3) and scaled by 2. */
+const SQUARE = [[0, 0], [100, 0], [100, 100], [0, 100]];
+const moved = (pixels) => pixels.map(([u, v]) => [2 * u + 2, 2 * v + 3]);
+
+/** Both ways of running. */
+for (const worker of [false, true]) {
+  const where = worker ? "in a worker" : "in this thread";
+  const withVision = (name, body) =>
+    test(`${name} ${where}`, async () => {
+      const vision = await Vision.load({ worker });
+      try {
+        await body(vision);
+      } finally {
+        vision.close();
+      }
+    });
+
+  withVision("a homography of four points is exact", async (vision) => {
+    const [h] = await vision.homography4point(SQUARE, moved(SQUARE));
+    const by = [2, 0, 2, 0, 2, 3, 0, 0, 1].map((number) => number / h[8] * h[8]);
+    assert.equal(h.length, 9);
+    h.forEach((number, index) => assert.ok(Math.abs(number / h[8] - by[index]) < 1e-12));
+  });
+
+  withVision("points may be interleaved or pairs, of any type of array", async (vision) => {
+    const pairs = await vision.fitHomography(SQUARE, moved(SQUARE));
+    for (const type of [Array, Float64Array, Float32Array, Uint8Array, Int16Array, Uint32Array]) {
+      const [first, second] = [SQUARE, moved(SQUARE)].map((pixels) => type.from(pixels.flat()));
+      assert.deepEqual(await vision.fitHomography(first, second), pairs, type.name);
+    }
+    assert.deepEqual(await vision.fitHomography(SQUARE.map((p) => Float64Array.from(p)), moved(SQUARE)), pairs);
+  });
+
+  withVision("results are plain objects that the caller owns", async (vision) => {
+    const world = await vision.twoViewProblem({ numPoints: 60, outlierFraction: 0.2 });
+    const report = await vision.estimateFundamental(world.pixels1, world.pixels2, { maxErrorPx: 0.5 });
+    assert.deepEqual(Object.getPrototypeOf(report), Object.prototype);
+    assert.ok(report.model instanceof Float64Array && report.inliers instanceof Uint8Array);
+    assert.equal(report.inliers.reduce((sum, flag) => sum + flag), report.numInliers);
+    assert.equal(report.stop, "confident");
+    assert.deepEqual(structuredClone(report), report);
+  });
+
+  const bad = [
+    ["a NaN", [[...SQUARE, [NaN, 1]], SQUARE], RangeError, "pixels1 contains NaN in row 4"],
+    ["an odd number of numbers", [[1, 2, 3], SQUARE], RangeError, /^pixels1 must have 2 numbers for each row/],
+    ["a point of three numbers", [[[1, 2, 3]], SQUARE], RangeError, "pixels1[0] must have 2 numbers, but has 3"],
+    ["different lengths", [SQUARE, SQUARE.slice(1)], RangeError, /same size.* 4 .* 3$/],
+    ["no second argument", [SQUARE], TypeError, /^pixels2 must be an array .* missing$/],
+    ["a string", ["points", SQUARE], TypeError, /^pixels1 must be an array .* the string "points"$/],
+    ["null", [null, SQUARE], TypeError, /^pixels1 must be an array .* missing$/],
+    ["an object", [{}, SQUARE], TypeError, /^pixels1 must be an array .* an object$/],
+    ["an unknown option", [SQUARE, SQUARE, { maxErorPx: 1 }], TypeError, /^options has no maxErorPx; it has maxErrorPx, /],
+    ["an option in snake case", [SQUARE, SQUARE, { max_error_px: 1 }], TypeError, /^options has no max_error_px/],
+    ["a string for a number", [SQUARE, SQUARE, { maxErrorPx: "1" }], TypeError, 'options.maxErrorPx must be a number, but is the string "1"'],
+    ["NaN for a number", [SQUARE, SQUARE, { maxErrorPx: NaN }], RangeError, "options.maxErrorPx is NaN"],
+    ["a negative threshold", [SQUARE, SQUARE, { maxErrorPx: -1 }], RangeError, /largest error .* -1$/],
+    ["a fraction for a count", [SQUARE, SQUARE, { maxIterations: 1.5 }], RangeError, /^options.maxIterations must be an integer .* 1.5$/],
+    ["a negative seed", [SQUARE, SQUARE, { seed: -1 }], RangeError, /^options.seed must be an integer .* -1$/],
+    ["an unknown choice", [SQUARE, SQUARE, { sampler: "best" }], TypeError, 'options.sampler must be one of uniform, prosac, but is the string "best"'],
+    ["options that are a number", [SQUARE, SQUARE, 3], TypeError, "options must be an object, but is 3"],
+    ["too many arguments", [SQUARE, SQUARE, {}, 1], TypeError, "estimateHomography takes at most 3 arguments, but is given 4"],
+    ["a signal that is none", [SQUARE, SQUARE, { signal: 1 }], TypeError, "options.signal must be an AbortSignal"],
+    ["progress that is none", [SQUARE, SQUARE, { progress: 1 }], TypeError, "options.progress must be a function"],
+  ];
+  withVision("bad input is an error that names the argument", async (vision) => {
+    for (const [what, given, type, message] of bad) {
+      const problem = await vision.estimateHomography(...given).then(() => assert.fail(`${what} passes`), (error) => error);
+      assert.equal(problem.constructor, type, `${what}: ${problem}`);
+      if (typeof message === "string") assert.equal(problem.message, message);
+      else assert.match(problem.message, message);
+    }
+    // The next call works.
+    assert.equal((await vision.estimateHomography(SQUARE, moved(SQUARE))).numInliers, 4);
+  });
+
+  withVision("data without a result are a VisionError with a code", async (vision) => {
+    const codeOf = (call) => call.then(() => assert.fail("no error"), (error) => {
+      assert.ok(error instanceof VisionError, String(error));
+      return error.code;
+    });
+    const line = [[0, 0], [1, 1], [2, 2], [3, 3], [4, 4], [5, 5]];
+    assert.equal(await codeOf(vision.fitHomography(SQUARE.slice(1), SQUARE.slice(1))), "TooFew");
+    assert.equal(await codeOf(vision.fitHomography(line, line)), "Degenerate");
+    assert.equal(await codeOf(vision.estimateHomography(line, line)), "Degenerate");
+  });
+
+  withVision("bad cameras and poses name the field", async (vision) => {
+    const { camera1, camera2, pixels1, pixels2 } = await vision.twoViewProblem();
+    const camera = camera1.camera;
+    const cases = [
+      [{ ...camera, width: -1 }, RangeError, /^camera1.width must be an integer/],
+      [{ ...camera, intrinsics: { ...camera.intrinsics, fuPx: 0 } }, RangeError, /^camera1.intrinsics: the focal length along u/],
+      [{ ...camera, focal: 3 }, TypeError, /^camera1 has no focal; it has width/],
+      [{ ...camera, lens: { kind: "fish", coefficients: [] } }, TypeError, /^camera1.lens.kind must be one of brown/],
+      [{ ...camera, lens: { kind: "brown", coefficients: [1] } }, RangeError, /^camera1.lens: /],
+      [undefined, TypeError, "camera1 must be an object, but is missing"],
+    ];
+    for (const [given, type, message] of cases) {
+      await assert.rejects(vision.estimateEssential(pixels1, pixels2, given, camera), (problem) => {
+        assert.equal(problem.constructor, type, String(problem));
+        if (typeof message === "string") assert.equal(problem.message, message);
+        else assert.match(problem.message, message);
+        return true;
+      });
+    }
+    const skewed = { ...camera2, camFromWorld: { rotation: [1, 0, 0, 0, 1, 0, 0, 1, 1] } };
+    await assert.rejects(vision.fundamentalFromCameras(camera1, skewed), /^RangeError: camera2.camFromWorld.rotation must be a rotation/);
+    const long = { ...camera2, camFromWorld: { quaternion: [1, 1, 0, 0] } };
+    await assert.rejects(vision.fundamentalFromCameras(camera1, long), /^RangeError: camera2.camFromWorld.quaternion must have length 1/);
+  });
+
+  withVision("images are gray, color or floats, also an ImageData", async (vision) => {
+    const [width, height] = [3, 2];
+    const gray = Uint8Array.from([0, 51, 102, 153, 204, 255]);
+    const rgba = Uint8ClampedArray.from([...gray].flatMap((value) => [value, value, value, 255]));
+    const rgb = Uint8Array.from([...gray].flatMap((value) => [value, value, value]));
+    const expected = { width, height, data: Float32Array.from(gray, (value) => value / 255) };
+    for (const data of [gray, rgba, rgb, expected.data]) {
+      assert.deepEqual(await vision.photoToGray({ width, height, data }), expected, `${data.length} values`);
+    }
+    // As in pages: an object whose properties are those of its prototype.
+    if (!worker) {
+      class ImageData {
+        get width() { return width; }
+        get height() { return height; }
+        get data() { return rgba; }
+      }
+      assert.deepEqual(await vision.photoToGray(new ImageData()), expected);
+    }
+  });
+
+  withVision("bad images name what is wrong", async (vision) => {
+    const data = new Uint8Array(12);
+    const cases = [
+      [undefined, TypeError, "photo must be an image with width, height and data, but is missing"],
+      [{ width: 4, height: 4, data }, RangeError, "photo.data must have 1, 3 or 4 bytes a pixel for 4 x 4 pixels, but has 12"],
+      [{ width: 0, height: 4, data }, RangeError, "photo.width must be from 1 to 65535, but is 0"],
+      [{ width: 3, height: 4.5, data }, RangeError, "photo.height must be an integer from 0 to 4294967295, but is 4.5"],
+      [{ width: 3, height: 4 }, TypeError, "photo.data must be an array of bytes or floats, but is missing"],
+      [{ width: 2, height: 1, data: Float32Array.of(0, NaN) }, RangeError, "photo has NaN at pixel (1, 0)"],
+      [{ width: 2, height: 1, data: Float32Array.of(0, 200) }, RangeError, "photo must have gray values in [0, 1], but has 200; divide by the value of white"],
+      [{ width: 2, height: 1, data: Float32Array.of(0) }, RangeError, "photo.data must have 1 float a pixel for 2 x 1 pixels, but has 1"],
+    ];
+    for (const [photo, type, message] of cases) {
+      await assert.rejects(vision.photoToGray(photo), (problem) => {
+        assert.equal(problem.message, message);
+        assert.equal(problem.constructor, type);
+        return true;
+      });
+    }
+    const empty = { kind: "bytes", dimension: 128, data: new Float32Array(128) };
+    await assert.rejects(vision.matchDescriptors(empty, empty), /^TypeError: descriptors1.data must be a Uint8Array/);
+    const short = { kind: "bits", dimension: 256, data: new Uint8Array(31) };
+    await assert.rejects(vision.matchDescriptors(short, short), /^RangeError: descriptors1 must have 256 bits each/);
+    const left = { width: 4, height: 3, data };
+    const right = { width: 4, height: 3, data: new Float32Array(12) };
+    await assert.rejects(vision.stereoSgm(left, right), /^TypeError: left and right must be both bytes or both floats/);
+    await assert.rejects(vision.stereoSgm(left, { width: 3, height: 4, data }), RangeError);
+    await assert.rejects(vision.stereoBm(left, left, { numDisparities: 1e6 }), RangeError);
+  });
+
+  withVision("features of two images match", async (vision) => {
+    const [width, height] = [96, 64];
+    // Blocks of random brightness, and the same two pixels to the left.
+    const at = (u, v) => ((Math.floor(u / 7) * 7919 + Math.floor(v / 5) * 104729 + Math.floor(u / 7) * Math.floor(v / 5) * 31) % 251);
+    const picture = (shift) => ({ width, height, data: Uint8Array.from({ length: width * height }, (_, i) => at((i % width) + shift, Math.floor(i / width))) });
+    const [first, second] = await Promise.all([0, 2].map((shift) => vision.detectSift(picture(shift))));
+    const { indices1, indices2 } = await vision.matchDescriptors(first.descriptors, second.descriptors);
+    assert.ok(indices1.length > 20, `${indices1.length} matches`);
+    const moved = [...indices1].map((index, k) => first.keypoints.points[2 * index] - second.keypoints.points[2 * indices2[k]]);
+    assert.ok(moved.filter((shift) => Math.abs(shift - 2) < 0.3).length > 0.8 * moved.length);
+  });
+
+  withVision("a detached buffer is an error", async (vision) => {
+    const pixels = Float64Array.from(SQUARE.flat());
+    structuredClone(pixels, { transfer: [pixels.buffer] });
+    await assert.rejects(vision.fitHomography(pixels, SQUARE), {
+      name: "TypeError",
+      message: "pixels1 is detached: its buffer was transferred",
+    });
+    await assert.rejects(vision.fitHomography([pixels], SQUARE), /pixels1.0 is detached/);
+    // An array that is only empty is none.
+    await assert.rejects(vision.fitHomography(new Float64Array(0), []), { code: "TooFew" });
+  });
+
+  withVision("values that are no data are errors", async (vision) => {
+    const ring = [];
+    ring.push(ring);
+    for (const value of [() => 1, Symbol("x"), 10n, ring, new Map()]) {
+      await assert.rejects(vision.fitHomography(value, SQUARE), TypeError);
+    }
+    assert.equal((await vision.fitHomography(SQUARE, moved(SQUARE))).length, 9);
+  });
+
+  withVision("an aborted signal rejects with its reason", async (vision) => {
+    await assert.rejects(vision.estimateHomography(SQUARE, SQUARE, { signal: AbortSignal.abort() }), { name: "AbortError" });
+    const reason = new Error("enough");
+    await assert.rejects(vision.estimateHomography(SQUARE, SQUARE, { signal: AbortSignal.abort(reason) }), reason);
+    assert.equal((await vision.estimateHomography(SQUARE, moved(SQUARE))).numInliers, 4);
+  });
+
+  withVision("progress reports stages, and abort or an error in it ends the call", async (vision) => {
+    const world = await vision.twoViewProblem({ numPoints: 3000, outlierFraction: 0.6, noisePx: 0.5 });
+    const slow = { minIterations: 20000, maxIterations: 20000 };
+    const estimate = (options) => vision.estimateFundamental(world.pixels1, world.pixels2, { ...slow, ...options });
+    const seen = [];
+    await estimate({ progress: (stage, share) => seen.push([stage, share]) });
+    assert.ok(seen.length > 2, `${seen.length} reports`);
+    assert.ok(seen.every(([stage]) => stage === "drawing samples"));
+    assert.ok(seen.every(([, share], index) => share >= (seen[index - 1]?.[1] ?? 0) && share <= 1));
+    const controller = new AbortController();
+    const start = performance.now();
+    await assert.rejects(estimate({ signal: controller.signal, progress: () => controller.abort() }), { name: "AbortError" });
+    await assert.rejects(estimate({ progress: () => { throw new Error("mine"); } }), /mine/);
+    assert.ok(performance.now() - start < 5000);
+    assert.equal((await vision.estimateHomography(SQUARE, moved(SQUARE))).numInliers, 4);
+  });
+
+  withVision("a closed Vision refuses calls", async (vision) => {
+    await vision.fitHomography(SQUARE, SQUARE);
+    const running = vision.fitHomography(SQUARE, SQUARE);
+    vision.close();
+    vision.close();
+    await assert.rejects(running, /this Vision is closed/);
+    await assert.rejects(vision.fitHomography(SQUARE, SQUARE), /this Vision is closed/);
+  });
+
+  test(`two loads at once are independent ${where}`, async () => {
+    const [first, second] = await Promise.all([
+      Vision.load({ worker, parts: ["homography"] }),
+      Vision.load({ worker, parts: ["homography", "geometry"] }),
+    ]);
+    const results = await Promise.all([first, second, first].map((vision) => vision.fitHomography(SQUARE, moved(SQUARE))));
+    assert.deepEqual(results[0], results[1]);
+    first[Symbol.dispose]();
+    await assert.rejects(first.fitHomography(SQUARE, SQUARE), /closed/);
+    assert.deepEqual(await second.fitHomography(SQUARE, moved(SQUARE)), results[0]);
+    second.close();
+  });
+}
+
+test("abort of a waiting call leaves the others", async () => {
+  const vision = await Vision.load({ worker: true });
+  const world = await vision.twoViewProblem({ numPoints: 2000, outlierFraction: 0.5 });
+  const long = vision.estimateFundamental(world.pixels1, world.pixels2, { minIterations: 3000 });
+  const controller = new AbortController();
+  const waiting = vision.estimateHomography(SQUARE, SQUARE, { signal: controller.signal });
+  const last = vision.fitHomography(SQUARE, SQUARE);
+  controller.abort();
+  await assert.rejects(waiting, { name: "AbortError" });
+  assert.ok((await long).numInliers > 900);
+  assert.equal((await last).length, 9);
+  vision.close();
+});
+
+test("abort of a running call starts another worker for the next", async () => {
+  const vision = await Vision.load({ worker: true });
+  const world = await vision.twoViewProblem({ numPoints: 3000, outlierFraction: 0.6 });
+  const signal = AbortSignal.timeout(50);
+  const endless = { minIterations: 1e9, maxIterations: 1e9, signal };
+  const long = vision.estimateFundamental(world.pixels1, world.pixels2, endless);
+  const next = vision.fitHomography(SQUARE, SQUARE);
+  await assert.rejects(long, { name: "TimeoutError" });
+  assert.equal((await next).length, 9);
+  vision.close();
+});
+
+test("unknown options of load are errors", async () => {
+  await assert.rejects(Vision.load({ workers: true }), /^TypeError: Vision.load has no option workers/);
+  await assert.rejects(Vision.load({ worker: 1 }), /^TypeError: worker must be true or false, but is 1/);
+  await assert.rejects(Vision.load({ parts: ["hough"] }), /^TypeError: there is no part hough; the parts are homography/);
+});
+
+test("a process ends without closing", async () => {
+  const { execFileSync } = await import("node:child_process");
+  const index = new URL("../dist/index.js", import.meta.url).href;
+  const code = `import { Vision } from ${JSON.stringify(index)};
+    const vision = await Vision.load({ worker: true });
+    console.log((await vision.fitHomography([0, 0, 1, 0, 1, 1, 0, 1], [0, 0, 1, 0, 1, 1, 0, 1])).length);`;
+  const out = execFileSync(process.execPath, ["--input-type=module", "-e", code], { timeout: 20_000, encoding: "utf8" });
+  assert.equal(out, "9\n");
+});

@@ -1,0 +1,114 @@
+// Tests the package itself: the examples of the README, its files, and their size.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { brotliCompressSync, constants } from "node:zlib";
+
+const folder = new URL("../", import.meta.url);
+const read = (path) => readFileSync(new URL(path, folder));
+
+/** Size as a server sends it, bytes. */
+function brotli(...paths) {
+  const params = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_LGWIN]: 24 };
+  return paths.map((path) => brotliCompressSync(read(path), { params }).length).reduce((sum, size) => sum + size);
+}
+
+/** A program of a user, compiled without skipping the types of libraries. */
+const USE = `import { Vision, VisionError, type RansacReport } from "@epipole/vision";
+const vision: Vision = await Vision.load({ worker: false, parts: ["homography"] });
+const pixels = new Float64Array(8);
+const report: RansacReport<Float64Array> = await vision.estimateHomography(pixels, [[0, 1]], {
+  maxErrorPx: 2,
+  sampler: "prosac",
+  signal: AbortSignal.timeout(100),
+  progress: (stage, share) => console.log(stage.length, share.toFixed(2)),
+});
+const world = await vision.twoViewProblem({ structure: { plane: { halfSideM: 1 } } });
+const pose = await vision.estimateRelativePose(world.pixels1, world.pixels2, world.camera1.camera, world.camera2.camera);
+await vision.refineHomography(report.model, pixels, pixels, { huber: { width: 1 } });
+await vision.fundamentalFromCameras(world.camera1, { camera: world.camera2.camera, camFromWorld: { translation: [0, 0, 1] } });
+const image = { width: 2, height: 1, data: new Uint8ClampedArray(8) };
+const sift = await vision.detectSift(image as ImageData, { maxFeatures: 10 });
+await vision.matchDescriptors(sift.descriptors, sift.descriptors);
+console.log(pose.model.direction[0], report.log10FalseAlarms?.toFixed(1), VisionError.name);
+vision[Symbol.dispose]();
+// @ts-expect-error
+await vision.estimateHomography(pixels);
+// @ts-expect-error
+await vision.estimateHomography(pixels, pixels, { maxErorPx: 1 });
+// @ts-expect-error
+await vision.estimateHomography(pixels, pixels, { sampler: "best" });
+// @ts-expect-error
+await vision.estimateHomography("pixels", 3);
+// @ts-expect-error
+await Vision.load({ parts: ["hough"] });
+// @ts-expect-error
+new Vision();
+`;
+
+const readme = read("README.md").toString();
+const examples = [...readme.matchAll(/```js\n([\s\S]*?)```/g)].map(([, code]) => code);
+for (const [index, code] of examples.entries()) {
+  test(`example ${index + 1} of the README prints what it says`, () => {
+    const expected = [...code.matchAll(/console\.log\(.*\/\/ (.*)/g)].map(([, text]) => text);
+    assert.ok(expected.length > 0);
+    const local = code.replace("@epipole/vision", new URL("dist/index.js", folder).href);
+    const options = { timeout: 30_000, encoding: "utf8" };
+    const out = execFileSync(process.execPath, ["--input-type=module", "-e", local], options);
+    assert.deepEqual(out.trim().split("\n"), expected);
+  });
+}
+
+test("the package contains scripts, modules, types and licenses, and no dependency", () => {
+  const { dependencies } = JSON.parse(read("package.json"));
+  assert.equal(dependencies, undefined);
+  const pack = ["pack", "--dry-run", "--json", "--ignore-scripts"];
+  const [{ files }] = JSON.parse(execFileSync("npm", pack, { cwd: fileURLToPath(folder), encoding: "utf8" }));
+  const names = files.map(({ path }) => path);
+  for (const name of ["index.js", "index.d.ts", "api.d.ts", "worker.js", "THIRD-PARTY.txt", "LICENSE-MIT", "LICENSE-APACHE"]) {
+    assert.ok(names.includes(`dist/${name}`), name);
+  }
+  const scripts = names.filter((name) => name.endsWith(".js"));
+  for (const name of scripts) {
+    for (const [, path] of read(name).toString().matchAll(/(?:from|import|import\(|URL\() ?"(\.\/[^"]+)"/g)) {
+      assert.ok(names.includes(new URL(path, `file:///${name}`).pathname.slice(1)), `${name} needs ${path}`);
+    }
+  }
+});
+
+test("types accept good calls, and refuse bad ones", () => {
+  const temporary = mkdtempSync(join(tmpdir(), "vision-types-"));
+  try {
+    const index = fileURLToPath(new URL("dist/index.js", folder));
+    writeFileSync(join(temporary, "use.mts"), USE.replace("@epipole/vision", index));
+    const require = createRequire(new URL("../package.json", folder));
+    const options = ["--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom"];
+    execFileSync(process.execPath, [require.resolve("typescript/bin/tsc"), ...options, "use.mts"], { cwd: temporary, encoding: "utf8" });
+  } finally {
+    rmSync(temporary, { recursive: true });
+  }
+});
+
+test("a homography costs a page at most 90 KB, everything at most 450 KB", (t) => {
+  const files = readdirSync(new URL("dist", folder), { recursive: true });
+  const scripts = brotli(...files.filter((name) => name.endsWith(".js")).map((name) => `dist/${name}`));
+  t.diagnostic(`scripts: ${(scripts / 1000).toFixed(1)} KB`);
+  const sizes = {};
+  for (const name of files.filter((name) => name.endsWith(".wasm"))) {
+    const part = name.replace(/.*[/\\]|\.wasm/g, "");
+    sizes[part] = brotli(`dist/${name}`);
+    t.diagnostic(`${part}: ${(sizes[part] / 1000).toFixed(1)} KB`);
+    const [, said] = new RegExp(`\\| \`${part}\` \\|.*\\| (\\d+) KB`).exec(readme) ?? [];
+    assert.ok(Math.abs(sizes[part] / 1000 - said) < 0.05 * said, `the README says ${said} KB for ${part}`);
+  }
+  const all = Object.values(sizes).reduce((sum, size) => sum + size, scripts);
+  t.diagnostic(`everything: ${(all / 1000).toFixed(1)} KB`);
+  assert.ok(scripts + sizes.homography <= 90_000);
+  assert.ok(all <= 450_000);
+});
