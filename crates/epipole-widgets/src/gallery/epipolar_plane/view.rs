@@ -279,12 +279,13 @@ fn draw_formula(model: &EpipolarPlane, layout: &Layout, canvas: &mut Canvas) {
         };
         let is_lit = lights.contains(&lit);
         let role = if is_lit { LIT } else { Role::Ink };
-        let width = text_width(text, size);
+        let gap = if *level == Level::Base { 0.0 } else { 1.0 };
+        let width = text_width(text, size) + gap;
         canvas.label((x, y + down), text, TextStyle::new(role, size));
         if is_lit {
             canvas.fill_rect(Rect::new(x, y + 10.0, width, 2.0), LIT, 1.0);
         }
-        x += width + if *level == Level::Base { 0.0 } else { 1.0 };
+        x += width;
     }
     let words = match lit {
         Lit::Point => "the images of P",
