@@ -98,7 +98,7 @@ for (const [what, options, says] of [
 
 for (const [what, options] of [
   ["no script of the worker", { missing: /worker\.js$/ }],
-  ["no script of a part", { missing: /homography\.part\.js$/ }],
+  ["no script of the parts", { missing: /parts\.js$/ }],
   ["a policy without workers", { policy: `${POLICY}; worker-src 'none'` }],
 ]) {
   test(`${what} is an error`, async ({ page }) => {

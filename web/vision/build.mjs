@@ -2,7 +2,8 @@
 //
 // --bindings is the folder with the scripts and modules of the parts that `epipole-book vision` makes;
 // --modules makes them first. Every source becomes a script of its own, so that bundlers find workers
-// and modules by their addresses. dist/ also contains the types, the licenses and THIRD-PARTY.txt.
+// and modules by their addresses; parts.js contains the scripts of all modules. dist/ also contains the
+// types, the licenses and THIRD-PARTY.txt.
 
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -29,31 +30,29 @@ if (values.modules) {
 }
 
 const require = createRequire(join(here, "../package.json"));
-const { transformSync } = require("esbuild");
-const script = (from, to, loader) => {
-  // Not our own: minifying removes the marks of imports that bundlers leave alone.
-  const how = { loader, minify: loader === "js", target: "es2022", format: "esm" };
-  const { code } = transformSync(readFileSync(from, "utf8"), how);
-  writeFileSync(to, code);
-};
+const { build } = require("esbuild");
 
 // Remove files of earlier builds, which would be shipped otherwise.
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "parts"), { recursive: true });
-const sources = readdirSync(join(here, "src")).filter((name) => name.endsWith(".ts") && !name.endsWith(".d.ts"));
-for (const name of sources) script(join(here, "src", name), join(out, name.replace(/ts$/, "js")), "ts");
-
-const parts = readFileSync(join(here, "src/parts.ts"), "utf8").matchAll(/parts\/(\w+)\.wasm/g);
-for (const [, part] of parts) {
-  const name = `epipole_js_${part.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}`;
-  const wasm = join(bindings, `${name}_bg.wasm`);
-  if (!existsSync(wasm)) {
-    console.error(`${wasm} is missing: \`make vision\` makes it`);
+const parts = {};
+for (const [, part] of readFileSync(join(here, "src/parts.ts"), "utf8").matchAll(/parts\/(\w+)\.wasm/g)) {
+  const name = join(bindings, `epipole_js_${part.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`)}`);
+  if (!existsSync(`${name}_bg.wasm`)) {
+    console.error(`${name}_bg.wasm is missing: \`make vision\` makes it`);
     process.exit(1);
   }
-  copyFileSync(wasm, join(out, "parts", `${part}.wasm`));
-  script(join(bindings, `${name}.js`), join(out, "parts", `${part}.part.js`), "js");
+  copyFileSync(`${name}_bg.wasm`, join(out, "parts", `${part}.wasm`));
+  parts[`./parts/${part}.part.js`] = `${name}.js`;
 }
+const script = { entryNames: "[name]", outdir: out, minify: true, target: "es2022", format: "esm", logLevel: "warning" };
+const sources = readdirSync(join(here, "src")).filter((name) => name.endsWith(".ts") && !name.endsWith(".d.ts"));
+const entries = (names) => names.map((name) => join(here, "src", name));
+await build({ ...script, entryPoints: entries(sources.filter((name) => name !== "parts.ts")) });
+// The scripts of the parts are nearly the same: compressed, three in one file are little more than one.
+const find = (builder) => builder.onResolve({ filter: /\.part\.js$/ }, ({ path }) => ({ path: parts[path] }));
+await build({ ...script, entryPoints: entries(["parts.ts"]), bundle: true, plugins: [{ name: "parts", setup: find }] });
+for (const name of readdirSync(out).filter((name) => name.endsWith(".js"))) leaveAlone(join(out, name));
 
 const tsc = require.resolve("typescript/bin/tsc");
 const project = ["-p", here, "--emitDeclarationOnly", "--outDir", out];
@@ -61,6 +60,12 @@ execFileSync(process.execPath, [tsc, ...project], { stdio: "inherit" });
 keepTypes("index");
 for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) copyFileSync(join(root, name), join(out, name));
 copyFileSync(join(here, "THIRD-PARTY.txt"), join(out, "THIRD-PARTY.txt"));
+
+/** Marks imports of Node's modules for bundlers to leave alone; minifying has removed the source's marks. */
+function leaveAlone(path) {
+  const text = readFileSync(path, "utf8");
+  writeFileSync(path, text.replace(/\bimport\((?=\w|["'`]node:)/g, "import(/* webpackIgnore: true */ /* @vite-ignore */ "));
+}
 
 /** Removes the types that nobody can ask for, and the scripts that contain types only. */
 function keepTypes(...names) {

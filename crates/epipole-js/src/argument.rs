@@ -123,9 +123,8 @@ impl<const D: usize> Argument for Vectors<D> {
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {
-        let numbers = flat(name, value, D, || {
-            format!("numbers, {D} for each point, or an array of points")
-        })?;
+        let expected = format!("numbers, {D} for each point, or an array of points");
+        let numbers = flat(name, value, D, &expected)?;
         Ok(Self(
             numbers
                 .chunks_exact(D)
@@ -160,12 +159,7 @@ impl<const N: usize, const D: usize> Argument for Sample<N, D> {
 }
 
 /// Numbers of an array of rows with `width` each, or of one flat array. Refuses NaN.
-fn flat(
-    name: &str,
-    value: &Value,
-    width: usize,
-    expected: impl Fn() -> String,
-) -> Result<Vec<f64>> {
+fn flat(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f64>> {
     let mut out = Vec::new();
     if let Some(numbers) = value.numbers() {
         if numbers.len() % width != 0 {
@@ -191,7 +185,7 @@ fn flat(
             out.extend_from_slice(&numbers);
         }
     } else {
-        return Err(not(name, &format!("an array of {}", expected()), value));
+        return Err(not(name, &format!("an array of {expected}"), value));
     }
     match out.iter().position(|number| number.is_nan()) {
         Some(place) => Err(Fault::of_range(format!(
@@ -199,6 +193,23 @@ fn flat(
             place / width
         ))),
         None => Ok(out),
+    }
+}
+
+/// Finite numbers of a matrix by row. One function for matrices of all sizes.
+fn matrix(name: &str, value: &Value, rows: usize, columns: usize) -> Result<Vec<f64>> {
+    let width = if columns == 1 { rows } else { columns };
+    let numbers = flat(name, value, width, "numbers")?;
+    if numbers.len() != rows * columns {
+        return Err(Fault::of_range(format!(
+            "{name} must have {} numbers, but has {}",
+            rows * columns,
+            numbers.len()
+        )));
+    }
+    match numbers.iter().any(|number| number.is_infinite()) {
+        true => Err(Fault::of_range(format!("{name} contains infinity"))),
+        false => Ok(numbers),
     }
 }
 
@@ -217,18 +228,7 @@ impl<const R: usize, const C: usize> Argument for SMatrix<f64, R, C> {
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {
-        let width = if C == 1 { R } else { C };
-        let numbers = flat(name, value, width, || "numbers".to_owned())?;
-        if numbers.len() != R * C {
-            return Err(Fault::of_range(format!(
-                "{name} must have {} numbers, but has {}",
-                R * C,
-                numbers.len()
-            )));
-        }
-        if numbers.iter().any(|number| number.is_infinite()) {
-            return Err(Fault::of_range(format!("{name} contains infinity")));
-        }
+        let numbers = matrix(name, value, R, C)?;
         Ok(SMatrix::from_row_slice(&numbers))
     }
 }
@@ -330,7 +330,7 @@ impl Argument for Lens {
             &format!("{name}.coefficients"),
             value.get("coefficients"),
             1,
-            || "numbers".to_owned(),
+            "numbers",
         )?;
         Self::from_coefficients(kind, &coefficients)
             .map_err(|error| Fault::of_range(format!("{name}: {error}")))
@@ -422,7 +422,7 @@ fn rotation(name: &str, matrix: Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
     if deviation > ROUNDING || matrix.determinant() < 0.0 {
         return Err(Fault::of_range(format!(
             "{name}.rotation must be a rotation matrix, but has determinant {} and differs from an \
-             orthogonal matrix by {deviation:.1e}",
+             orthogonal matrix by {deviation}",
             matrix.determinant()
         )));
     }

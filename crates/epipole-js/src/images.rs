@@ -111,7 +111,7 @@ impl Argument for Image {
             let (u, v) = (place % width as usize, place / width as usize);
             return Err(Fault::of_range(format!(
                 "{name} has {} at pixel ({u}, {v})",
-                floats[place]
+                f64::from(floats[place])
             )));
         }
         Ok(Self::Gray32(gray_from_values(width, height, floats)?))
@@ -134,7 +134,8 @@ impl Argument for Gray {
         match image.as_raw().iter().find(|value| !range.contains(value)) {
             None => Ok(Self(image)),
             Some(value) => Err(Fault::of_range(format!(
-                "{name} must have gray values in [0, 1], but has {value}; divide by the value of white"
+                "{name} must have gray values in [0, 1], but has {}; divide by the value of white",
+                f64::from(*value)
             ))),
         }
     }
