@@ -78,7 +78,8 @@ function containing(all: Section[], words: string[]): Hit[] {
     }
     // The reference of the package has a section for every name.
     if (section.u.startsWith("python/")) score /= 2;
-    if (score > 0) hits.push({ section, score });
+    // An abbreviation counts as much as the words it stands for.
+    if (score > 0) hits.push({ section, score: score / words.length });
   }
   return hits;
 }
