@@ -24,20 +24,20 @@ let asking = new AbortController();
 let dialog: HTMLDialogElement | undefined;
 
 /** Abbreviations of the field, with words of the sections that explain them. */
-const ABBREVIATIONS: Readonly<Record<string, string>> = {
-  ba: "bundle adjustment",
-  dlt: "direct linear",
-  lk: "lucas kanade",
-  lm: "levenberg marquardt",
-  lmeds: "least median",
-  ncc: "normalized cross-correlation",
-  pnp: "absolute pose",
-  sfm: "structure from motion",
-  sgm: "semi-global matching",
-  ssd: "squared differences",
-  svd: "singular value",
-  vo: "visual odometry",
-};
+const ABBREVIATIONS: ReadonlyMap<string, string> = new Map([
+  ["ba", "bundle adjustment"],
+  ["dlt", "direct linear"],
+  ["lk", "lucas kanade"],
+  ["lm", "levenberg marquardt"],
+  ["lmeds", "least median"],
+  ["ncc", "normalized cross-correlation"],
+  ["pnp", "absolute pose"],
+  ["sfm", "structure from motion"],
+  ["sgm", "semi-global matching"],
+  ["ssd", "squared differences"],
+  ["svd", "singular value"],
+  ["vo", "visual odometry"],
+]);
 
 const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
@@ -56,7 +56,7 @@ export function find(all: Section[], query: string): Hit[] {
 
 const wordsOf = (text: string) => fold(text).split(/[^\p{L}\p{N}]+/u).filter(Boolean);
 
-const spelledOut = (word: string) => wordsOf(ABBREVIATIONS[word] ?? word);
+const spelledOut = (word: string) => wordsOf(ABBREVIATIONS.get(word) ?? word);
 
 /** Sections that contain every word; none without words. */
 function containing(all: Section[], words: string[]): Hit[] {
@@ -67,9 +67,8 @@ function containing(all: Section[], words: string[]): Hit[] {
     const text = ` ${fold(section.w)}`;
     let score = 0;
     for (const word of words) {
-      const inTitle = startsIn(title, word);
-      const inChapter = startsIn(chapter, word);
-      const inText = startsIn(text, word);
+      const count = ABBREVIATIONS.has(word) ? wholeIn : startsIn;
+      const [inTitle, inChapter, inText] = [count(title, word), count(chapter, word), count(text, word)];
       if (!inTitle && !inChapter && !inText) {
         score = 0;
         break;
@@ -82,6 +81,11 @@ function containing(all: Section[], words: string[]): Hit[] {
     if (score > 0) hits.push({ section, score: score / words.length });
   }
   return hits;
+}
+
+/** Number of times that the text contains the word. */
+function wholeIn(text: string, word: string): number {
+  return wordsOf(text).filter((other) => other === word).length;
 }
 
 /** Number of words in the text that start with `word`. */
