@@ -1,7 +1,10 @@
 """repr, equality, pickling and copies of every class."""
 
+import base64
 import copy
+import json
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -68,14 +71,24 @@ def test_notebooks_show_a_table(outliers):
     assert "&lt;bool array" in html or "[True" in html
 
 
-def test_notebooks_show_a_picture_of_a_reconstruction():
-    pytest.importorskip("matplotlib")
-    intrinsics = epipole.Intrinsics(500, 500, 320, 240)
+def test_notebooks_show_a_view_of_a_reconstruction_that_turns():
+    intrinsics = epipole.Intrinsics(500, 500, 319.5, 239.5)
     camera = epipole.Camera.pinhole(intrinsics, 640, 480)
     posed = epipole.PosedCamera(camera, epipole.RigidTransform())
-    points, tracks = [[0, 0, 4], [1, 0, 5]], [[0, 0, 0], [1, 0, 1]]
+    points, tracks = [[0, 0, 4], [1, 0, 5], [-1, 0, 3]], [[0, 0, 0], [1, 0, 1]]
     html = epipole.sfm.Reconstruction([posed, None], points, tracks)._repr_html_()
-    assert html.startswith('<img alt="1 cameras and 2 points" src="data:image/png;base64,iVBOR')
+    assert html.startswith('<div id="epipole-')
     assert "<caption>Reconstruction</caption>" in html
+    data = json.loads(re.search(r'\), (\{"points".*?\})\);</script>', html)[1])
+    assert (data["points"], data["cameras"]) == (3, 1)
+    content = base64.b64decode(data["bytes"])
+    places = np.frombuffer(content[: 6 * 8], "<i2").reshape(8, 3)
+    assert len(content) == 6 * 8 + 3 * 3
+    # Around the median, in the axes of the camera, whose center is straight behind.
+    np.testing.assert_array_equal(places[0], 0)
+    np.testing.assert_array_equal(places[1], -places[2])
+    assert places[3][0] == 0 == places[3][1] and places[3][2] < 0
+    pytest.importorskip("matplotlib")
+    assert '<img alt="1 cameras and 3 points" src="data:image/png;base64,iVBOR' in html
     empty = epipole.sfm.Reconstruction([None], np.empty((0, 3)), np.empty((0, 3), int))
     assert "0 cameras and 0 points" in empty._repr_html_()

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 
 from epipole import sfm
+from epipole._orbit import orbit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -355,9 +356,14 @@ def _distinct(count: int) -> list[Any]:
 
 
 def _html_picture(result: object) -> str:
-    """Picture of a result in a notebook, as HTML; empty without matplotlib and for other results."""
+    """View of a result in a notebook, as HTML; empty for results that have none."""
     if not isinstance(result, sfm.Reconstruction):
         return ""
+    return orbit(result, _still(result))
+
+
+def _still(result: sfm.Reconstruction) -> str:
+    """Picture of a reconstruction, as HTML; empty without matplotlib."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
