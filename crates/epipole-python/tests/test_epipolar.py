@@ -154,4 +154,6 @@ def test_tangent_sampson_error_is_that_of_pinhole_cameras(world):
     np.testing.assert_allclose(
         tangent, epipolar.sampson_px(world.fundamental, world.pixels1, pixels2), rtol=1e-4
     )
-    assert np.isnan(epipolar.tangent_sampson_px(*cameras, [np.nan, 0], [0, 0]))
+    bent = epipole.Camera(640, 480, world.intrinsics, epipole.Lens("brown", [-0.5, 0, 0, 0, 0]))
+    beyond = epipolar.tangent_sampson_px(world.motion, bent, world.camera, [5000, 5000], [0, 0])
+    assert np.isnan(beyond)

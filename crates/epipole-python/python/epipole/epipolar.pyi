@@ -504,7 +504,7 @@ def tangent_sampson_px(
     -------
     float or ndarray, shape (N,)
         Pixels of both images; inf where the rays cannot meet in front of both cameras, NaN where a
-        pixel has no ray. Between pinhole cameras, as `sampson_px`.
+        pixel has no ray. Between pinhole cameras nearly `sampson_px`.
     """
 def symmetric_epipolar_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
     """Symmetric epipolar distances of matches from a fundamental matrix.
