@@ -12,4 +12,4 @@ for processor in x86_64 aarch64; do
     .venv/bin/python -m maturin build --quiet --locked --manifest-path "$manifest" --out "$out" \
         --target "$target" --zig --compatibility manylinux_2_28
 done
-.venv/bin/python -m maturin sdist --quiet --manifest-path "$manifest" --out "$out"
+.venv/bin/python -m maturin sdist --manifest-path "$manifest" --out "$out"
