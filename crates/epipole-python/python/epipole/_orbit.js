@@ -1,5 +1,5 @@
-// Replaces the picture in `box` by a view that turns. `data`: numbers of points and cameras, and their
-// bytes as base64: three int16 per position, then red, green, blue per point.
+// Replaces the picture in `box` by a view that turns. `data`: numbers of points and cameras, and
+// their bytes as base64: three int16 per position, then red, green, blue per point.
 (function (box, data) {
   if (!box || !box.isConnected) return;
   const UNIT = 8000; // Units of a position per radius of the cloud.
