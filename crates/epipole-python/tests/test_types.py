@@ -52,6 +52,7 @@ def test_pyright(tmp_path):
     pytest.importorskip("pyright")
     (tmp_path / "epipole").symlink_to(Path(epipole.__file__).parent)
     (tmp_path / "examples.py").write_text(EXAMPLES.read_text())
-    config = {"include": ["examples.py"], "reportUnnecessaryTypeIgnoreComment": "error"}
+    config = {"include": ["examples.py"], "typeCheckingMode": "strict"}
+    config["reportUnnecessaryTypeIgnoreComment"] = "error"
     (tmp_path / "pyrightconfig.json").write_text(json.dumps(config))
     run("-m", "pyright", "--pythonpath", sys.executable, cwd=tmp_path)
