@@ -29,8 +29,12 @@ const CRATES: &[(&str, &[&str])] = &[
         "epipole-lab",
         &["epipole", "epipole-io", "epipole-scenes", "epipole-canvas"],
     ),
-    ("epipole-python", &["epipole", "epipole-io"]),
-    ("epipole-js", &["epipole"]),
+    ("epipole-schema", &[]),
+    (
+        "epipole-python",
+        &["epipole", "epipole-io", "epipole-schema"],
+    ),
+    ("epipole-js", &["epipole", "epipole-schema"]),
 ];
 
 /// Dependencies that only the given crates may have, to keep their use in one place.

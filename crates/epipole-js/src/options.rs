@@ -2,7 +2,7 @@
 //!
 //! Fields that are not given have the core's defaults. Keys and variants are in camel case.
 
-mod probe;
+mod typescript;
 
 use crate::argument::{Argument, not};
 use crate::fault::{Fault, Result};
@@ -23,7 +23,7 @@ impl<T: DeserializeOwned + Serialize + Default> Argument for Options<T> {
     const IS_OPTIONAL: bool = true;
 
     fn typescript(types: &mut Types) -> String {
-        probe::declare::<T>(types)
+        typescript::declare::<T>(types)
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {
@@ -39,7 +39,7 @@ pub struct Setting<T>(pub T);
 
 impl<T: DeserializeOwned> Argument for Setting<T> {
     fn typescript(types: &mut Types) -> String {
-        probe::declare_plain::<T>(types)
+        typescript::declare_plain::<T>(types)
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {

@@ -68,7 +68,7 @@ where
     }
     let table = module.getattr("_options")?;
     let mut structs = Vec::new();
-    let name = hints::hint::<T>(&mut structs);
+    let name = hints::hint(&epipole_schema::describe::<T>(), &mut structs);
     for (struct_name, fields) in structs {
         let defaults = match struct_name == name {
             true => pythonize(py, defaults)?.cast_into::<PyDict>()?,

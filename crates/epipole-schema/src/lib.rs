@@ -1,113 +1,92 @@
-//! Types of option structs in TypeScript, from their serde implementations.
+//! Types of structs and enums as data, from their serde implementations.
 //!
-//! A [`Probe`] deserializes no value: its error is the type that serde asks for.
+//! ```
+//! use epipole_schema::{Type, describe};
+//! #[derive(serde::Deserialize)]
+//! struct Options {
+//!     seed: u64,
+//!     limit_px: Option<f64>,
+//! }
+//! let limit = Type::Option(Box::new(Type::Float));
+//! let fields = vec![("seed", Type::Integer), ("limit_px", limit)];
+//! assert_eq!(describe::<Options>(), Type::Struct("Options", fields));
+//! ```
 
-use crate::types::Types;
-use crate::value::camel;
+use serde::Deserializer;
 use serde::de::{
     self, DeserializeOwned, DeserializeSeed, EnumAccess, Error as _, IntoDeserializer, MapAccess,
     SeqAccess, VariantAccess, Visitor,
 };
-use serde::{Deserializer, Serialize};
 use std::fmt::{self, Display, Formatter};
 
-/// Declares the interface of an option struct, with defaults, and returns its name.
-pub(super) fn declare<T: DeserializeOwned + Serialize + Default>(types: &mut Types) -> String {
-    let name = explore::<T>(&mut Vec::new(), types);
-    #[cfg(not(target_arch = "wasm32"))]
-    if let Ok(serde_json::Value::Object(defaults)) = serde_json::to_value(T::default()) {
-        for (field, value) in defaults {
-            types.set_default(&name, &camel(&field), &literal(&value));
-        }
-    }
-    name
+/// Type that serde reads.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Type {
+    /// `bool`.
+    Bool,
+    /// Integer of any size.
+    Integer,
+    /// `f32` or `f64`.
+    Float,
+    /// String or character.
+    Text,
+    /// Bytes.
+    Bytes,
+    /// Nothing.
+    Null,
+    /// Map with keys of any kind.
+    Map,
+    /// A type that describes itself, or whose reading fails.
+    Unknown,
+    /// A value or nothing.
+    Option(Box<Type>),
+    /// Sequence or tuple, by the type of its first element.
+    Sequence(Box<Type>),
+    /// Struct with its name and fields; the name of a variant with fields is empty.
+    Struct(&'static str, Vec<(&'static str, Type)>),
+    /// Enum with its variants and their data, [`Type::Null`] for none.
+    Enum(Vec<(&'static str, Type)>),
 }
 
-/// Type of any value.
-pub(super) fn declare_plain<T: DeserializeOwned>(types: &mut Types) -> String {
-    explore::<T>(&mut Vec::new(), types)
-}
-
-/// A default in the notation of JavaScript.
-#[cfg(not(target_arch = "wasm32"))]
-fn literal(value: &serde_json::Value) -> String {
-    use serde_json::Value as Json;
-    match value {
-        Json::String(text) => format!("{:?}", camel(text)),
-        Json::Array(list) => {
-            let list: Vec<String> = list.iter().map(literal).collect();
-            format!("[{}]", list.join(", "))
-        }
-        Json::Object(fields) => {
-            let fields = fields
-                .iter()
-                .map(|(key, value)| format!("{}: {}", camel(key), literal(value)));
-            format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
-        }
-        Json::Number(number) => number.as_f64().unwrap_or(f64::NAN).to_string(),
-        other => other.to_string(),
-    }
+/// Describes a type.
+///
+/// No value is read: a deserializer follows each path of fields and variants and fails with the
+/// type that it is asked for.
+pub fn describe<T: DeserializeOwned>() -> Type {
+    explore::<T>(&mut Vec::new())
 }
 
 /// Type at a path: indices of fields and variants below `T`.
-fn explore<T: DeserializeOwned>(path: &mut Vec<usize>, types: &mut Types) -> String {
+fn explore<T: DeserializeOwned>(path: &mut Vec<usize>) -> Type {
     let Err(found) = T::deserialize(Probe(path)) else {
-        return "unknown".to_owned();
+        return Type::Unknown;
+    };
+    let mut each = |names: &[&'static str]| {
+        let names = names.iter().enumerate();
+        names
+            .map(|(index, name)| {
+                path.push(index);
+                let inner = explore::<T>(path);
+                path.pop();
+                (*name, inner)
+            })
+            .collect()
     };
     let inner = match found.kind {
-        Kind::Hint(hint) => hint.to_owned(),
-        Kind::Unit => "null".to_owned(),
-        Kind::Struct("", fields) => {
-            let fields = fields_of::<T>(fields, path, types);
-            let fields = fields.iter().map(|(name, of)| format!("{name}: {of}"));
-            format!("{{ {} }}", fields.collect::<Vec<_>>().join("; "))
-        }
-        Kind::Struct(name, fields) => {
-            let fields = fields_of::<T>(fields, path, types);
-            types.options(name, &fields);
-            name.to_owned()
-        }
-        Kind::Enum(variants) => {
-            let mut texts = Vec::new();
-            for (index, variant) in variants.iter().enumerate() {
-                path.push(index);
-                let name = camel(variant);
-                texts.push(match explore::<T>(path, types).as_str() {
-                    "null" => format!("{name:?}"),
-                    data => format!("{{ {name}: {data} }}"),
-                });
-                path.pop();
-            }
-            texts.join(" | ")
-        }
+        Kind::Plain(plain) => plain,
+        Kind::Struct(name, fields) => Type::Struct(name, each(fields)),
+        Kind::Enum(variants) => Type::Enum(each(variants)),
     };
     found.wraps.iter().fold(inner, |inner, wrap| match wrap {
-        Wrap::Option => format!("{inner} | null"),
-        Wrap::Sequence if inner == "number" => "ArrayLike<number>".to_owned(),
-        Wrap::Sequence => format!("readonly ({inner})[]"),
+        Wrap::Option => Type::Option(Box::new(inner)),
+        Wrap::Sequence => Type::Sequence(Box::new(inner)),
     })
-}
-
-fn fields_of<T: DeserializeOwned>(
-    fields: &[&'static str],
-    path: &mut Vec<usize>,
-    types: &mut Types,
-) -> Vec<(String, String)> {
-    let mut out = Vec::new();
-    for (index, field) in fields.iter().enumerate() {
-        path.push(index);
-        out.push((camel(field), explore::<T>(path, types)));
-        path.pop();
-    }
-    out
 }
 
 /// Type that serde asks for.
 #[derive(Debug)]
 enum Kind {
-    Hint(&'static str),
-    /// Variant without data.
-    Unit,
+    Plain(Type),
     Struct(&'static str, &'static [&'static str]),
     Enum(&'static [&'static str]),
 }
@@ -147,19 +126,19 @@ impl std::error::Error for Found {}
 
 impl de::Error for Found {
     fn custom<T: Display>(_: T) -> Self {
-        Self::new(Kind::Hint("unknown"))
+        Self::new(Kind::Plain(Type::Unknown))
     }
 }
 
 /// Deserializer that follows a path and fails with the type at its end.
 struct Probe<'a>(&'a [usize]);
 
-/// Methods that fail with a hint.
-macro_rules! hints {
-    ($($hint:literal: $($method:ident)+;)+) => {
+/// Methods that fail with a type.
+macro_rules! plain {
+    ($($plain:ident: $($method:ident)+;)+) => {
         $($(
             fn $method<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Found> {
-                Err(Found::new(Kind::Hint($hint)))
+                Err(Found::new(Kind::Plain(Type::$plain)))
             }
         )+)+
     };
@@ -168,15 +147,16 @@ macro_rules! hints {
 impl<'de> Deserializer<'de> for Probe<'_> {
     type Error = Found;
 
-    hints! {
-        "boolean": deserialize_bool;
-        "number": deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64
-            deserialize_u8 deserialize_u16 deserialize_u32 deserialize_u64
-            deserialize_f32 deserialize_f64;
-        "string": deserialize_char deserialize_str deserialize_string deserialize_identifier;
-        "null": deserialize_unit;
-        "unknown": deserialize_bytes deserialize_byte_buf deserialize_map deserialize_any
-            deserialize_ignored_any;
+    plain! {
+        Bool: deserialize_bool;
+        Integer: deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64
+            deserialize_u8 deserialize_u16 deserialize_u32 deserialize_u64;
+        Float: deserialize_f32 deserialize_f64;
+        Text: deserialize_char deserialize_str deserialize_string deserialize_identifier;
+        Bytes: deserialize_bytes deserialize_byte_buf;
+        Null: deserialize_unit;
+        Map: deserialize_map;
+        Unknown: deserialize_any deserialize_ignored_any;
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Found> {
@@ -290,7 +270,7 @@ impl<'de> VariantAccess<'de> for Probe<'_> {
     type Error = Found;
 
     fn unit_variant(self) -> Result<(), Found> {
-        Err(Found::new(Kind::Unit))
+        Err(Found::new(Kind::Plain(Type::Null)))
     }
 
     fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Found> {
