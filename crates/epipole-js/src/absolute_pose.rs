@@ -1,9 +1,9 @@
 //! Pose of a camera from known points.
 
-use crate::answer::{Numbers, records};
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;
 use crate::options::{Options, Setting};
+use crate::output::{Numbers, records};
 use epipole::ArrayVec;
 use epipole::absolute_pose::{self, AbsolutePoseWithFocal};
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};

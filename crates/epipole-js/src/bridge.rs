@@ -22,7 +22,7 @@ const MAX_DEPTH: usize = 16;
 #[wasm_bindgen]
 pub fn call(name: &str, given: &Array, report: Option<Function>) -> Result<JsValue, JsValue> {
     let given: Vec<Value> = given.iter().map(|value| from_js(&value, 0)).collect();
-    let answer = match report {
+    let result = match report {
         Some(report) => crate::call(name, &given, &mut |status: Status| {
             let words = JsValue::from_str(status.stage.words());
             let share = JsValue::from_f64(f64::from(status.share));
@@ -33,7 +33,7 @@ pub fn call(name: &str, given: &Array, report: Option<Function>) -> Result<JsVal
         }),
         None => crate::call(name, &given, &mut ()),
     };
-    answer.map(to_js).map_err(|Fault { kind, message }| {
+    result.map(to_js).map_err(|Fault { kind, message }| {
         Array::of2(&JsValue::from_str(kind), &JsValue::from_str(&message)).into()
     })
 }

@@ -1,8 +1,8 @@
 //! Projection, rays, motions.
 
-use crate::answer::Numbers;
 use crate::argument::Vectors;
 use crate::functions::functions;
+use crate::output::Numbers;
 use epipole::camera::{self, Camera, PosedCamera, RigidTransform};
 use epipole::nalgebra::{Point2, Point3, SVector, Vector3};
 

@@ -1,9 +1,9 @@
 //! Fundamental and essential matrices, relative pose.
 
-use crate::answer::{Numbers, records};
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;
 use crate::options::{Options, Setting};
+use crate::output::{Numbers, records};
 use epipole::ArrayVec;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{

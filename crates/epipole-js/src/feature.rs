@@ -1,11 +1,11 @@
 //! Corners, SIFT, ORB; matching and tracking.
 
-use crate::answer::{Answer, Floats, Indices, Integers, Mask, Numbers, records};
 use crate::argument::{Argument, Vectors, check_keys, entry, not};
 use crate::fault::{Fault, Result};
 use crate::functions::functions;
 use crate::images::Gray;
 use crate::options::Options;
+use crate::output::{Floats, Indices, Integers, Mask, Numbers, Output, records};
 use crate::types::Types;
 use crate::value::Value;
 use epipole::feature::{
@@ -102,7 +102,7 @@ records! {
     }
 }
 
-impl Answer for Keypoints {
+impl Output for Keypoints {
     fn typescript(types: &mut Types) -> String {
         types.interface(
             "Keypoints",
@@ -118,17 +118,18 @@ impl Answer for Keypoints {
         "Keypoints".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let points = self.0.iter().flat_map(|keypoint| [keypoint.u, keypoint.v]);
-        let floats = |of: fn(&Keypoint) -> f32| Floats(self.0.iter().map(of).collect()).give();
+        let floats =
+            |of: fn(&Keypoint) -> f32| Floats(self.0.iter().map(of).collect()).into_value();
         Value::Record(vec![
-            ("points".into(), Numbers(points.collect()).give()),
+            ("points".into(), Numbers(points.collect()).into_value()),
             ("scalesPx".into(), floats(|keypoint| keypoint.scale_px)),
             ("anglesRad".into(), floats(|keypoint| keypoint.angle_rad)),
             ("responses".into(), floats(|keypoint| keypoint.response)),
             (
                 "octaves".into(),
-                Integers(self.0.iter().map(|keypoint| keypoint.octave).collect()).give(),
+                Integers(self.0.iter().map(|keypoint| keypoint.octave).collect()).into_value(),
             ),
         ])
     }
@@ -194,7 +195,7 @@ impl Argument for Keypoints {
     }
 }
 
-impl Answer for Descriptors {
+impl Output for Descriptors {
     fn typescript(types: &mut Types) -> String {
         types.interface(
             "Descriptors",
@@ -220,7 +221,7 @@ impl Answer for Descriptors {
         "Descriptors".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let (kind, data) = if let Some(bytes) = self.as_bytes() {
             ("bytes", Value::Bytes(bytes.to_vec()))
         } else if let Some(bits) = self.as_bits() {
@@ -231,7 +232,7 @@ impl Answer for Descriptors {
         };
         Value::Record(vec![
             ("kind".into(), Value::Text(kind.to_owned())),
-            ("dimension".into(), self.dimension().give()),
+            ("dimension".into(), self.dimension().into_value()),
             ("data".into(), data),
         ])
     }
@@ -239,7 +240,7 @@ impl Answer for Descriptors {
 
 impl Argument for Descriptors {
     fn typescript(types: &mut Types) -> String {
-        <Self as Answer>::typescript(types)
+        <Self as Output>::typescript(types)
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {

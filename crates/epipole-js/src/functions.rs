@@ -10,7 +10,7 @@ use epipole::progress::Monitor;
 pub struct Function {
     /// Name in Rust; that of JavaScript is in camel case.
     pub name: &'static str,
-    /// Reads the arguments, computes, gives plain data.
+    /// Reads the arguments, computes, and returns plain data.
     pub call: fn(&[Value], &mut dyn Monitor) -> Result<Value>,
 }
 
@@ -70,7 +70,7 @@ macro_rules! functions {
                 let _ = &all;
                 $(let $monitor = all;)?
                 let outcome: $out = $body;
-                Ok($crate::answer::Answer::give(outcome))
+                Ok($crate::output::Output::into_value(outcome))
             }
         )+
 
@@ -83,7 +83,7 @@ macro_rules! functions {
         pub(crate) fn signatures(
             types: &mut $crate::types::Types,
         ) -> Vec<$crate::functions::Signature> {
-            use $crate::{answer::Answer, argument::Argument, value::camel};
+            use $crate::{output::Output, argument::Argument, value::camel};
             vec![$($crate::functions::Signature {
                 name: camel(stringify!($name)),
                 docs: &[$($doc),+],
@@ -92,7 +92,7 @@ macro_rules! functions {
                     <$type as Argument>::typescript(types),
                     <$type as Argument>::IS_OPTIONAL,
                 )),*],
-                result: <$out as Answer>::typescript(types),
+                result: <$out as Output>::typescript(types),
             }),+]
         }
     };

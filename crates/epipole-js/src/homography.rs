@@ -1,9 +1,9 @@
 //! Homographies, and similarities of the plane.
 
-use crate::answer::{Numbers, records};
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;
 use crate::options::{Options, Setting};
+use crate::output::{Numbers, records};
 use epipole::ArrayVec;
 use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::homography::{self, PlaneMotion};

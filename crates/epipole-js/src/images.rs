@@ -1,8 +1,8 @@
 //! Images: gray values, or colors of eight bits.
 
-use crate::answer::Answer;
 use crate::argument::{Argument, not};
 use crate::fault::{Fault, Result};
+use crate::output::Output;
 use crate::types::Types;
 use crate::value::Value;
 use epipole::feature::photo_to_gray;
@@ -141,15 +141,15 @@ impl Argument for Gray {
     }
 }
 
-fn give<P: Pixel>(image: ImageBuffer<P, Vec<P::Subpixel>>, data: Value) -> Value {
+fn image_value<P: Pixel>(image: ImageBuffer<P, Vec<P::Subpixel>>, data: Value) -> Value {
     Value::Record(vec![
-        ("width".into(), image.width().give()),
-        ("height".into(), image.height().give()),
+        ("width".into(), image.width().into_value()),
+        ("height".into(), image.height().into_value()),
         ("data".into(), data),
     ])
 }
 
-impl Answer for GrayImage32 {
+impl Output for GrayImage32 {
     fn typescript(types: &mut Types) -> String {
         types.interface(
             "GrayImage",
@@ -163,13 +163,13 @@ impl Answer for GrayImage32 {
         "GrayImage".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let data = Value::Floats(self.as_raw().clone());
-        give(self, data)
+        image_value(self, data)
     }
 }
 
-impl Answer for Image {
+impl Output for Image {
     fn typescript(types: &mut Types) -> String {
         types.interface(
             "ImageOfKind",
@@ -183,21 +183,21 @@ impl Answer for Image {
         "ImageOfKind".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         match self {
             Self::Gray8(image) => {
                 let data = Value::Bytes(image.as_raw().clone());
-                give(image, data)
+                image_value(image, data)
             }
             Self::Rgb8(image) => {
                 let data = Value::Bytes(image.as_raw().clone());
-                give(image, data)
+                image_value(image, data)
             }
             Self::Rgba8(image) => {
                 let data = Value::Bytes(image.as_raw().clone());
-                give(image, data)
+                image_value(image, data)
             }
-            Self::Gray32(image) => image.give(),
+            Self::Gray32(image) => image.into_value(),
         }
     }
 }

@@ -1,16 +1,16 @@
 //! The core for JavaScript: functions of plain data, by name.
 //!
-//! A call reads its arguments ([`argument`], [`options`]), computes, and gives plain data
-//! ([`answer`]); [`functions`] declares it. Files are named for the modules of the core. Each part
+//! A call reads its arguments ([`argument`], [`options`]), computes, and returns plain data
+//! ([`output`]); [`functions`] declares it. Files are named for the modules of the core. Each part
 //! is a cargo feature and a WebAssembly module of its own. The same table gives the calls, the type
 //! declarations in `web/vision/src/api.ts`, and the native results that tests compare bit for bit.
 
-pub mod answer;
 pub mod argument;
 pub mod bridge;
 pub mod fault;
 pub mod functions;
 pub mod options;
+pub mod output;
 pub mod pairs;
 pub mod types;
 pub mod value;

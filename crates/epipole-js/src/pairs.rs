@@ -1,8 +1,8 @@
 //! Functions of one match, for many.
 
-use crate::answer::Numbers;
 use crate::argument::Vectors;
 use crate::fault::{Fault, Result};
+use crate::output::Numbers;
 use epipole::nalgebra::{Const, OPoint};
 
 /// Points of D coordinates.

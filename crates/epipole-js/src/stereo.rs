@@ -1,11 +1,11 @@
 //! Rectification, dense disparity, depth.
 
-use crate::answer::{Numbers, records};
 use crate::argument::Vectors;
 use crate::fault::{Fault, Result};
 use crate::functions::functions;
 use crate::images::Image;
 use crate::options::Options;
+use crate::output::{Numbers, records};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::image::GrayImage;
 use epipole::imaging::GrayImage32;
@@ -180,7 +180,7 @@ struct Disparity(DisparityImage);
 
 impl crate::argument::Argument for Disparity {
     fn typescript(types: &mut crate::types::Types) -> String {
-        <GrayImage32 as crate::answer::Answer>::typescript(types)
+        <GrayImage32 as crate::output::Output>::typescript(types)
     }
 
     fn read(name: &str, value: &crate::value::Value) -> Result<Self> {

@@ -1,8 +1,8 @@
 //! Random worlds with ground truth.
 
-use crate::answer::{Indices, Mask, Numbers, records};
 use crate::functions::functions;
 use crate::options::Options;
+use crate::output::{Indices, Mask, Numbers, records};
 use epipole::camera::PosedCamera;
 use epipole::synthetic::{
     MultiViewProblem, MultiViewProblemOptions, TwoViewProblem, TwoViewProblemOptions,

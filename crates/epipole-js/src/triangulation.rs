@@ -1,9 +1,9 @@
 //! Points from known cameras.
 
-use crate::answer::{Numbers, records};
 use crate::argument::Vectors;
 use crate::functions::functions;
 use crate::options::Setting;
+use crate::output::{Numbers, records};
 use crate::pairs::zip;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::nalgebra::{Matrix3, Matrix3x4, Point3, SVector, Vector3};

@@ -1,4 +1,4 @@
-//! Answers: from results of the core to values.
+//! Results of the core as values of JavaScript.
 
 use crate::argument::Argument;
 use crate::types::Types;
@@ -10,12 +10,12 @@ use epipole::nalgebra::{Const, OPoint, SMatrix, SVector};
 use epipole::robust::{RansacReport, StopReason};
 
 /// A result of a function.
-pub trait Answer {
+pub trait Output {
     /// Type in TypeScript.
     fn typescript(types: &mut Types) -> String;
 
     /// Plain data.
-    fn give(self) -> Value;
+    fn into_value(self) -> Value;
 }
 
 /// Makes plain objects of structs, field by field.
@@ -23,11 +23,11 @@ macro_rules! records {
     ($($(#[doc = $docs:literal])+ $type:ty as $name:ident {
         $($(#[doc = $field_docs:literal])+ $field:ident: $field_type:ty,)+
     })+) => {$(
-        impl $crate::answer::Answer for $type {
+        impl $crate::output::Output for $type {
             fn typescript(types: &mut $crate::types::Types) -> String {
                 let fields = [$((
                     $crate::value::camel(stringify!($field)),
-                    <$field_type as $crate::answer::Answer>::typescript(types),
+                    <$field_type as $crate::output::Output>::typescript(types),
                     concat!($($field_docs),+).trim(),
                 )),+];
                 let fields = fields.each_ref().map(|(field, of, docs)| (&**field, &**of, *docs));
@@ -35,10 +35,10 @@ macro_rules! records {
                 stringify!($name).to_owned()
             }
 
-            fn give(self) -> $crate::value::Value {
+            fn into_value(self) -> $crate::value::Value {
                 $crate::value::Value::Record(vec![$((
                     $crate::value::camel(stringify!($field)).into(),
-                    $crate::answer::Answer::give(self.$field),
+                    $crate::output::Output::into_value(self.$field),
                 )),+])
             }
         }
@@ -48,15 +48,15 @@ pub(crate) use records;
 
 /// Types that are as they are in JavaScript.
 macro_rules! plain {
-    ($($type:ty => $name:literal, $value:ident => $give:expr;)+) => {$(
-        impl Answer for $type {
+    ($($type:ty => $name:literal, $value:ident => $into:expr;)+) => {$(
+        impl Output for $type {
             fn typescript(_: &mut Types) -> String {
                 $name.to_owned()
             }
 
-            fn give(self) -> Value {
+            fn into_value(self) -> Value {
                 let $value = self;
-                $give
+                $into
             }
         }
     )+};
@@ -121,54 +121,54 @@ impl Numbers {
     }
 }
 
-impl<const R: usize, const C: usize> Answer for SMatrix<f64, R, C> {
+impl<const R: usize, const C: usize> Output for SMatrix<f64, R, C> {
     fn typescript(_: &mut Types) -> String {
         "Float64Array".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let by_row = (0..R).flat_map(|row| (0..C).map(move |column| (row, column)));
         Value::Doubles(by_row.map(|place| self[place]).collect())
     }
 }
 
-impl<const D: usize> Answer for OPoint<f64, Const<D>> {
+impl<const D: usize> Output for OPoint<f64, Const<D>> {
     fn typescript(_: &mut Types) -> String {
         "Float64Array".to_owned()
     }
 
-    fn give(self) -> Value {
-        self.coords.give()
+    fn into_value(self) -> Value {
+        self.coords.into_value()
     }
 }
 
-impl<T: Answer> Answer for Option<T> {
+impl<T: Output> Output for Option<T> {
     fn typescript(types: &mut Types) -> String {
         format!("{} | null", T::typescript(types))
     }
 
-    fn give(self) -> Value {
-        self.map_or(Value::Nothing, T::give)
+    fn into_value(self) -> Value {
+        self.map_or(Value::Nothing, T::into_value)
     }
 }
 
-impl<T: Answer> Answer for Vec<T> {
+impl<T: Output> Output for Vec<T> {
     fn typescript(types: &mut Types) -> String {
         format!("{}[]", T::typescript(types))
     }
 
-    fn give(self) -> Value {
-        Value::List(self.into_iter().map(T::give).collect())
+    fn into_value(self) -> Value {
+        Value::List(self.into_iter().map(T::into_value).collect())
     }
 }
 
-impl<T: Answer, const N: usize> Answer for ArrayVec<T, N> {
+impl<T: Output, const N: usize> Output for ArrayVec<T, N> {
     fn typescript(types: &mut Types) -> String {
         Vec::<T>::typescript(types)
     }
 
-    fn give(self) -> Value {
-        Value::List(self.into_iter().map(T::give).collect())
+    fn into_value(self) -> Value {
+        Value::List(self.into_iter().map(T::into_value).collect())
     }
 }
 
@@ -177,7 +177,7 @@ fn record<const N: usize>(entries: [(&'static str, Value); N]) -> Value {
     Value::Record(entries.into())
 }
 
-impl Answer for RigidTransform {
+impl Output for RigidTransform {
     fn typescript(types: &mut Types) -> String {
         types.interface(
             "RigidTransform",
@@ -199,41 +199,41 @@ impl Answer for RigidTransform {
         "RigidTransform".to_owned()
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let q = self.rotation.quaternion();
         record([
             (
                 "rotation",
-                self.rotation.to_rotation_matrix().into_inner().give(),
+                self.rotation.to_rotation_matrix().into_inner().into_value(),
             ),
             ("quaternion", Value::Doubles(vec![q.w, q.i, q.j, q.k])),
-            ("translation", self.translation.vector.give()),
+            ("translation", self.translation.vector.into_value()),
         ])
     }
 }
 
-impl Answer for Intrinsics {
+impl Output for Intrinsics {
     fn typescript(types: &mut Types) -> String {
         <Self as Argument>::typescript(types)
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let principal = self.principal_point();
         record([
-            ("fuPx", self.fu_px().give()),
-            ("fvPx", self.fv_px().give()),
-            ("cuPx", principal.x.give()),
-            ("cvPx", principal.y.give()),
+            ("fuPx", self.fu_px().into_value()),
+            ("fvPx", self.fv_px().into_value()),
+            ("cuPx", principal.x.into_value()),
+            ("cvPx", principal.y.into_value()),
         ])
     }
 }
 
-impl Answer for Lens {
+impl Output for Lens {
     fn typescript(types: &mut Types) -> String {
         <Self as Argument>::typescript(types)
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         record([
             ("kind", Value::Text(self.kind().name().to_owned())),
             ("coefficients", Value::Doubles(self.coefficients())),
@@ -241,17 +241,17 @@ impl Answer for Lens {
     }
 }
 
-impl Answer for Camera {
+impl Output for Camera {
     fn typescript(types: &mut Types) -> String {
         <Self as Argument>::typescript(types)
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         record([
-            ("width", self.width.give()),
-            ("height", self.height.give()),
-            ("intrinsics", self.intrinsics.give()),
-            ("lens", self.lens.give()),
+            ("width", self.width.into_value()),
+            ("height", self.height.into_value()),
+            ("intrinsics", self.intrinsics.into_value()),
+            ("lens", self.lens.into_value()),
         ])
     }
 }
@@ -266,7 +266,7 @@ records! {
     }
 }
 
-impl<M: Answer> Answer for RansacReport<M> {
+impl<M: Output> Output for RansacReport<M> {
     fn typescript(types: &mut Types) -> String {
         let stop = StopReason::typescript(types);
         types.interface(
@@ -315,26 +315,26 @@ impl<M: Answer> Answer for RansacReport<M> {
         format!("RansacReport<{}>", M::typescript(types))
     }
 
-    fn give(self) -> Value {
+    fn into_value(self) -> Value {
         let could_be_chance = self.could_be_chance();
         let required = match self.required_iterations {
             u64::MAX => f64::INFINITY,
             number => number as f64,
         };
         record([
-            ("model", self.model.give()),
-            ("inliers", Mask(self.inliers).give()),
-            ("numInliers", self.num_inliers.give()),
-            ("numUniqueInliers", self.num_unique_inliers.give()),
-            ("numLeftOut", self.num_left_out.give()),
-            ("iterations", self.iterations.give()),
-            ("requiredIterations", required.give()),
-            ("maxErrorPx", self.max_error_px.give()),
-            ("score", self.score.give()),
-            ("log10FalseAlarms", self.log10_false_alarms.give()),
-            ("refinements", self.refinements.give()),
-            ("stop", self.stop.give()),
-            ("couldBeChance", could_be_chance.give()),
+            ("model", self.model.into_value()),
+            ("inliers", Mask(self.inliers).into_value()),
+            ("numInliers", self.num_inliers.into_value()),
+            ("numUniqueInliers", self.num_unique_inliers.into_value()),
+            ("numLeftOut", self.num_left_out.into_value()),
+            ("iterations", self.iterations.into_value()),
+            ("requiredIterations", required.into_value()),
+            ("maxErrorPx", self.max_error_px.into_value()),
+            ("score", self.score.into_value()),
+            ("log10FalseAlarms", self.log10_false_alarms.into_value()),
+            ("refinements", self.refinements.into_value()),
+            ("stop", self.stop.into_value()),
+            ("couldBeChance", could_be_chance.into_value()),
         ])
     }
 }
