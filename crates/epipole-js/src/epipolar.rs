@@ -3,7 +3,7 @@
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;
 use crate::options::{Options, Setting};
-use crate::output::{Numbers, records};
+use crate::output::{Numbers, records, structs};
 use epipole::ArrayVec;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{
@@ -12,12 +12,6 @@ use epipole::epipolar::{
 use epipole::nalgebra::{Matrix3, Point2, SVector, Vector3};
 use epipole::optim::RobustLoss;
 use epipole::robust::{RansacOptions, RansacReport};
-
-/// Epipoles of both images.
-struct Epipoles {
-    epipole1: Vector3<f64>,
-    epipole2: Vector3<f64>,
-}
 
 records! {
     /// Rotation and direction of translation.
@@ -57,9 +51,11 @@ records! {
         /// Focal length, pixels.
         focal_px: f64,
     }
+}
 
+structs! {
     /// Epipoles: (u, v, 1), or (u, v, 0) with a unit direction for those at infinity.
-    Epipoles as Epipoles {
+    struct Epipoles as Epipoles {
         /// Epipole of image 1.
         epipole1: Vector3<f64>,
         /// Epipole of image 2.

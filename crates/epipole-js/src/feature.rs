@@ -5,7 +5,7 @@ use crate::fault::{Fault, Result};
 use crate::functions::functions;
 use crate::images::Gray;
 use crate::options::Options;
-use crate::output::{Floats, Indices, Integers, Mask, Numbers, Output, records};
+use crate::output::{Floats, Indices, Integers, Mask, Numbers, Output, structs};
 use crate::types::Types;
 use crate::value::Value;
 use epipole::feature::{
@@ -20,12 +20,6 @@ const BYTES_OF_BITS: usize = 32;
 /// A list of keypoints.
 struct Keypoints(Vec<Keypoint>);
 
-/// Keypoints with their descriptors.
-struct Features {
-    keypoints: Keypoints,
-    descriptors: Descriptors,
-}
-
 impl From<feature::Features> for Features {
     fn from(features: feature::Features) -> Self {
         Self {
@@ -35,32 +29,9 @@ impl From<feature::Features> for Features {
     }
 }
 
-/// Matches of two lists of features.
-struct Matches {
-    indices1: Indices,
-    indices2: Indices,
-    distances: Floats,
-    ratios: Floats,
-}
-
-/// The two nearest descriptors of each descriptor.
-struct Neighbors {
-    indices: Indices,
-    distances: Floats,
-    second_distances: Floats,
-}
-
-/// Tracked points.
-struct Tracks {
-    points: Numbers,
-    found: Mask,
-    residuals: Floats,
-    forward_backward_px: Numbers,
-}
-
-records! {
+structs! {
     /// Keypoints with their descriptors.
-    Features as Features {
+    struct Features as Features {
         /// Keypoints, strongest first.
         keypoints: Keypoints,
         /// Their descriptors.
@@ -68,7 +39,7 @@ records! {
     }
 
     /// Matches between two lists of features.
-    Matches as Matches {
+    struct Matches as Matches {
         /// Indices in the first list.
         indices1: Indices,
         /// Indices in the second list.
@@ -80,7 +51,7 @@ records! {
     }
 
     /// The two nearest descriptors of each descriptor.
-    Neighbors as Neighbors {
+    struct Neighbors as Neighbors {
         /// Index of the nearest.
         indices: Indices,
         /// Distance of the nearest.
@@ -90,7 +61,7 @@ records! {
     }
 
     /// Points that were tracked from one image to the next.
-    Tracks as Tracks {
+    struct Tracks as Tracks {
         /// Positions in the second image, interleaved; NaN for lost points.
         points: Numbers,
         /// 1 for tracked points.

@@ -46,6 +46,26 @@ macro_rules! records {
 }
 pub(crate) use records;
 
+/// Declares structs, and makes plain objects of them.
+macro_rules! structs {
+    ($($(#[doc = $docs:literal])+ struct $type:ident as $name:ident {
+        $($(#[doc = $field_docs:literal])+ $field:ident: $field_type:ty,)+
+    })+) => {
+        $(
+            $(#[doc = $docs])+
+            struct $type {
+                $($field: $field_type,)+
+            }
+        )+
+        $crate::output::records! {
+            $($(#[doc = $docs])+ $type as $name {
+                $($(#[doc = $field_docs])+ $field: $field_type,)+
+            })+
+        }
+    };
+}
+pub(crate) use structs;
+
 /// Types that are as they are in JavaScript.
 macro_rules! plain {
     ($($type:ty => $name:literal, $value:ident => $into:expr;)+) => {$(

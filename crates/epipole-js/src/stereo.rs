@@ -5,7 +5,7 @@ use crate::fault::{Fault, Result};
 use crate::functions::functions;
 use crate::images::Image;
 use crate::options::Options;
-use crate::output::{Numbers, records};
+use crate::output::{Numbers, records, structs};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::image::GrayImage;
 use epipole::imaging::GrayImage32;
@@ -15,41 +15,23 @@ use epipole::stereo::{
     self, DisparityImage, PixelMap, PixelRect, RectifyOptions, StereoBm, StereoSgm,
 };
 
-/// A rectified rig.
-struct Rectification {
-    homography1: Matrix3<f64>,
-    homography2: Matrix3<f64>,
-    intrinsics1: Intrinsics,
-    intrinsics2: Intrinsics,
-    rotation1: Matrix3<f64>,
-    rotation2: Matrix3<f64>,
-    q: Matrix4<f64>,
-    is_vertical: bool,
-    baseline_m: f64,
-    width: u32,
-    height: u32,
-}
-
-/// Rectified images.
-struct RectifiedImages {
-    image1: Image,
-    image2: Image,
-    rectification: Rectification,
-}
-
-/// Homographies of a rectification without calibration.
-struct UncalibratedRectification {
-    homography1: Matrix3<f64>,
-    homography2: Matrix3<f64>,
-    is_vertical: bool,
-    disparity_range_px: Numbers,
-    outline1: PixelRect,
-    outline2: PixelRect,
-}
-
 records! {
+    /// Rectangle of pixels.
+    PixelRect as PixelRect {
+        /// Left.
+        u_min: f64,
+        /// Top.
+        v_min: f64,
+        /// Right.
+        u_max: f64,
+        /// Bottom.
+        v_max: f64,
+    }
+}
+
+structs! {
     /// Rectification of a rig: matches share a row, or a column if it is vertical.
-    Rectification as Rectification {
+    struct Rectification as Rectification {
         /// Homography from undistorted pixels of image 1 to the rectified image.
         homography1: Matrix3<f64>,
         /// The same of image 2.
@@ -75,7 +57,7 @@ records! {
     }
 
     /// Rectified images of a rig.
-    RectifiedImages as RectifiedImages {
+    struct RectifiedImages as RectifiedImages {
         /// Image 1, of the kind that was given.
         image1: Image,
         /// Image 2.
@@ -84,20 +66,8 @@ records! {
         rectification: Rectification,
     }
 
-    /// Rectangle of pixels.
-    PixelRect as PixelRect {
-        /// Left.
-        u_min: f64,
-        /// Top.
-        v_min: f64,
-        /// Right.
-        u_max: f64,
-        /// Bottom.
-        v_max: f64,
-    }
-
     /// Rectification without calibration.
-    UncalibratedRectification as UncalibratedRectification {
+    struct UncalibratedRectification as UncalibratedRectification {
         /// Homography of image 1.
         homography1: Matrix3<f64>,
         /// Homography of image 2.

@@ -2,35 +2,15 @@
 
 use crate::functions::functions;
 use crate::options::Options;
-use crate::output::{Indices, Mask, Numbers, records};
+use crate::output::{Indices, Mask, Numbers, structs};
 use epipole::camera::PosedCamera;
 use epipole::synthetic::{
     MultiViewProblem, MultiViewProblemOptions, TwoViewProblem, TwoViewProblemOptions,
 };
 
-/// Two cameras and their matches.
-struct TwoViews {
-    camera1: PosedCamera,
-    camera2: PosedCamera,
-    pixels1: Numbers,
-    pixels2: Numbers,
-    is_inlier: Mask,
-    points: Numbers,
-}
-
-/// Many cameras and their observations.
-struct ManyViews {
-    cameras: Vec<PosedCamera>,
-    points: Numbers,
-    observation_camera: Indices,
-    observation_point: Indices,
-    observation_pixel: Numbers,
-    observation_is_inlier: Mask,
-}
-
-records! {
+structs! {
     /// Matches between two images of 640 x 480 pixels, with ground truth.
-    TwoViews as TwoViewProblem {
+    struct TwoViews as TwoViewProblem {
         /// First camera, at (0, 0, -distance), which looks along +z.
         camera1: PosedCamera,
         /// Second camera, to the right of it, which looks at the world's origin.
@@ -46,7 +26,7 @@ records! {
     }
 
     /// Cameras, points and observations in images of 640 x 480 pixels, with ground truth.
-    ManyViews as MultiViewProblem {
+    struct ManyViews as MultiViewProblem {
         /// Cameras.
         cameras: Vec<PosedCamera>,
         /// Points in the world, interleaved.

@@ -3,18 +3,12 @@
 use crate::argument::Vectors;
 use crate::functions::functions;
 use crate::options::Setting;
-use crate::output::{Numbers, records};
+use crate::output::{Numbers, records, structs};
 use crate::pairs::zip;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::nalgebra::{Matrix3, Matrix3x4, Point3, SVector, Vector3};
 use epipole::optim::RobustLoss;
 use epipole::triangulation::{self, NviewPoint};
-
-/// Corrected matches.
-struct CorrectedMatches {
-    pixels1: Numbers,
-    pixels2: Numbers,
-}
 
 records! {
     /// Point seen by several cameras.
@@ -24,9 +18,11 @@ records! {
         /// Root mean square of its reprojection errors, pixels.
         rms_error_px: f64,
     }
+}
 
+structs! {
     /// Matches that satisfy the epipolar constraint; NaN for those without a correction.
-    CorrectedMatches as CorrectedMatches {
+    struct CorrectedMatches as CorrectedMatches {
         /// Pixels of image 1, interleaved.
         pixels1: Numbers,
         /// Pixels of image 2, interleaved.

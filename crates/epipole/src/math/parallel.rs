@@ -49,7 +49,7 @@ pub(crate) fn for_each_chunk<T: Send>(
     }
     let chunks: Vec<Mutex<&mut [T]>> = items.chunks_mut(chunk_len).map(Mutex::new).collect();
     run(chunks.len(), &|n| {
-        // Free: each chunk is locked once.
+        // Never waits: each chunk is locked once.
         if let Ok(mut chunk) = chunks[n].lock() {
             f(n * chunk_len, &mut chunk);
         }
