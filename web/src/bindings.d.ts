@@ -24,6 +24,8 @@ declare module "epipole-web" {
     click_in(panel: string, x: number, y: number): string | undefined;
     solution(challenge: string): string;
     take_photo(slot: string, width: number, height: number, rgba: Uint8Array): string | undefined;
+    data(): string;
+    photograph(panel: string): Uint8Array;
     file(): Uint8Array;
     take_focal(slot: string, focal: number): void;
     job_key(): string | undefined;

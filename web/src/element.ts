@@ -10,6 +10,7 @@ import { CHOOSING } from "./choice.js";
 import type { Refused } from "./contract.js";
 import { setAttribute } from "./dom.js";
 import { FigureController } from "./controller.js";
+import type { Marks } from "./marks.js";
 import { linkTo } from "./permalink.js";
 import { toSaved, type Saved } from "./saved.js";
 import { pictureOf } from "./saving.js";
@@ -77,6 +78,46 @@ export class EpipoleFigure extends Base {
   /** The readouts by name. */
   get readouts(): Record<string, number | string> {
     return Object.fromEntries(this.#controller.snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
+  }
+
+  /**
+   * Matches, matrices and cameras of the present state, by the names and in the shapes of `@epipole/vision`; empty for
+   * figures without any.
+   */
+  get data(): Record<string, unknown> {
+    return this.#controller.renderer?.ask((engine) => engine.data()) ?? {};
+  }
+
+  /** Names of the picture's panels. */
+  get panels(): string[] {
+    return this.#controller.snapshot?.layout.panels.map(({ id }) => id) ?? [];
+  }
+
+  /** The photograph that a panel shows: rows of red, green, blue. Undefined without one. */
+  photograph(panel: string): { width: number; height: number; data: Uint8Array } | undefined {
+    const { renderer, snapshot } = this.#controller;
+    const found = snapshot?.layout.panels.find(({ id }) => id === panel);
+    const data = renderer?.ask((engine) => engine.photograph(panel));
+    if (!found || !data?.length) return undefined;
+    const width = Math.round(Math.abs(found.x_axis.end - found.x_axis.start));
+    return { width, height: data.length / (3 * width), data };
+  }
+
+  /**
+   * Draws points and lines over a panel, in its world units, in place of those that a page has drawn there before.
+   * Throws a RangeError if there is no such panel.
+   */
+  draw(marks: Marks): void {
+    const { shell, snapshot } = this.#controller;
+    if (!snapshot) throw new Error("the figure is not ready yet: await whenReady()");
+    // Marks belong to the living picture, not to a poster.
+    this.#controller.dispatch({ type: "reveal" });
+    shell.picture.marks.show(marks, snapshot);
+  }
+
+  /** Removes what `draw` has drawn. */
+  clearMarks(): void {
+    this.#controller.shell.picture.marks.clear();
   }
 
   /** The goals, and which of them the reader has reached. */
@@ -193,6 +234,7 @@ export class EpipoleFigure extends Base {
       return refused;
     });
     shell.photos.forget();
+    shell.picture.marks.clear();
     shell.jobs.goOn();
     controller.warn(problems);
     shell.speaker.say("Reset.");

@@ -188,6 +188,16 @@ export class Engine {
     return refused;
   }
 
+  /** Values of the state. */
+  data(): Record<string, unknown> {
+    return JSON.parse(this.#figure.data());
+  }
+
+  /** Rows of red, green, blue of a panel's photograph, copied out of the module's memory; empty without one. */
+  photograph(panel: string): Uint8Array<ArrayBuffer> {
+    return new Uint8Array(this.#figure.photograph(panel));
+  }
+
   /** The file to save besides the picture, copied out of the module's memory. */
   file(): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.#figure.file());

@@ -4,6 +4,7 @@ import type { Direction, Snapshot } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
 import { Handles } from "./handles.js";
 import { Lit } from "./lit.js";
+import { MarkLayer } from "./marks.js";
 import { Pointers } from "./pointers.js";
 import { Zoom } from "./zoom.js";
 
@@ -29,6 +30,8 @@ export class Picture {
   readonly overlay = make("div", { class: "overlay" });
   readonly canvas = make("canvas", { role: "img", hidden: true });
   readonly #lit = new Lit();
+  /** Marks of the page. */
+  readonly marks = new MarkLayer();
   readonly #zoom: Zoom;
   readonly #handles: Handles;
   readonly #pointers: Pointers;
@@ -38,7 +41,7 @@ export class Picture {
     this.#zoom = new Zoom(hand);
     this.#handles = new Handles(hand, this.#zoom);
     const { chooser, marks } = this.#handles;
-    this.sheet.append(make("slot"), this.canvas, chooser, this.#lit.element, marks);
+    this.sheet.append(make("slot"), this.canvas, this.marks.element, chooser, this.#lit.element, marks);
     this.element.append(this.sheet, this.overlay);
     const { element, sheet, overlay } = this;
     const [handles, zoom] = [this.#handles, this.#zoom];
@@ -51,7 +54,7 @@ export class Picture {
     const { width, height } = snapshot.layout;
     this.sheet.style.setProperty("--ratio", String(width / height));
     setAttribute(this.canvas, "aria-label", snapshot.description);
-    for (const part of [this.#zoom, this.#pointers, this.#lit, this.#handles]) part.update(snapshot);
+    for (const part of [this.#zoom, this.#pointers, this.#lit, this.marks, this.#handles]) part.update(snapshot);
   }
 
   /** Lights up what the book has this letter for, and nothing else; says whether the picture has it. */

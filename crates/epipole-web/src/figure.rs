@@ -216,6 +216,17 @@ impl Figure {
         refused.map(|problem| problem.to_string())
     }
 
+    /// Values of the state for code of readers, JSON `{name: value}`.
+    pub fn data(&self) -> String {
+        json(&self.figure.data())
+    }
+
+    /// The photograph that a panel shows: rows of red, green, blue. Empty without one.
+    pub fn photograph(&mut self, panel: &str) -> Vec<u8> {
+        let photograph = self.figure.photograph(panel);
+        photograph.map_or_else(Vec::new, RgbImage::into_raw)
+    }
+
     /// File that the reader can save besides the picture, as the snapshot offers it.
     pub fn file(&self) -> Vec<u8> {
         self.figure.file_bytes()

@@ -5,6 +5,7 @@ use crate::contract::{
     Aspect, Challenge, ChallengeStatus, Declared, Event, Layout, Model, PhotoSlot, Space, View,
     Words,
 };
+use image::RgbImage;
 
 /// Interface of [`Figure`](crate::Figure) to any model and view.
 pub(crate) trait Stage {
@@ -18,6 +19,7 @@ pub(crate) trait Stage {
     fn aspect(&self) -> Aspect;
     fn layout(&self, width: f64) -> Layout;
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas);
+    fn photograph(&mut self, panel: &str) -> Option<RgbImage>;
     fn prepare(&mut self) -> bool;
     fn refine(&mut self) -> bool;
 }
@@ -83,6 +85,10 @@ impl<V: View> Stage for Pair<V> {
 
     fn draw(&mut self, layout: &Layout, canvas: &mut Canvas) {
         self.view.draw(&self.model, layout, canvas);
+    }
+
+    fn photograph(&mut self, panel: &str) -> Option<RgbImage> {
+        self.view.photograph(&self.model, panel)
     }
 
     fn prepare(&mut self) -> bool {

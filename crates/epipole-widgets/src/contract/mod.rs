@@ -3,6 +3,7 @@
 
 mod challenge;
 mod control;
+mod data;
 mod decimal;
 mod event;
 mod file;
@@ -22,6 +23,8 @@ mod words;
 pub use challenge::{Challenge, ChallengeStatus};
 pub(crate) use control::round_to_digits;
 pub use control::{Button, ButtonRole, Choice, Control, ControlKind, Place, Slider, Toggle};
+pub(crate) use data::match_data;
+pub use data::{CameraData, Data, Datum};
 pub(crate) use decimal::parse_decimal;
 pub use epipole_canvas::Rect;
 pub use event::{Event, Value};

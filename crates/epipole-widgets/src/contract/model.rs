@@ -1,7 +1,7 @@
 //! The model of a figure: state and mathematics, no drawing and no clock.
 
 use super::{
-    Asking, Challenge, Compute, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot,
+    Asking, Challenge, Compute, Control, Data, Event, FileOffer, Handle, Job, JobResult, PhotoSlot,
     Problem, Space, Symbol, Words,
 };
 use image::RgbImage;
@@ -22,6 +22,11 @@ pub trait Model {
     /// it.
     fn symbols(&self) -> Vec<Symbol> {
         Vec::new()
+    }
+
+    /// Returns values of the state for code of readers. The names are permanent.
+    fn data(&self) -> Data {
+        Data::new()
     }
 
     /// Returns the file that the reader can save besides the picture, if any.

@@ -2,6 +2,7 @@
 
 use super::{Declared, Layout};
 use crate::canvas::Canvas;
+use image::RgbImage;
 use serde::Serialize;
 
 /// Aspect of a figure's picture on wide pages, from which a page arranges everything else.
@@ -30,6 +31,11 @@ pub trait View: Default + 'static {
 
     /// Draws the current state with its handles; the focus ring is the page's.
     fn draw(&mut self, model: &Self::Model, layout: &Layout, canvas: &mut Canvas);
+
+    /// Returns the photograph that a panel shows, for code of readers; `None` in other panels.
+    fn photograph(&mut self, _model: &Self::Model, _panel: &str) -> Option<RgbImage> {
+        None
+    }
 
     /// Does a few milliseconds of the work of the first drawing ahead of time, such as painting the
     /// textures of a scene; false when nothing is left to do. The pictures are the same without it.

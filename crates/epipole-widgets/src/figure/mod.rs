@@ -11,7 +11,7 @@ mod untouched;
 
 use crate::canvas::Picture;
 use crate::contract::{
-    ChallengeStatus, Control, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem,
+    ChallengeStatus, Control, Data, Event, FileOffer, Handle, Job, JobResult, PhotoSlot, Problem,
     Readout, Space, Symbol,
 };
 use crate::gallery::{self, Entry};
@@ -94,6 +94,16 @@ impl Figure {
     /// Returns the chapter's symbols that the picture shows.
     pub fn symbols(&self) -> Vec<Symbol> {
         self.stage.model().symbols()
+    }
+
+    /// Returns values of the state for code of readers.
+    pub fn data(&self) -> Data {
+        self.stage.model().data()
+    }
+
+    /// Returns the photograph that a panel shows, in its present quality, for code of readers.
+    pub fn photograph(&mut self, panel: &str) -> Option<RgbImage> {
+        self.stage.photograph(panel)
     }
 
     /// Returns the file that can be saved besides the picture, if any.

@@ -73,6 +73,11 @@ impl View for DisparityMapView {
         grid.layout(panels.collect())
     }
 
+    fn photograph(&mut self, model: &DisparityMap, panel: &str) -> Option<RgbImage> {
+        let index = ["left", "right"].iter().position(|&name| name == panel)?;
+        Some(model.asked.answer()?.pictures[index].image().clone())
+    }
+
     fn draw(&mut self, model: &DisparityMap, layout: &Layout, canvas: &mut Canvas) {
         for (id, name, short) in NAMES {
             grid::open(canvas, layout.panel(id), &[name, short]);

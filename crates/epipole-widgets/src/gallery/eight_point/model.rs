@@ -6,8 +6,8 @@
 use super::estimate::Estimate;
 use super::question::{Answer, Question};
 use crate::contract::{
-    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
-    Slider, Symbol, Toggle, knobs,
+    Asking, Challenge, Compute, Control, Data, Datum, Declared, Event, Handle, Knob, Model,
+    Problem, Settings, Slider, Symbol, Toggle, knobs, match_data,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, distance_px, exact_match, line2};
@@ -136,6 +136,17 @@ impl Declared for EightPoint {
 }
 
 impl Model for EightPoint {
+    /// The matches that F was estimated from.
+    fn data(&self) -> Data {
+        let Ok(estimate) = self.estimate() else {
+            return Data::new();
+        };
+        let matches = estimate.used.iter().map(|(one, two)| (one, two));
+        let mut data = Data::from(match_data(matches));
+        data.insert("fundamental", Datum::matrix(&estimate.fundamental));
+        data
+    }
+
     fn controls(&self) -> Vec<Control> {
         self.settings.controls()
     }

@@ -14,6 +14,7 @@ use crate::kit::plot::{self, List, Ruler};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 use epipole::epipolar::Epipole;
+use image::RgbImage;
 use nalgebra::Point2;
 
 const MARKER: f64 = 5.0;
@@ -50,6 +51,11 @@ impl View for EightPointView {
             Panel::new("meeting", meeting, columns, rows),
             plot::panel("values", values, &x, &y),
         ])
+    }
+
+    fn photograph(&mut self, model: &EightPoint, panel: &str) -> Option<RgbImage> {
+        let index = ["first", "second"].iter().position(|&name| name == panel)?;
+        Some(model.photographs().ok()?[index].image().clone())
     }
 
     fn draw(&mut self, model: &EightPoint, layout: &Layout, canvas: &mut Canvas) {

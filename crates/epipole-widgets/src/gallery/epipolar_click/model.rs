@@ -1,8 +1,8 @@
 //! Points in photograph 1, and the pose of camera 2.
 
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Symbol, knobs,
+    Button, ButtonRole, Challenge, Control, Data, Datum, Declared, Event, Handle, Knob, Model,
+    Problem, Settings, Slider, Symbol, knobs, match_data,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::points::{Points, number_of};
@@ -171,6 +171,25 @@ impl Model for EpipolarClick {
         let pixel1 = self.selected().map(|(_, point)| point);
         let pixel2 = pixel1.and_then(|point| self.seen(&point).pixel());
         symbols([pixel1, pixel2], self.geometry().as_ref())
+    }
+
+    /// The points that both photographs show.
+    fn data(&self) -> Data {
+        let [first, second] = self.cameras();
+        let matches: Vec<_> = self
+            .points()
+            .filter_map(|(_, pixel1)| match self.seen(&pixel1) {
+                Seen::Visible(pixel2) => Some((pixel1, pixel2)),
+                _ => None,
+            })
+            .collect();
+        let mut data = Data::from(match_data(matches.iter().map(|(one, two)| (one, two))));
+        if let Some(geometry) = self.geometry() {
+            data.insert("fundamental", Datum::matrix(&geometry.fundamental));
+        }
+        data.insert("camera1", Datum::camera(&first));
+        data.insert("camera2", Datum::camera(&second));
+        data
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

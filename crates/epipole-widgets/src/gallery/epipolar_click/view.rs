@@ -10,6 +10,7 @@ use crate::kit::labels::Labels;
 use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line, series};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, Seen};
 use crate::theme::Role;
+use image::RgbImage;
 
 const MARKER: f64 = 5.5;
 /// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
@@ -33,6 +34,12 @@ impl View for EpipolarClickView {
             Panel::photograph("first", first, PHOTO_SIZE).clickable(),
             Panel::photograph("second", second, PHOTO_SIZE),
         ])
+    }
+
+    fn photograph(&mut self, model: &EpipolarClick, panel: &str) -> Option<RgbImage> {
+        let index = ["first", "second"].iter().position(|&name| name == panel)?;
+        let picture = self.photos.picture(index, &model.cameras()[index]);
+        picture.ok().cloned()
     }
 
     fn draw(&mut self, model: &EpipolarClick, layout: &Layout, canvas: &mut Canvas) {

@@ -2,8 +2,8 @@
 
 use super::fit::{Fit, led_away};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
-    Toggle, format_number, knobs,
+    Challenge, Control, Data, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    Symbol, Toggle, format_number, knobs, match_data,
 };
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{Match, Matches, cameras, line2};
@@ -131,6 +131,15 @@ impl Declared for OutlierDrag {
 }
 
 impl Model for OutlierDrag {
+    /// All matches, the wrong one last.
+    fn data(&self) -> Data {
+        let Ok(state) = self.state() else {
+            return Data::new();
+        };
+        let matches = state.truth.iter().chain([&state.wrong]);
+        Data::from(match_data(matches.map(|(one, two)| (one, two))))
+    }
+
     fn controls(&self) -> Vec<Control> {
         self.settings.controls()
     }

@@ -7,8 +7,8 @@ use super::matches::Match;
 use super::question::{Answer, Matched, Question, STILL_LIFE_SIZE};
 use super::votes::{Best, LeftOpen, Moment, Voters, Votes};
 use crate::contract::{
-    Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, PhotoSlot,
-    Problem, Settings, Slider, Symbol, Toggle, knobs,
+    Asking, Challenge, Choice, Compute, Control, Data, Datum, Declared, Event, Handle, Knob, Model,
+    PhotoSlot, Problem, Settings, Slider, Symbol, Toggle, knobs, match_data,
 };
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
@@ -254,6 +254,18 @@ impl Declared for RansacEpipolar {
 }
 
 impl Model for RansacEpipolar {
+    /// The matches that have voted.
+    fn data(&self) -> Data {
+        let matches = self.matches();
+        let pixels: Vec<_> = matches
+            .iter()
+            .map(|found| (found.pixel1(), found.pixel2()))
+            .collect();
+        let mut data = Data::from(match_data(pixels.iter().map(|(one, two)| (one, two))));
+        data.insert("thresholdPx", Datum::Number(self.epsilon_px()));
+        data
+    }
+
     fn controls(&self) -> Vec<Control> {
         let can_run = self.votes().is_some_and(|votes| votes.len() > 0);
         let drawn = self.num_samples();

@@ -9,6 +9,7 @@ use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::pair::{draw_line, spread};
 use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
+use image::RgbImage;
 
 /// Maximum height of a photograph, CSS pixels, so that a tall one leaves room for the rest.
 const TALLEST: f64 = 372.0;
@@ -60,6 +61,11 @@ impl View for RansacEpipolarView {
         let first = Panel::photograph("first", left, sizes[0]).clickable();
         let second = Panel::photograph("second", right, sizes[1]);
         grid.layout(vec![first, second])
+    }
+
+    fn photograph(&mut self, model: &RansacEpipolar, panel: &str) -> Option<RgbImage> {
+        let index = ["first", "second"].iter().position(|&name| name == panel)?;
+        Some(model.matched()?.photographs[index].image().clone())
     }
 
     fn draw(&mut self, model: &RansacEpipolar, layout: &Layout, canvas: &mut Canvas) {

@@ -2,8 +2,8 @@
 
 use super::question::{MAX_SAMPLES, Question, Runs, kind};
 use crate::contract::{
-    Asking, Challenge, Compute, Control, Declared, Event, Knob, Model, Problem, Settings, Slider,
-    Toggle, knobs,
+    Asking, Challenge, Compute, Control, Data, Datum, Declared, Event, Knob, Model, Problem,
+    Settings, Slider, Toggle, knobs,
 };
 use crate::kit::line_points::{COUNT, EPSILON, Scatter, angle_between_deg};
 use crate::kit::question::{Asked, carry_out};
@@ -132,6 +132,13 @@ impl Declared for RansacLine {
 }
 
 impl Model for RansacLine {
+    fn data(&self) -> Data {
+        Data::from([
+            ("points", Datum::points(&self.scattered.points)),
+            ("thresholdPx", Datum::Number(self.epsilon_px())),
+        ])
+    }
+
     fn controls(&self) -> Vec<Control> {
         let (drawn, is_finished) = self.drawn();
         let running = (self.running).controls(self.tally.is_ok(), drawn, is_finished);

@@ -5,8 +5,8 @@
 
 use super::fits::Fits;
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
-    format_number, knobs,
+    Challenge, Control, Data, Datum, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, format_number, knobs,
 };
 use crate::kit::line_points::{COUNT, DIGITS, EPSILON, HEIGHT_PX, Scatter, WIDTH_PX};
 use crate::kit::points::{Points, number_of};
@@ -123,6 +123,13 @@ impl Declared for RansacRace {
 }
 
 impl Model for RansacRace {
+    fn data(&self) -> Data {
+        Data::from([
+            ("points", Datum::points(&self.points.places())),
+            ("thresholdPx", Datum::Number(self.epsilon_px())),
+        ])
+    }
+
     fn controls(&self) -> Vec<Control> {
         let (drawn, finished) = (self.fits.num_samples(), self.fits.is_finished());
         let can_run = self.fits.problem.is_none();

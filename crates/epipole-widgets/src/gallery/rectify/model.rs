@@ -2,8 +2,8 @@
 
 use super::turned::{Turned, Way};
 use crate::contract::{
-    Challenge, Choice, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, Symbol,
-    knobs,
+    Challenge, Choice, Control, Data, Datum, Declared, Event, Knob, Model, Problem, Settings,
+    Slider, Symbol, knobs, match_data,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::scenes::{in_picture, still_life};
@@ -183,6 +183,22 @@ impl Declared for Rectify {
 }
 
 impl Model for Rectify {
+    /// The matches that both photographs show, and the cameras as they are turned.
+    fn data(&self) -> Data {
+        let Ok(state) = self.state() else {
+            return Data::new();
+        };
+        let seen = state.matches.iter().filter(|shown| shown.is_seen);
+        let mut data = Data::from(match_data(seen.map(|shown| {
+            let [pixel1, pixel2] = &shown.pixels;
+            (pixel1, pixel2)
+        })));
+        let [first, second] = &state.turned.shown;
+        data.insert("camera1", Datum::camera(first));
+        data.insert("camera2", Datum::camera(second));
+        data
+    }
+
     fn controls(&self) -> Vec<Control> {
         self.settings.controls()
     }

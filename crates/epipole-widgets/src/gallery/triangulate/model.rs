@@ -2,8 +2,8 @@
 
 use super::estimates::{Estimates, METHODS};
 use crate::contract::{
-    Button, ButtonRole, Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem,
-    Settings, Slider, Space, Symbol, knobs,
+    Button, ButtonRole, Challenge, Choice, Control, Data, Datum, Declared, Event, Handle, Knob,
+    Model, Problem, Settings, Slider, Space, Symbol, knobs, match_data,
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
@@ -128,6 +128,18 @@ impl Declared for Triangulate {
 }
 
 impl Model for Triangulate {
+    /// The cameras, and the noisy pixel of the point in each.
+    fn data(&self) -> Data {
+        let Ok(estimates) = self.estimates() else {
+            return Data::new();
+        };
+        let ([first, second], [pixel1, pixel2]) = (&estimates.cameras, &estimates.pixels);
+        let mut data = Data::from(match_data([(pixel1, pixel2)]));
+        data.insert("camera1", Datum::camera(first));
+        data.insert("camera2", Datum::camera(second));
+        data
+    }
+
     fn controls(&self) -> Vec<Control> {
         let mut controls = self.settings.controls();
         controls.push(AGAIN.control(true, false));
