@@ -5,7 +5,7 @@ import "../src/early.js";
 document.documentElement.dataset.listing = "numpy";
 try {
   const listing = localStorage.getItem("epipole-listing");
-  if (listing && /^(opencv|epipole|rust)$/.test(listing)) document.documentElement.dataset.listing = listing;
+  if (listing && /^(opencv|epipole|rust|js)$/.test(listing)) document.documentElement.dataset.listing = listing;
   const chosen = localStorage.getItem("epipole-theme");
   if (chosen === "light" || chosen === "dark") document.documentElement.dataset.theme = chosen;
   if (localStorage.getItem("epipole-contents") === "folded") document.documentElement.dataset.contents = "folded";

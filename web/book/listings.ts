@@ -35,6 +35,12 @@ function choose(tab: HTMLElement): void {
   }
 }
 
+/** Shows a language, as if the reader had chosen it in this listing. */
+export function showTab(listing: HTMLElement, language: string): void {
+  const tab = listing.querySelector<HTMLElement>(`[role=tab][data-tab=${language}]`);
+  if (tab) choose(tab);
+}
+
 function startTabs(list: HTMLElement): void {
   const tabs = [...list.querySelectorAll<HTMLElement>("[role=tab]")];
   lists.push(tabs);
@@ -78,10 +84,13 @@ function startCopying(button: HTMLButtonElement): void {
   button.hidden = false;
   let timer = 0;
   button.addEventListener("click", async () => {
-    const code = parts.find((part) => part.checkVisibility())?.querySelector("code");
-    if (!code) return;
-    const write = navigator.clipboard?.writeText(code.textContent ?? "");
-    const done = await (write?.then(() => true, () => false) ?? false) || copySelected(code);
+    const part = parts.find((part) => part.checkVisibility());
+    const code = part?.querySelector("code");
+    // An editor has taken the place of code that runs.
+    const text = part?.dataset.code ?? code?.textContent ?? "";
+    const write = navigator.clipboard?.writeText(text);
+    const done = await (write?.then(() => true, () => false) ?? false) || (code != null && copySelected(code));
+    if (!done && code == null) return;
     // If copying failed, the code stays selected for the reader to copy with the keyboard.
     button.textContent = done ? "Copied" : "Selected";
     status.textContent = done ? "Code copied" : "Code selected";

@@ -5,6 +5,7 @@ import { startListings } from "./listings";
 import { startOperating } from "./operate";
 import { startPlaying } from "./play";
 import { makeScrollersReachable } from "./scrollers";
+import { startRunning } from "./run";
 import { settleSections } from "./sections";
 import { startSmall } from "./small";
 import { startSymbols } from "./symbols";
@@ -39,6 +40,8 @@ function sayMissing(): void {
   document.querySelector("main")?.prepend(notice);
   notice.scrollIntoView({ block: "nearest" });
 }
+
+startRunning(sayMissing);
 
 if (document.querySelector(".quiz, .progress, .small .solved")) {
   void import("./quiz").then((quiz) => quiz.start(), sayMissing);

@@ -3,31 +3,7 @@
 // question (another data-hash) does not count.
 
 import { countReached, forget, goalsOf } from "./goals";
-
-const PREFIX = "epipole-quiz:";
-
-type Solved = Record<string, string>;
-
-function load(quiz: string): Solved {
-  try {
-    const stored: unknown = JSON.parse(localStorage.getItem(PREFIX + quiz) ?? "{}");
-    if (typeof stored !== "object" || stored === null || Array.isArray(stored)) return {};
-    // Ignore stored values that are not hashes.
-    return Object.fromEntries(Object.entries(stored).filter(([, hash]) => typeof hash === "string"));
-  } catch {
-    return {};
-  }
-}
-
-/** Stores the solved questions. Returns false if storage is blocked; the page works without it. */
-function save(quiz: string, solved: Solved): boolean {
-  try {
-    localStorage.setItem(PREFIX + quiz, JSON.stringify(solved));
-    return true;
-  } catch {
-    return false;
-  }
-}
+import { canRemember, forgetSolved, hashOf, loadSolved, markSolved } from "./solved";
 
 type Verdict = { right: boolean; say: string };
 
@@ -67,13 +43,13 @@ function showReasons(form: HTMLFormElement): void {
 
 function prepare(form: HTMLFormElement, quiz: string): void {
   const id = form.id;
-  const hash = form.dataset.hash ?? "";
+  const hash = hashOf(form);
   const actions = form.querySelector<HTMLElement>(".question-actions");
   const verdict = form.querySelector<HTMLElement>(".verdict");
   const solution = form.querySelector<HTMLDetailsElement>(".solution");
   if (!actions || !verdict) return;
   actions.hidden = false;
-  if (load(quiz)[id] === hash) {
+  if (loadSolved("quiz", quiz)[id] === hash) {
     form.dataset.state = "right";
     verdict.textContent = "You solved this one.";
   }
@@ -92,7 +68,7 @@ function prepare(form: HTMLFormElement, quiz: string): void {
     verdict.textContent = result.say;
     showReasons(form);
     if (result.right) {
-      if (!save(quiz, { ...load(quiz), [id]: hash })) {
+      if (!markSolved("quiz", quiz, id, hash)) {
         verdict.textContent += " This browser keeps nothing for this page, so it will not remember that.";
       }
       if (solution) solution.open = true;
@@ -105,24 +81,16 @@ function share(count: number, all: number): string {
   return `${Math.min(count, all)} of ${all}`;
 }
 
-/** Whether the page may store anything in this browser. */
-function canRemember(): boolean {
-  try {
-    localStorage.setItem(`${PREFIX}?`, "");
-    localStorage.removeItem(`${PREFIX}?`);
-    return true;
-  } catch {
-    return false;
-  }
-}
-
 /** Fills in the table of the progress page. */
 function showProgress(progress: HTMLElement): void {
   const update = () => {
     for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
-      const [solved, reached] = [".solved", ".reached"].map((cell) => row.querySelector<HTMLElement>(cell));
-      const answers = Object.keys(load(row.dataset.quiz ?? "")).length;
-      if (solved) solved.textContent = share(answers, Number(solved.dataset.questions));
+      const cells = [".solved", ".tasks", ".reached"].map((cell) => row.querySelector<HTMLElement>(cell));
+      const [solved, tasks, reached] = cells;
+      const chapter = row.dataset.quiz ?? "";
+      const count = (kind: "quiz" | "task") => Object.keys(loadSolved(kind, chapter)).length;
+      if (solved) solved.textContent = share(count("quiz"), Number(solved.dataset.questions));
+      if (tasks) tasks.textContent = share(count("task"), Number(tasks.dataset.tasks));
       if (reached) reached.textContent = share(countReached(goalsOf(reached)), goalsOf(reached).length);
     }
   };
@@ -142,7 +110,8 @@ function showProgress(progress: HTMLElement): void {
   reset.addEventListener("click", () => {
     for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
       try {
-        localStorage.removeItem(PREFIX + (row.dataset.quiz ?? ""));
+        forgetSolved("quiz", row.dataset.quiz ?? "");
+        forgetSolved("task", row.dataset.quiz ?? "");
         for (const cell of row.querySelectorAll<HTMLElement>(".reached")) forget(goalsOf(cell));
       } catch {
         // Nothing was stored in that case.
@@ -154,12 +123,14 @@ function showProgress(progress: HTMLElement): void {
 
 /** Shows the reader's progress below a chapter's picture; nothing if there is none. */
 function showSolved(mark: HTMLElement): void {
-  const solved = Object.keys(load(mark.dataset.quiz ?? "")).length;
+  const solved = Object.keys(loadSolved("quiz", mark.dataset.quiz ?? "")).length;
   const questions = Number(mark.dataset.questions);
   const goals = goalsOf(mark);
   const reached = countReached(goals);
   const words = [];
   if (solved > 0) words.push(solved < questions ? `${solved} of ${questions} questions solved` : "Quiz solved");
+  const tasks = Object.keys(loadSolved("task", mark.dataset.quiz ?? "")).length;
+  if (tasks > 0) words.push(tasks === 1 ? "1 task solved" : `${tasks} tasks solved`);
   if (reached > 0) words.push(`${reached} of ${goals.length} goals reached`);
   mark.hidden = words.length === 0;
   mark.textContent = words.join(", ");

@@ -9,7 +9,7 @@ use crate::render::links::LAB_FOLDER;
 use crate::resolve::figures::Widgets;
 use crate::site::{Options, Outcome, build};
 use crate::write::manual::MANUAL_FOLDER;
-use crate::write::policy::{CONTENT_SECURITY_POLICY, FRAME_POLICY, LAB_POLICY, MANUAL_POLICY};
+use crate::write::policy::{FRAME_POLICY, LAB_POLICY, MANUAL_POLICY, PROGRAM_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
 use axum::extract::Request;
@@ -118,7 +118,8 @@ fn policy_of(path: &str) -> &'static str {
     } else if is_in(MANUAL_FOLDER) {
         MANUAL_POLICY
     } else {
-        CONTENT_SECURITY_POLICY
+        // Pages without code that runs tighten it themselves.
+        PROGRAM_POLICY
     }
 }
 

@@ -1,7 +1,7 @@
 //! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, its
 //! output, and cells of the chapter's notebook.
 //!
-//! The fences are any of `python numpy`, `python opencv`, `python epipole` and `rust`, in this
+//! The fences are any of `python numpy`, `python opencv`, `python epipole`, `rust` and `js`, in this
 //! order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests
 //! that run it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
 //! `<chapter>.<name>.png`.
@@ -10,7 +10,7 @@ use crate::html::{escape, path_to_root};
 use crate::parse::source::Source;
 use crate::parse::text::Request;
 use crate::problems::Place;
-use crate::render::code::{COPY, Heading, LONGEST_LINE, shown, take_name};
+use crate::render::code::{COPY, Heading, LONGEST_LINE, run_button, shown, take_name};
 use crate::render::directive::{Directive, ParsedText, Parser, Text};
 use crate::render::insert::{Block, Fence, Insert, Words};
 use crate::render::listing::pre;
@@ -19,11 +19,12 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
 /// The tabs: as a fence names them, their languages, and as the page calls them.
-const TABS: [(&str, &str, &str); 4] = [
+const TABS: [(&str, &str, &str); 5] = [
     ("numpy", "python", "NumPy"),
     ("opencv", "python", "OpenCV"),
     ("epipole", "python", "Epipole (Python)"),
     ("rust", "rust", "Rust"),
+    ("js", "js", "JavaScript"),
 ];
 
 /// The beginning of a listing. `T` is the stage of its title.
@@ -143,9 +144,15 @@ impl Opened {
             None => String::new(),
         };
         self.add_cells(page, &words.markdown, &tabs);
+        let runs = tabs.iter().any(|tab| tab.fence.language == "js");
+        page.page.has_programs |= runs;
+        let run = match runs {
+            true => run_button("Run", "<span class=\"run-hint\"> in JavaScript</span>"),
+            false => String::new(),
+        };
         Ok(format!(
             "{words}<div class=\"listing\" id=\"listing-{name}\" role=\"group\" aria-labelledby=\"listing-{name}-title\">\n\
-             <div class=\"listing-bar\"><p class=\"listing-title\" id=\"listing-{name}-title\">{title}</p>{chooser}{COPY}</div>\n\
+             <div class=\"listing-bar\"><p class=\"listing-title\" id=\"listing-{name}-title\">{title}</p>{run}{COPY}{chooser}</div>\n\
              {parts}{result}</div>\n",
             words = words.html,
             title = self.heading.html,
@@ -169,13 +176,13 @@ impl Opened {
             let Some(index) = known else {
                 let written = format!("{} {}", fence.language, fence.word);
                 return Err(format!(
-                    "listing {name}: `{}` is no tab; its fences are `python numpy`, `python opencv`, `python epipole`, `rust`",
+                    "listing {name}: `{}` is no tab; its fences are `python numpy`, `python opencv`, `python epipole`, `rust`, `js`",
                     written.trim()
                 ));
             };
             if last >= Some(index) {
                 return Err(format!(
-                    "listing {name}: each tab comes once, in the order NumPy, OpenCV, Epipole (Python), Rust"
+                    "listing {name}: each tab comes once, in the order NumPy, OpenCV, Epipole (Python), Rust, JavaScript"
                 ));
             }
             last = Some(index);
@@ -215,7 +222,7 @@ impl Opened {
         let (name, title) = (&self.heading.name, &self.heading.title);
         let head = Cell::text(format!("## {title}\n\n{}", markdown.trim()));
         let mut cells = vec![head];
-        let python = tabs.iter().filter(|tab| tab.key != "rust");
+        let python = tabs.iter().filter(|tab| tab.fence.language == "python");
         for (index, tab) in python.enumerate() {
             if index > 0 {
                 cells.push(Cell::text(format!("### With {}", tab.label)));

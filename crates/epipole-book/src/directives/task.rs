@@ -1,10 +1,12 @@
-//! `{{#task name | Title}}` … `{{/task}}`: a programming task of the notebook, with the fences
-//! `python start`, `python check` and `python solution`.
+//! `{{#task name | Title}}` … `{{/task}}`: a programming task with the fences `start`, `check` and
+//! `solution`. In Python it is one of the notebook. In JavaScript readers solve it in the page; its
+//! check is the body of a function that returns "Right: …" or "Not yet: …".
 
-use crate::html::path_to_root;
+use crate::hash::fnv;
+use crate::html::{escape, path_to_root};
 use crate::parse::text::Request;
 use crate::problems::{Place, name_list};
-use crate::render::code::{COPY, Heading, shown, take_name};
+use crate::render::code::{COPY, Heading, run_button, shown, take_name};
 use crate::render::directive::{Directive, ParsedText, Parser, Text};
 use crate::render::insert::{Block, Fence, Insert, Words};
 use crate::render::listing::pre;
@@ -80,15 +82,34 @@ impl Opened {
     fn html(&self, page: &mut Writer, words: &Words, fences: &[Fence]) -> Result<String, String> {
         let Heading { name, title, html } = &self.0;
         let found: Vec<&str> = fences.iter().map(|fence| fence.word.as_str()).collect();
-        let is_python = fences.iter().all(|fence| fence.language == "python");
         let [start, check, solution] = fences else {
             return Err(self.wrong_fences());
         };
-        if found != FENCES || !is_python {
+        let language = start.language.as_str();
+        let is_one = fences.iter().all(|fence| fence.language == language);
+        if found != FENCES || !is_one || !matches!(language, "python" | "js") {
             return Err(self.wrong_fences());
         }
-        let code = pre(&shown(start, page), "python");
-        let solved = pre(&shown(solution, page), "python");
+        let code = pre(&shown(start, page), language);
+        let solved = pre(&shown(solution, page), language);
+        if language == "js" {
+            let chapter = page.page.path.trim_end_matches(".html").replace('/', "-");
+            let hash = fnv(format!("{}{}", start.code, check.code).as_bytes());
+            page.page.has_programs = true;
+            page.page.tasks += 1;
+            return Ok(format!(
+                "{words}<div class=\"listing task\" id=\"task-{name}\" data-chapter=\"{chapter}\" data-hash=\"{hash:016x}\" \
+                 role=\"group\" aria-labelledby=\"task-{name}-title\">\n\
+                 <div class=\"listing-bar\"><p class=\"listing-title\" id=\"task-{name}-title\">{html}</p>\
+                 {run}{COPY}<p class=\"listing-only\">JavaScript</p></div>\n\
+                 <div class=\"listing-part\" data-tab=\"js\">\n{code}</div>\n\
+                 <template class=\"check\">{check}</template>\n</div>\n\
+                 <details><summary>Solution</summary>\n{solved}</details>\n",
+                words = words.html,
+                run = run_button("Check", ""),
+                check = escape(&check.code),
+            ));
+        }
         let cell = |word: &str, fence: &Fence| Cell::Code {
             id: format!("{name}-{word}"),
             source: fence.code.clone(),
@@ -110,7 +131,7 @@ impl Opened {
         Ok(format!(
             "{words}<div class=\"listing task\" id=\"task-{name}\" role=\"group\" aria-labelledby=\"task-{name}-title\">\n\
              <div class=\"listing-bar\"><p class=\"listing-title\" id=\"task-{name}-title\">{html}</p>\
-             <p class=\"listing-only\">Python</p>{COPY}</div>\n\
+             {COPY}<p class=\"listing-only\">Python</p></div>\n\
              <div class=\"listing-part\">\n{code}</div>\n</div>\n\
              <p>Write it in <a href=\"{root}{file}\" download>the notebook</a>. The cell below it says what is wrong.</p>\n\
              <details><summary>Solution</summary>\n{solved}</details>\n",
@@ -119,8 +140,14 @@ impl Opened {
     }
 
     fn wrong_fences(&self) -> String {
-        let wanted: Vec<String> = FENCES.iter().map(|word| format!("python {word}")).collect();
-        let (name, wanted) = (&self.0.name, name_list(&wanted));
-        format!("task {name} has the fences {wanted}")
+        let wanted = ["python", "js"].map(|language| {
+            let fences: Vec<String> = FENCES.map(|word| format!("{language} {word}")).into();
+            name_list(&fences)
+        });
+        format!(
+            "task {} has the fences {}",
+            self.0.name,
+            wanted.join(", or ")
+        )
     }
 }

@@ -11,6 +11,14 @@ pub(crate) const LONGEST_LINE: usize = 66;
 /// The button that copies the visible code; a script activates it.
 pub(crate) const COPY: &str = "<button type=\"button\" class=\"copy\" hidden>Copy</button>";
 
+/// The button that runs JavaScript; a script activates it.
+pub(crate) fn run_button(label: &str, hint: &str) -> String {
+    format!(
+        "<button type=\"button\" class=\"run\" data-label=\"{label}\" hidden>\
+         <span class=\"run-label\">{label}</span>{hint}</button>"
+    )
+}
+
 /// Name and title of a listing or a task.
 pub(crate) struct Heading {
     pub(crate) name: String,

@@ -15,6 +15,48 @@ const RUST: &[&str] = &[
     "where", "while",
 ];
 
+const JAVASCRIPT: &[&str] = &[
+    "async",
+    "await",
+    "break",
+    "case",
+    "catch",
+    "class",
+    "const",
+    "continue",
+    "default",
+    "delete",
+    "do",
+    "else",
+    "export",
+    "extends",
+    "false",
+    "finally",
+    "for",
+    "from",
+    "function",
+    "if",
+    "import",
+    "in",
+    "instanceof",
+    "let",
+    "new",
+    "null",
+    "of",
+    "return",
+    "static",
+    "super",
+    "switch",
+    "this",
+    "throw",
+    "true",
+    "try",
+    "typeof",
+    "undefined",
+    "while",
+    "yield",
+];
+
 struct Language {
     keywords: &'static [&'static str],
     comment: &'static str,
@@ -35,6 +77,11 @@ pub fn highlight(code: &str, language: &str) -> String {
             keywords: RUST,
             comment: "//",
             single_quotes: false,
+        },
+        "js" => Language {
+            keywords: JAVASCRIPT,
+            comment: "//",
+            single_quotes: true,
         },
         "html" | "text" | "" => return escape(code),
         _ => Language {
@@ -66,6 +113,10 @@ pub fn highlight(code: &str, language: &str) -> String {
 fn token(rest: &str, first: char, language: &Language) -> (usize, Option<&'static str>) {
     if rest.starts_with(language.comment) {
         return (rest.find('\n').unwrap_or(rest.len()), Some("comment"));
+    }
+    if let Some(inside) = rest.strip_prefix('`') {
+        let end = inside.find('`').map_or(rest.len(), |end| end + 2);
+        return (end, Some("string"));
     }
     if let Some(inside) = rest.strip_prefix("\"\"\"") {
         let end = inside.find("\"\"\"").map_or(rest.len(), |end| end + 6);
@@ -131,6 +182,15 @@ mod tests {
         assert!(
             rust.contains("<span class=\"hl-number\">0</span>..<span"),
             "{rust}"
+        );
+    }
+
+    #[test]
+    fn javascript() {
+        assert_eq!(
+            highlight("await f(`a ${b}\n`); // no", "js"),
+            "<span class=\"hl-keyword\">await</span> <span class=\"hl-call\">f</span>\
+             (<span class=\"hl-string\">`a ${b}\n`</span>); <span class=\"hl-comment\">// no</span>"
         );
     }
 

@@ -40,6 +40,7 @@ pub(crate) fn pre(code: &str, language: &str) -> String {
     let label = match language {
         "python" => "Python",
         "rust" => "Rust",
+        "js" => "JavaScript",
         "html" => "HTML",
         "sh" | "console" | "bash" => "Command line",
         _ => "Listing",
@@ -89,6 +90,7 @@ fn is_assertion(words: &str, language: &str) -> bool {
             .iter()
             .any(|start| words.starts_with(start)),
         "python" => words.starts_with("assert ") || words.starts_with("assert("),
+        "js" => words.starts_with("console.assert("),
         _ => false,
     }
 }
@@ -130,6 +132,8 @@ mod tests {
         let code =
             "# fn main() {\nlet a = 1;\nassert_eq!(\n    a,\n    1\n);\nprintln!(\"{a}\");\n# }\n";
         assert_eq!(shown(code, "rust"), "let a = 1;\nprintln!(\"{a}\");");
+        let code = "f();\nconsole.assert(\n  a === 1,\n);\ng();\n";
+        assert_eq!(shown(code, "js"), "f();\ng();");
         // Words that only look like one.
         assert_eq!(shown("assertion = 1\n", "python"), "assertion = 1");
     }

@@ -119,6 +119,10 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Names of listings and tasks.
     pub listings: Vec<String>,
+    /// Whether it has JavaScript that readers run.
+    pub has_programs: bool,
+    /// Number of tasks that are solved in the page.
+    pub tasks: usize,
     /// Cells of the chapter's notebook.
     pub cells: Vec<Cell>,
     /// Letters that the chapter's figures also draw.

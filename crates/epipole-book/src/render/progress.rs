@@ -17,12 +17,12 @@ pub(super) fn solved_mark(page: &Page) -> String {
     })
 }
 
-/// A table of all quizzes, and of the goals of the figures beside them; the script of the page
+/// A table of all quizzes, and of the tasks and the goals of the figures beside them; the script of the page
 /// fills in the results.
 pub(super) fn progress_table(pages: &[Page]) -> String {
     let mut html = String::from(
         "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
-         </th><th scope=\"col\">Questions solved</th><th scope=\"col\">Goals reached</th></tr></thead>\n<tbody>\n",
+         </th><th scope=\"col\">Questions solved</th><th scope=\"col\">Tasks solved</th><th scope=\"col\">Tasks solved</th><th scope=\"col\">Goals reached</th></tr></thead>\n<tbody>\n",
     );
     let quizzes = pages
         .iter()
@@ -35,9 +35,13 @@ pub(super) fn progress_table(pages: &[Page]) -> String {
                 escape(&goals(page))
             ),
         };
+        let tasks = match page.tasks {
+            0 => "<td>no tasks</td>".to_owned(),
+            count => format!("<td class=\"tasks\" data-tasks=\"{count}\">– of {count}</td>"),
+        };
         html.push_str(&format!(
             "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td>\
-             <td class=\"solved\" data-questions=\"{}\">– of {}</td>{reached}</tr>\n",
+             <td class=\"solved\" data-questions=\"{}\">– of {}</td>{tasks}{reached}</tr>\n",
             escape(&quiz.name),
             page.path,
             escape(&page.title),

@@ -7,6 +7,7 @@ mod fonts;
 mod lab;
 mod letters;
 mod likeness;
+mod programs;
 mod scripts;
 mod wasm;
 
@@ -46,7 +47,9 @@ pub(crate) fn make(
     let mut assets = Assets::default();
     fonts::add(&tools, letters, &mut assets)?;
     let look = scripts::add_look(&tools, live, &mut assets)?;
-    scripts::add_pages(&tools, &look, live, &mut assets)?;
+    let runs = modules.map(|modules| programs::add(&tools, modules, live, &mut assets));
+    let runs = runs.transpose()?.unwrap_or_default();
+    scripts::add_pages(&tools, &look, &runs, live, &mut assets)?;
     if let Some(modules) = modules {
         scripts::add_elements(&tools, modules, &look, live, &mut assets)?;
     }

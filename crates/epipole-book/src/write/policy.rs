@@ -1,28 +1,34 @@
 //! Content-Security-Policies of the pages.
 
 macro_rules! policy {
-    ($connect:literal, $more:literal) => {
+    ($connect:literal, $worker:literal, $more:literal) => {
         concat!(
             "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; ",
             "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'",
             $connect,
-            "; worker-src 'self'; ",
+            "; worker-src 'self'",
+            $worker,
+            "; ",
             "manifest-src 'self'; base-uri 'none'; form-action 'none'",
             $more
         )
     };
 }
 
-/// Content-Security-Policy of a page. Sent as a header by `serve`, and part of every page.
-pub const CONTENT_SECURITY_POLICY: &str = policy!("", "");
+/// Content-Security-Policy of a page, and a part of it.
+pub const CONTENT_SECURITY_POLICY: &str = policy!("", "", "");
+
+/// The same for pages with code that readers change and run: it runs in a worker whose script is a
+/// blob. Such a script has this policy, too, so it evaluates no text and loads from here alone.
+pub const PROGRAM_POLICY: &str = policy!("", " blob:", "");
 
 /// The same for pages inside frames of other pages. Browsers ignore the last directive in the page
 /// itself.
-pub const FRAME_POLICY: &str = policy!("", "; frame-ancestors *");
+pub const FRAME_POLICY: &str = policy!("", "", "; frame-ancestors *");
 
 /// The same for the Lab, which also opens the reader's own videos, and whose workers check a URL of
 /// the page for cancellation.
-pub const LAB_POLICY: &str = policy!(" blob:", "; media-src blob:");
+pub const LAB_POLICY: &str = policy!(" blob:", "", "; media-src blob:");
 
 /// Content-Security-Policy of the manual of the Python package, whose theme has inline scripts and
 /// styles.

@@ -1,7 +1,7 @@
 //! The template of a page, `web/theme/index.hbs`, and its variables.
 
 use super::assets::Assets;
-use super::policy::CONTENT_SECURITY_POLICY;
+use super::policy::{CONTENT_SECURITY_POLICY, PROGRAM_POLICY};
 use crate::html::path_to_root;
 use crate::parse::book::Entry;
 use crate::render::links::LAB_FOLDER;
@@ -202,7 +202,10 @@ impl<'a> Template<'a> {
             book_title: &self.book_title,
             description,
             root: &root,
-            policy: CONTENT_SECURITY_POLICY,
+            policy: match page.has_programs {
+                true => PROGRAM_POLICY,
+                false => CONTENT_SECURITY_POLICY,
+            },
             content: &page.html,
             page_class: class,
             assets: self.assets,

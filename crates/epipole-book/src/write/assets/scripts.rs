@@ -1,6 +1,7 @@
 //! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
 
 use super::files::{Assets, add_hashed};
+use super::programs::Programs;
 use super::wasm::{Module, Modules};
 use super::{embed, fonts};
 use crate::tools::{Tools, read};
@@ -17,7 +18,13 @@ const FONT: &str = "stix-two:";
 const LOOK: &str = "epipole-look";
 
 /// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
-pub(super) fn add_pages(tools: &Tools, look: &Path, fast: bool, assets: &mut Assets) -> Result<()> {
+pub(super) fn add_pages(
+    tools: &Tools,
+    look: &Path,
+    programs: &Programs,
+    fast: bool,
+    assets: &mut Assets,
+) -> Result<()> {
     // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
     let mut css = bundle(
         tools,
@@ -46,7 +53,9 @@ pub(super) fn add_pages(tools: &Tools, look: &Path, fast: bool, assets: &mut Ass
         .get("head")
         .cloned()
         .context("esbuild made no head.js")?;
-    let module = ["--format=esm", "--splitting"];
+    let vision = define("EPIPOLE_VISION", &programs.package);
+    let sandbox = define("EPIPOLE_SANDBOX", &programs.sandbox);
+    let module = ["--format=esm", "--splitting", &vision, &sandbox];
     let page = bundle(tools, "web/book/page.ts", &module, fast, assets)?;
     assets.page = page
         .get("page")
@@ -66,14 +75,11 @@ pub(super) fn add_elements(
     fast: bool,
     assets: &mut Assets,
 ) -> Result<()> {
-    let Modules { figures, jobs } = modules;
+    let Modules { figures, jobs, .. } = modules;
     let mut add =
         |name: &str, wasm: &[u8]| add_hashed(&mut assets.files, name, "wasm", wasm.to_vec());
     let figures_wasm = add("epipole-figures", &figures.wasm);
     let jobs_wasm = add("epipole-jobs", &jobs.wasm);
-    let define = |name: &str, path: &str| {
-        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
-    };
     let mut flags = vec![
         "--format=esm".to_owned(),
         format!("--alias:epipole-web={}", figures.glue.display()),
@@ -121,9 +127,6 @@ pub(super) fn add_lab(
     let page_wasm = add("lab-page", &page.wasm);
     let vision_wasm = add("lab-vision", &vision.wasm);
     let files_wasm = add("lab-files", &files.wasm);
-    let define = |name: &str, path: &str| {
-        format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
-    };
     let mut flags = vec![
         "--format=esm".to_owned(),
         format!("--alias:epipole-lab-page={}", page.glue.display()),
@@ -157,6 +160,11 @@ pub(super) fn add_look(tools: &Tools, fast: bool, assets: &mut Assets) -> Result
     Ok(tools.work.join("bundle/figure").join(name))
 }
 
+/// A constant of scripts: a path relative to their folder.
+fn define(name: &str, path: &str) -> String {
+    format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
+}
+
 fn borrowed(flags: &[String]) -> Vec<&str> {
     flags.iter().map(String::as_str).collect()
 }
@@ -173,7 +181,7 @@ struct Output {
 }
 
 /// Bundles one entry into `assets`. Returns name of the entry → path.
-fn bundle(
+pub(super) fn bundle(
     tools: &Tools,
     entry: &str,
     flags: &[&str],

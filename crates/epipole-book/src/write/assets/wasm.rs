@@ -19,12 +19,14 @@ pub(crate) struct Module {
     pub(super) glue: PathBuf,
 }
 
-/// WebAssembly modules of the elements.
+/// WebAssembly modules of the elements, and of the npm package of the core.
 pub(crate) struct Modules {
     /// Module for the page; the elements import its script as `epipole-web`.
     pub(super) figures: Module,
     /// Module for workers; they import its script as `epipole-jobs`.
     pub(super) jobs: Module,
+    /// Folder of the modules of the package and their scripts.
+    pub(super) parts: PathBuf,
 }
 
 /// Builds the modules of the book.
@@ -32,6 +34,7 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
     Ok(Modules {
         figures: build(tools, "epipole-web", "figures")?,
         jobs: build(tools, "epipole-web", "jobs")?,
+        parts: make_parts(&tools.project)?,
     })
 }
 

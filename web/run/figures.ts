@@ -1,0 +1,68 @@
+/** Figures of the page, for the code of readers. */
+
+import type { FigureFacts, Marks, Question, Reply } from "./messages.js";
+
+interface Figure extends HTMLElement {
+  readonly state: Record<string, string>;
+  readonly readouts: Record<string, number | string>;
+  readonly data: Record<string, unknown>;
+  readonly panels: readonly string[];
+  whenReady(): Promise<void>;
+  apply(parameters: Record<string, string>): void;
+  photograph(panel: string): { width: number; height: number; data: Uint8Array } | undefined;
+  draw(marks: Marks): void;
+  clearMarks(): void;
+  flush(): void;
+}
+
+/** The figures of this page by name; of several with a name, the first. */
+function figures(): Map<string, Figure> {
+  const found = new Map<string, Figure>();
+  for (const element of document.querySelectorAll<Figure>("main epipole-figure[name]")) {
+    const name = element.getAttribute("name") ?? "";
+    if (!found.has(name)) found.set(name, element);
+  }
+  return found;
+}
+
+/** Facts of the figures that code names. Opens those that the reader has not reached yet. */
+export async function factsFor(code: string): Promise<Record<string, FigureFacts>> {
+  const named = [...figures()].filter(([name]) => code.includes(`"${name}"`) || code.includes(`'${name}'`));
+  const facts = named.map(async ([name, figure]) => {
+    await open(figure);
+    return [name, factsOf(figure)] as const;
+  });
+  return Object.fromEntries(await Promise.all(facts));
+}
+
+async function open(figure: Figure): Promise<void> {
+  await customElements.whenDefined("epipole-figure");
+  // A figure that nobody has opened has no readouts; its own state opens it unchanged.
+  if (Object.keys(figure.readouts).length === 0) figure.apply(figure.state);
+  await figure.whenReady();
+}
+
+function factsOf(figure: Figure): FigureFacts {
+  const { state, readouts, data, panels } = figure;
+  return { state, readouts, data, panels };
+}
+
+/** Answers a question of the code. Rejects with a sentence. */
+export async function answer(question: Question): Promise<Reply> {
+  const figure = figures().get(question.figure);
+  if (!figure) throw new Error(`there is no figure ${question.figure} on this page`);
+  await open(figure);
+  if (question.ask === "photograph") {
+    const photograph = figure.photograph(question.panel);
+    if (photograph) return photograph;
+    throw new Error(`the panel ${question.panel} shows no photograph; the panels are ${figure.panels.join(", ")}`);
+  }
+  if (question.ask === "set") {
+    figure.apply(question.parameters);
+    // Each step of a loop is seen.
+    await new Promise((done) => requestAnimationFrame(done));
+    figure.flush();
+  } else if (question.ask === "draw") figure.draw(question.marks);
+  else figure.clearMarks();
+  return factsOf(figure);
+}

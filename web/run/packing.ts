@@ -1,0 +1,32 @@
+/** Text as part of an address: deflated where the browser can, in base 64 without characters that addresses escape. */
+
+/** Longest text that a link may bring, characters. */
+const MOST = 100_000;
+
+async function through(bytes: Uint8Array<ArrayBuffer>, stream: GenericTransformStream): Promise<Uint8Array<ArrayBuffer>> {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+/** Packs text; the first letter names the way. */
+export async function packed(text: string): Promise<string> {
+  const plain = new TextEncoder().encode(text);
+  const isDeflated = typeof CompressionStream === "function";
+  const bytes = isDeflated ? await through(plain, new CompressionStream("deflate-raw")) : plain;
+  const letters = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+  const code = btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+  return (isDeflated ? "d" : "p") + code;
+}
+
+/** Unpacks text. Rejects with a sentence if it is damaged. */
+export async function unpacked(code: string): Promise<string> {
+  try {
+    const letters = atob(code.slice(1).replaceAll("-", "+").replaceAll("_", "/"));
+    const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
+    const plain = code.startsWith("d") ? await through(bytes, new DecompressionStream("deflate-raw")) : bytes;
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(plain);
+    if (text.length <= MOST) return text;
+  } catch {
+    // Damaged; said below.
+  }
+  throw new Error("The code in this link is damaged or longer than 100,000 characters.");
+}
