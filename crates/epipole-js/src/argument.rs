@@ -1,6 +1,7 @@
 //! Arguments: from values to points, matrices and cameras.
 
 use crate::fault::{Fault, Result};
+use crate::output::Indices;
 use crate::types::Types;
 use crate::value::Value;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
@@ -88,7 +89,11 @@ impl<T: Argument> Argument for Option<T> {
 
 impl<T: Argument> Argument for Vec<T> {
     fn typescript(types: &mut Types) -> String {
-        format!("readonly {}[]", T::typescript(types))
+        let element = T::typescript(types);
+        match T::IS_OPTIONAL {
+            true => format!("readonly ({element} | null)[]"),
+            false => format!("readonly {element}[]"),
+        }
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {
@@ -160,6 +165,18 @@ impl<const N: usize, const D: usize> Argument for Sample<N, D> {
 
 /// Numbers of an array of rows with `width` each, or of one flat array. Refuses NaN.
 fn flat(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f64>> {
+    let out = rows(name, value, width, expected)?;
+    match out.iter().position(|number| number.is_nan()) {
+        Some(place) => Err(Fault::of_range(format!(
+            "{name} contains NaN in row {}",
+            place / width
+        ))),
+        None => Ok(out),
+    }
+}
+
+/// The same with NaN.
+pub(crate) fn rows(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f64>> {
     let mut out = Vec::new();
     if let Some(numbers) = value.numbers() {
         if numbers.len() % width != 0 {
@@ -187,13 +204,7 @@ fn flat(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f
     } else {
         return Err(not(name, &format!("an array of {expected}"), value));
     }
-    match out.iter().position(|number| number.is_nan()) {
-        Some(place) => Err(Fault::of_range(format!(
-            "{name} contains NaN in row {}",
-            place / width
-        ))),
-        None => Ok(out),
-    }
+    Ok(out)
 }
 
 /// Finite numbers of a matrix by row. One function for matrices of all sizes.
@@ -240,6 +251,29 @@ impl<const D: usize> Argument for OPoint<f64, Const<D>> {
 
     fn read(name: &str, value: &Value) -> Result<Self> {
         SVector::read(name, value).map(Self::from)
+    }
+}
+
+impl Argument for Indices {
+    fn typescript(_: &mut Types) -> String {
+        "ArrayLike<number>".to_owned()
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        let numbers = value
+            .numbers()
+            .ok_or_else(|| not(name, "an array of indices", value))?;
+        let wrong =
+            |number: &&f64| number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(*number);
+        match numbers.iter().find(wrong) {
+            Some(number) => Err(Fault::of_range(format!(
+                "{name} must contain integers from 0 to {}, but contains {number}",
+                u32::MAX
+            ))),
+            None => Ok(Self(
+                numbers.iter().map(|&number| number as usize).collect(),
+            )),
+        }
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::argument::Vectors;
 use crate::functions::functions;
 use crate::output::Numbers;
-use epipole::camera::{self, Camera, PosedCamera, RigidTransform};
-use epipole::nalgebra::{Point2, Point3, SVector, Vector3};
+use epipole::camera::{self, Camera, Intrinsics, PosedCamera, RigidTransform};
+use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, SVector, Vector3};
 
 functions! {
     /// Pixels of points in the camera frame; NaN for points that the lens does not see.
@@ -50,5 +50,36 @@ functions! {
         cam1_from_world: RigidTransform, cam2_from_world: RigidTransform
     ) -> RigidTransform {
         camera::relative_motion(&cam1_from_world, &cam2_from_world)
+    }
+
+    /// Transform after another: `aFromB` after `bFromC` is `aFromC`.
+    fn compose_transforms(a_from_b: RigidTransform, b_from_c: RigidTransform) -> RigidTransform {
+        a_from_b * b_from_c
+    }
+
+    /// Inverse transform: of `aFromB`, `bFromA`.
+    fn invert_transform(a_from_b: RigidTransform) -> RigidTransform {
+        a_from_b.inverse()
+    }
+
+    /// Points moved from frame b to frame a.
+    fn transform_points(a_from_b: RigidTransform, points_in_b: Vectors<3>) -> Numbers {
+        let points: Vec<_> = points_in_b.points().iter().map(|point| a_from_b * point).collect();
+        Numbers::of_points(&points)
+    }
+
+    /// Angle of the rotation of a transform, radians in [0, pi].
+    fn rotation_angle_rad(a_from_b: RigidTransform) -> f64 {
+        a_from_b.rotation.angle()
+    }
+
+    /// Matrix K of intrinsics, 9 numbers by row.
+    fn intrinsics_matrix(intrinsics: Intrinsics) -> Matrix3<f64> {
+        intrinsics.matrix()
+    }
+
+    /// Projection matrix K [R | t] of a camera, 12 numbers by row, for undistorted pixels.
+    fn projection_matrix(camera: PosedCamera) -> Matrix3x4<f64> {
+        camera.projection_matrix()
     }
 }

@@ -7,7 +7,7 @@ use crate::output::{Numbers, records, structs};
 use epipole::ArrayVec;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use epipole::epipolar::{
-    self, Epipole, EssentialWithFocal, PoseWithFocal, RelativePose, SelectedPose,
+    self, EightPoint, Epipole, EssentialWithFocal, PoseWithFocal, RelativePose, SelectedPose,
 };
 use epipole::nalgebra::{Matrix3, Point2, SVector, Vector3};
 use epipole::optim::RobustLoss;
@@ -42,6 +42,18 @@ records! {
         num_in_front: usize,
         /// The same for the second-best motion.
         second_num_in_front: usize,
+    }
+
+    /// Fundamental matrix by the eight-point method, with its intermediate results.
+    EightPoint as EightPoint {
+        /// F of rank 2 and unit norm.
+        fundamental: Matrix3<f64>,
+        /// Least-squares solution before its rank was lowered to 2, of unit norm.
+        full_rank: Matrix3<f64>,
+        /// The 9 singular values of the linear system, largest first.
+        singular_values: [f64; 9],
+        /// Largest singular value over the eighth: amplification of errors of the data.
+        condition_number: f64,
     }
 
     /// Essential matrix and focal length.
@@ -130,6 +142,24 @@ functions! {
     /// Fundamental matrix of eight or more matches without outliers, normalized.
     fn fundamental_8point(pixels1: Vectors<2>, pixels2: Vectors<2>) -> Matrix3<f64> {
         epipolar::fundamental_8point(&pixels1.points(), &pixels2.points())?
+    }
+
+    /// Result of `fundamental8point` with its intermediate results.
+    fn fundamental_8point_explained(pixels1: Vectors<2>, pixels2: Vectors<2>) -> EightPoint {
+        epipolar::fundamental_8point_explained(&pixels1.points(), &pixels2.points())?
+    }
+
+    /// Eight-point method without normalization of the pixels, for comparison.
+    fn fundamental_8point_unnormalized(pixels1: Vectors<2>, pixels2: Vectors<2>) -> EightPoint {
+        epipolar::fundamental_8point_unnormalized(&pixels1.points(), &pixels2.points())?
+    }
+
+    /// Rows of the linear system of the eight-point method, 9 numbers for each match: their product
+    /// with F by row is `x2' F x1`.
+    fn epipolar_row(pixels1: Vectors<2>, pixels2: Vectors<2>) -> Numbers {
+        let (pixels1, pixels2) = crate::pairs::zip(("pixels1", pixels1), ("pixels2", pixels2))?;
+        let rows = pixels1.iter().zip(&pixels2);
+        Numbers(rows.flat_map(|(pixel1, pixel2)| epipolar::epipolar_row(pixel1, pixel2)).collect())
     }
 
     /// Fundamental matrices of seven matches.

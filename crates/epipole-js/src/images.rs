@@ -5,12 +5,16 @@ use crate::fault::{Fault, Result};
 use crate::output::Output;
 use crate::types::Types;
 use crate::value::Value;
+use epipole::camera::Camera;
 use epipole::feature::photo_to_gray;
-use epipole::image::{GrayImage, ImageBuffer, Pixel, Rgb, RgbImage, RgbaImage};
+use epipole::image::{self, GrayImage, ImageBuffer, Pixel, RgbImage, RgbaImage};
 use epipole::imaging::{GrayImage32, gray_from_values, gray_to_f32, rgb_to_gray};
 
 /// Values beyond [0, 1] that filters may leave.
 const OVERSHOOT: f32 = 0.5;
+
+/// Maximum side of an image, pixels.
+const MAX_SIDE: u32 = 65_535;
 
 /// An image of any kind.
 pub enum Image {
@@ -24,10 +28,62 @@ pub enum Image {
     Gray32(GrayImage32),
 }
 
+/// Computes an image of the same kind.
+macro_rules! same_kind {
+    ($image:expr, |$pixels:ident| $run:expr) => {
+        match $image {
+            $crate::images::Image::Gray8($pixels) => $crate::images::Image::Gray8($run),
+            $crate::images::Image::Rgb8($pixels) => $crate::images::Image::Rgb8($run),
+            $crate::images::Image::Rgba8($pixels) => $crate::images::Image::Rgba8($run),
+            $crate::images::Image::Gray32($pixels) => $crate::images::Image::Gray32($run),
+        }
+    };
+}
+pub(crate) use same_kind;
+
 /// A gray image of floats with black 0 and white 1, from an image of any kind.
 pub struct Gray(pub GrayImage32);
 
+/// Colors of a photo: gray values of bytes count three times.
+pub struct Rgb(pub RgbImage);
+
+/// Gray values of any range: bytes count as value / 255, floats stay as they are.
+pub struct Field(pub GrayImage32);
+
+/// Refuses results with sides that no image has.
+pub(crate) fn require_size(name: &str, width: u32, height: u32) -> Result<()> {
+    let side = 1..=MAX_SIDE;
+    match side.contains(&width) && side.contains(&height) {
+        true => Ok(()),
+        false => Err(Fault::of_range(format!(
+            "{name} must have sides from 1 to {MAX_SIDE} pixels, but has {width} x {height}"
+        ))),
+    }
+}
+
+/// Refuses images of another size than their camera's.
+pub(crate) fn require_camera(name: &str, image: &Image, camera: &Camera) -> Result<()> {
+    let (width, height) = image.dimensions();
+    match (width, height) == (camera.width, camera.height) {
+        true => Ok(()),
+        false => Err(Fault::of_range(format!(
+            "{name} must have the size of its camera, {} x {}, but has {width} x {height}",
+            camera.width, camera.height
+        ))),
+    }
+}
+
 impl Image {
+    /// Width and height, pixels.
+    pub fn dimensions(&self) -> (u32, u32) {
+        match self {
+            Self::Gray8(image) => image.dimensions(),
+            Self::Rgb8(image) => image.dimensions(),
+            Self::Rgba8(image) => image.dimensions(),
+            Self::Gray32(image) => image.dimensions(),
+        }
+    }
+
     /// Gray values of bytes; floats stay as they are.
     pub fn into_gray(self) -> Self {
         match self {
@@ -38,9 +94,9 @@ impl Image {
     }
 }
 
-fn opaque(image: &RgbaImage) -> RgbImage {
-    let color = |u, v| Rgb([0, 1, 2].map(|channel| image.get_pixel(u, v).0[channel]));
-    RgbImage::from_fn(image.width(), image.height(), color)
+fn opaque(photo: &RgbaImage) -> RgbImage {
+    let color = |u, v| image::Rgb([0, 1, 2].map(|channel| photo.get_pixel(u, v).0[channel]));
+    RgbImage::from_fn(photo.width(), photo.height(), color)
 }
 
 impl Argument for Image {
@@ -68,9 +124,9 @@ impl Argument for Image {
         let side = |key| {
             let pixels = u32::read(&format!("{name}.{key}"), value.get(key))?;
             match pixels {
-                1..=65_535 => Ok(pixels),
+                1..=MAX_SIDE => Ok(pixels),
                 _ => Err(Fault::of_range(format!(
-                    "{name}.{key} must be from 1 to 65535, but is {pixels}"
+                    "{name}.{key} must be from 1 to {MAX_SIDE}, but is {pixels}"
                 ))),
             }
         };
@@ -118,18 +174,49 @@ impl Argument for Image {
     }
 }
 
+impl Argument for Rgb {
+    fn typescript(types: &mut Types) -> String {
+        <Image as Argument>::typescript(types)
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        Ok(Self(match Image::read(name, value)? {
+            Image::Gray8(gray) => {
+                let color = |u, v| image::Rgb([gray.get_pixel(u, v).0[0]; 3]);
+                RgbImage::from_fn(gray.width(), gray.height(), color)
+            }
+            Image::Rgb8(photo) => photo,
+            Image::Rgba8(photo) => opaque(&photo),
+            Image::Gray32(_) => {
+                let message = format!("{name} must be an image of bytes, but has floats");
+                return Err(Fault::of_type(message));
+            }
+        }))
+    }
+}
+
+impl Argument for Field {
+    fn typescript(types: &mut Types) -> String {
+        <Image as Argument>::typescript(types)
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        Ok(Self(match Image::read(name, value)? {
+            Image::Gray8(image) => gray_to_f32(&image),
+            Image::Rgb8(image) => photo_to_gray(&image),
+            Image::Rgba8(image) => photo_to_gray(&opaque(&image)),
+            Image::Gray32(image) => image,
+        }))
+    }
+}
+
 impl Argument for Gray {
     fn typescript(types: &mut Types) -> String {
         <Image as Argument>::typescript(types)
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {
-        let image = match Image::read(name, value)? {
-            Image::Gray8(image) => gray_to_f32(&image),
-            Image::Rgb8(image) => photo_to_gray(&image),
-            Image::Rgba8(image) => photo_to_gray(&opaque(&image)),
-            Image::Gray32(image) => image,
-        };
+        let Field(image) = Field::read(name, value)?;
         let range = -OVERSHOOT..=1.0 + OVERSHOOT;
         match image.as_raw().iter().find(|value| !range.contains(value)) {
             None => Ok(Self(image)),

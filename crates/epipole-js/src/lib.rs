@@ -2,7 +2,7 @@
 //!
 //! A call reads its arguments ([`argument`], [`options`]), computes, and returns plain data
 //! ([`output`]); [`functions`] declares it. Files are named for the modules of the core. Each part
-//! is a cargo feature and a WebAssembly module of its own. The same table gives the calls, the type
+//! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table gives the calls, the type
 //! declarations in `web/vision/src/api.ts`, and the native results that tests compare bit for bit.
 
 pub mod argument;
@@ -17,6 +17,8 @@ pub mod value;
 
 #[cfg(feature = "geometry")]
 mod absolute_pose;
+#[cfg(feature = "images")]
+mod calibration;
 #[cfg(feature = "geometry")]
 mod camera;
 #[cfg(feature = "geometry")]
@@ -28,11 +30,21 @@ mod homography;
 #[cfg(feature = "images")]
 pub mod images;
 #[cfg(feature = "images")]
+mod imaging;
+#[cfg(feature = "all")]
+mod optim;
+#[cfg(feature = "geometry")]
+mod robust;
+#[cfg(feature = "all")]
+mod sfm;
+#[cfg(feature = "images")]
 mod stereo;
 #[cfg(feature = "geometry")]
 mod synthetic;
 #[cfg(feature = "geometry")]
 mod triangulation;
+#[cfg(feature = "geometry")]
+mod two_view;
 
 use epipole::progress::Monitor;
 use fault::{Fault, Result};
@@ -40,10 +52,18 @@ use functions::{Function, Signature};
 use types::Types;
 use value::Value;
 
+/// Parts with the larger parts that contain them, smallest first: the features of `Cargo.toml`.
+pub const PARTS: &[(&str, &[&str])] = &[
+    ("homography", &["geometry", "all"]),
+    ("geometry", &["all"]),
+    ("images", &["all"]),
+    ("all", &[]),
+];
+
 /// Functions of one file.
 #[derive(Debug)]
 pub struct Group {
-    /// Part that the file belongs to.
+    /// Smallest part that contains the file.
     pub part: &'static str,
     /// Its functions.
     pub functions: &'static [Function],
@@ -79,7 +99,22 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "geometry")]
     Group {
         part: "geometry",
+        functions: robust::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
+        functions: two_view::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
         functions: synthetic::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: imaging::FUNCTIONS,
     },
     #[cfg(feature = "images")]
     Group {
@@ -90,6 +125,46 @@ pub const GROUPS: &[Group] = &[
     Group {
         part: "images",
         functions: stereo::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: calibration::undistort::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: calibration::board::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: calibration::calibrate::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::two_view_reconstruction::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::bundle::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::photos::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::reconstruction::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::pose_graph::FUNCTIONS,
     },
 ];
 
@@ -107,11 +182,33 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         #[cfg(feature = "geometry")]
         absolute_pose::signatures(types),
         #[cfg(feature = "geometry")]
+        robust::signatures(types),
+        #[cfg(feature = "geometry")]
+        two_view::signatures(types),
+        #[cfg(feature = "geometry")]
         synthetic::signatures(types),
+        #[cfg(feature = "images")]
+        imaging::signatures(types),
         #[cfg(feature = "images")]
         feature::signatures(types),
         #[cfg(feature = "images")]
         stereo::signatures(types),
+        #[cfg(feature = "images")]
+        calibration::undistort::signatures(types),
+        #[cfg(feature = "all")]
+        calibration::board::signatures(types),
+        #[cfg(feature = "all")]
+        calibration::calibrate::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::two_view_reconstruction::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::bundle::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::photos::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::reconstruction::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::pose_graph::signatures(types),
     ]
 }
 

@@ -34,6 +34,30 @@ impl<T: DeserializeOwned + Serialize + Default> Argument for Options<T> {
     }
 }
 
+/// Options of a function without any but those of control.
+pub struct NoOptions;
+
+impl Argument for NoOptions {
+    const IS_OPTIONAL: bool = true;
+
+    fn typescript(_: &mut Types) -> String {
+        "Control".to_owned()
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        match value {
+            Value::Nothing => Ok(Self),
+            Value::Record(entries) => match entries.first() {
+                None => Ok(Self),
+                Some((key, _)) => Err(Fault::of_type(format!(
+                    "{name} has no {key}; it has signal, progress"
+                ))),
+            },
+            _ => Err(not(name, "an object", value)),
+        }
+    }
+}
+
 /// One value by serde, such as a robust loss.
 pub struct Setting<T>(pub T);
 

@@ -47,13 +47,14 @@ macro_rules! records {
 pub(crate) use records;
 
 /// Declares structs, and makes plain objects of them.
+#[cfg(any(feature = "geometry", feature = "images"))]
 macro_rules! structs {
-    ($($(#[doc = $docs:literal])+ struct $type:ident as $name:ident {
+    ($($(#[doc = $docs:literal])+ $visible:vis struct $type:ident as $name:ident {
         $($(#[doc = $field_docs:literal])+ $field:ident: $field_type:ty,)+
     })+) => {
         $(
             $(#[doc = $docs])+
-            struct $type {
+            $visible struct $type {
                 $($field: $field_type,)+
             }
         )+
@@ -64,6 +65,7 @@ macro_rules! structs {
         }
     };
 }
+#[cfg(any(feature = "geometry", feature = "images"))]
 pub(crate) use structs;
 
 /// Types that are as they are in JavaScript.
@@ -88,6 +90,10 @@ plain! {
     bool => "boolean", flag => Value::Flag(flag);
     u32 => "number", number => Value::Number(f64::from(number));
     usize => "number", number => Value::Number(number as f64);
+    u64 => "number", number => Value::Number(match number {
+        u64::MAX => f64::INFINITY,
+        number => number as f64,
+    });
     StopReason => "\"confident\" | \"exhausted\" | \"interrupted\"", reason => Value::Text(match reason {
         StopReason::Confident => "confident",
         StopReason::Exhausted => "exhausted",
@@ -100,11 +106,19 @@ plain! {
     };
     Floats => "Float32Array", floats => Value::Floats(floats.0);
     Integers => "Int32Array", integers => Value::Integers(integers.0);
+    Bytes => "Uint8Array", bytes => Value::Bytes(bytes.0);
+    Text => "string", text => Value::Text(text.0);
     Line2 => "Float64Array", line => Value::Doubles(vec![line.a, line.b, line.c]);
 }
 
 /// Flags, 1 for true.
 pub struct Mask(pub Vec<bool>);
+
+/// A list of bytes.
+pub struct Bytes(pub Vec<u8>);
+
+/// A string.
+pub struct Text(pub String);
 
 /// A list of numbers.
 pub struct Numbers(pub Vec<f64>);
@@ -162,6 +176,26 @@ impl<const D: usize> Output for OPoint<f64, Const<D>> {
     }
 }
 
+impl<const N: usize> Output for [f64; N] {
+    fn typescript(_: &mut Types) -> String {
+        "Float64Array".to_owned()
+    }
+
+    fn into_value(self) -> Value {
+        Value::Doubles(self.to_vec())
+    }
+}
+
+impl<const N: usize, const D: usize> Output for [OPoint<f64, Const<D>>; N] {
+    fn typescript(_: &mut Types) -> String {
+        "Float64Array".to_owned()
+    }
+
+    fn into_value(self) -> Value {
+        Numbers::of_points(&self).into_value()
+    }
+}
+
 impl<T: Output> Output for Option<T> {
     fn typescript(types: &mut Types) -> String {
         format!("{} | null", T::typescript(types))
@@ -174,7 +208,11 @@ impl<T: Output> Output for Option<T> {
 
 impl<T: Output> Output for Vec<T> {
     fn typescript(types: &mut Types) -> String {
-        format!("{}[]", T::typescript(types))
+        let element = T::typescript(types);
+        match element.contains(" | ") {
+            true => format!("({element})[]"),
+            false => format!("{element}[]"),
+        }
     }
 
     fn into_value(self) -> Value {
@@ -337,10 +375,6 @@ impl<M: Output> Output for RansacReport<M> {
 
     fn into_value(self) -> Value {
         let could_be_chance = self.could_be_chance();
-        let required = match self.required_iterations {
-            u64::MAX => f64::INFINITY,
-            number => number as f64,
-        };
         record([
             ("model", self.model.into_value()),
             ("inliers", Mask(self.inliers).into_value()),
@@ -348,7 +382,7 @@ impl<M: Output> Output for RansacReport<M> {
             ("numUniqueInliers", self.num_unique_inliers.into_value()),
             ("numLeftOut", self.num_left_out.into_value()),
             ("iterations", self.iterations.into_value()),
-            ("requiredIterations", required.into_value()),
+            ("requiredIterations", self.required_iterations.into_value()),
             ("maxErrorPx", self.max_error_px.into_value()),
             ("score", self.score.into_value()),
             ("log10FalseAlarms", self.log10_false_alarms.into_value()),

@@ -3,7 +3,7 @@
 use crate::argument::Vectors;
 use crate::fault::{Fault, Result};
 use crate::functions::functions;
-use crate::images::Image;
+use crate::images::{Image, require_camera, same_kind};
 use crate::options::Options;
 use crate::output::{Numbers, records, structs};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
@@ -12,10 +12,18 @@ use epipole::imaging::GrayImage32;
 use epipole::nalgebra::{Matrix3, Matrix4};
 use epipole::progress::Monitor;
 use epipole::stereo::{
-    self, DisparityImage, PixelMap, PixelRect, RectifyOptions, StereoBm, StereoSgm,
+    self, DepthInterval, DisparityImage, PixelRect, RectifyOptions, StereoBm, StereoSgm,
 };
 
 records! {
+    /// Depths that a disparity and its error allow.
+    DepthInterval as DepthInterval {
+        /// Smallest depth, meters.
+        near_m: f64,
+        /// Largest depth, meters; null if the interval reaches infinity.
+        far_m: Option<f64>,
+    }
+
     /// Rectangle of pixels.
     PixelRect as PixelRect {
         /// Left.
@@ -101,31 +109,6 @@ impl From<&stereo::Rectification> for Rectification {
     }
 }
 
-fn warp(map: &PixelMap, image: &Image) -> Image {
-    match image {
-        Image::Gray8(image) => Image::Gray8(map.warp(image)),
-        Image::Rgb8(image) => Image::Rgb8(map.warp(image)),
-        Image::Rgba8(image) => Image::Rgba8(map.warp(image)),
-        Image::Gray32(image) => Image::Gray32(map.warp(image)),
-    }
-}
-
-fn require_size(name: &str, image: &Image, camera: &Camera) -> Result<()> {
-    let (width, height) = match image {
-        Image::Gray8(image) => image.dimensions(),
-        Image::Rgb8(image) => image.dimensions(),
-        Image::Rgba8(image) => image.dimensions(),
-        Image::Gray32(image) => image.dimensions(),
-    };
-    match (width, height) == (camera.width, camera.height) {
-        true => Ok(()),
-        false => Err(Fault::of_range(format!(
-            "{name} must have the size of its camera, {} x {}, but has {width} x {height}",
-            camera.width, camera.height
-        ))),
-    }
-}
-
 /// Matches two images of equal kind.
 fn disparity(
     left: Image,
@@ -186,12 +169,13 @@ functions! {
         image1: Image, image2: Image, camera1: Camera, camera2: Camera,
         cam2_from_cam1: RigidTransform, options: Options<RectifyOptions>
     ) -> RectifiedImages {
-        require_size("image1", &image1, &camera1)?;
-        require_size("image2", &image2, &camera2)?;
+        require_camera("image1", &image1, &camera1)?;
+        require_camera("image2", &image2, &camera2)?;
         let rig = stereo::rectify_calibrated(&[camera1, camera2], &cam2_from_cam1, &options.0)?;
+        let (map1, map2) = (rig.map(0)?, rig.map(1)?);
         RectifiedImages {
-            image1: warp(&rig.map(0)?, &image1),
-            image2: warp(&rig.map(1)?, &image2),
+            image1: same_kind!(&image1, |pixels| map1.warp(pixels)),
+            image2: same_kind!(&image2, |pixels| map2.warp(pixels)),
             rectification: Rectification::from(&rig),
         }
     }
@@ -255,5 +239,12 @@ functions! {
     /// Depth of a disparity, meters.
     fn depth_from_disparity(focal_px: f64, baseline_m: f64, disparity_px: f64) -> f64 {
         stereo::depth_from_disparity(focal_px, baseline_m, disparity_px)?
+    }
+
+    /// Depths of a disparity that is wrong by at most `errorPx` pixels.
+    fn depth_interval(
+        focal_px: f64, baseline_m: f64, disparity_px: f64, error_px: f64
+    ) -> DepthInterval {
+        stereo::depth_interval(focal_px, baseline_m, disparity_px, error_px)?
     }
 }

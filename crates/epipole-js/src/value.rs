@@ -77,9 +77,12 @@ impl Value {
     }
 }
 
-/// `max_error_px` to `maxErrorPx`.
+/// `max_error_px` to `maxErrorPx`. Names that begin with a capital letter stay as they are.
 pub fn camel(name: &str) -> String {
     let mut out = String::new();
+    if name.starts_with(|first: char| first.is_ascii_uppercase()) {
+        return name.to_owned();
+    }
     for (index, part) in name.split('_').enumerate() {
         let mut letters = part.chars();
         match letters.next() {
@@ -114,6 +117,7 @@ mod tests {
             assert!(is_name(rust));
             assert_eq!(camel(rust), script);
         }
+        assert_eq!(camel("Aruco4x4_50"), "Aruco4x4_50");
         assert!(!is_name("F x1 = 0"));
     }
 }

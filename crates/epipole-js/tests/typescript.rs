@@ -4,7 +4,7 @@
 
 use epipole_js::types::{Types, comment};
 use epipole_js::value::{camel, is_name};
-use epipole_js::{GROUPS, signatures};
+use epipole_js::{GROUPS, PARTS, signatures};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,8 @@ fn api() -> String {
                 .parameters
                 .iter()
                 .map(|(name, of, is_optional)| {
-                    let more = if name == "options" { " & Control" } else { "" };
+                    let is_extended = name == "options" && of != "Control";
+                    let more = if is_extended { " & Control" } else { "" };
                     let mark = if *is_optional { "?" } else { "" };
                     format!("{name}{mark}: {of}{more}")
                 })
@@ -57,26 +58,37 @@ fn api() -> String {
             methods += &format!("  {}({parameters}): Promise<{result}>;\n", signature.name);
         }
     }
-    let names = part_names();
-    let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    let names: Vec<&str> = PARTS.iter().map(|(name, _)| *name).collect();
+    let larger = PARTS.iter();
+    let larger = larger.map(|(name, larger)| format!("  {}: {},\n", camel(name), quoted(larger)));
+    let larger: String = larger.collect();
     format!(
         "/** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */\n\n\
          import type {{ Control }} from \"./control.js\";\n\n\
          /** Parts of the library, each a module. */\n\
-         export const PART_NAMES = [{}] as const;\n\n\
+         export const PART_NAMES = {} as const;\n\n\
          /** A part of the library. */\nexport type Part = (typeof PART_NAMES)[number];\n\n\
-         /** Part and parameters of each function. */\n\
+         /** Larger parts that contain each part, smallest first. */\n\
+         export const LARGER: Readonly<Record<Part, readonly Part[]>> = {{\n{larger}}};\n\n\
+         /** Smallest part and parameters of each function. */\n\
          export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {{\n{table}}};\n\n\
          {}\n/** Functions by part. */\nexport interface Functions {{\n{methods}}}\n",
-        names.join(", "),
+        quoted(&names),
         types.text()
     )
 }
 
 fn part_names() -> Vec<String> {
-    let mut names: Vec<String> = GROUPS.iter().map(|group| camel(group.part)).collect();
-    names.dedup();
-    names
+    PARTS.iter().map(|(name, _)| camel(name)).collect()
+}
+
+/// A list of strings.
+fn quoted(names: &[&str]) -> String {
+    let names: Vec<String> = names
+        .iter()
+        .map(|name| format!("{:?}", camel(name)))
+        .collect();
+    format!("[{}]", names.join(", "))
 }
 
 /// Imports are static: bundlers make workers of one script, which cannot load others.

@@ -9,7 +9,10 @@
 //! }
 //! let limit = Type::Option(Box::new(Type::Float));
 //! let fields = vec![("seed", Type::Integer), ("limit_px", limit)];
-//! assert_eq!(describe::<Options>(), Type::Struct("Options", fields));
+//! let options = Type::Struct("Options", fields);
+//! assert_eq!(describe::<Options>(), options);
+//! // Fields of a struct in a list are no lists themselves.
+//! assert_eq!(describe::<Vec<Options>>(), Type::Sequence(Box::new(options)));
 //! ```
 
 use serde::Deserializer;
@@ -102,16 +105,28 @@ enum Wrap {
 struct Found {
     kind: Kind,
     wraps: Vec<Wrap>,
+    /// Whether it is a field or variant: options and sequences around its struct are not its own.
+    is_part: bool,
 }
 
 impl Found {
     fn new(kind: Kind) -> Self {
-        let wraps = Vec::new();
-        Self { kind, wraps }
+        Self {
+            kind,
+            wraps: Vec::new(),
+            is_part: false,
+        }
     }
 
     fn within(mut self, wrap: Wrap) -> Self {
-        self.wraps.push(wrap);
+        if !self.is_part {
+            self.wraps.push(wrap);
+        }
+        self
+    }
+
+    fn part(mut self) -> Self {
+        self.is_part = true;
         self
     }
 }
@@ -205,7 +220,10 @@ impl<'de> Deserializer<'de> for Probe<'_> {
         visitor: V,
     ) -> Result<V::Value, Found> {
         match self.0.split_first() {
-            Some((&index, path)) => visitor.visit_map(Entry(fields[index], Self(path))),
+            Some((&index, path)) => {
+                let found = visitor.visit_map(Entry(fields[index], Self(path)));
+                found.map_err(Found::part)
+            }
             None => Err(Found::new(Kind::Struct(name, fields))),
         }
     }
@@ -217,7 +235,10 @@ impl<'de> Deserializer<'de> for Probe<'_> {
         visitor: V,
     ) -> Result<V::Value, Found> {
         match self.0.split_first() {
-            Some((&index, path)) => visitor.visit_enum(Entry(variants[index], Self(path))),
+            Some((&index, path)) => {
+                let found = visitor.visit_enum(Entry(variants[index], Self(path)));
+                found.map_err(Found::part)
+            }
             None => Err(Found::new(Kind::Enum(variants))),
         }
     }

@@ -3,12 +3,20 @@
 import type { Control } from "./control.js";
 
 /** Parts of the library, each a module. */
-export const PART_NAMES = ["homography", "geometry", "images"] as const;
+export const PART_NAMES = ["homography", "geometry", "images", "all"] as const;
 
 /** A part of the library. */
 export type Part = (typeof PART_NAMES)[number];
 
-/** Part and parameters of each function. */
+/** Larger parts that contain each part, smallest first. */
+export const LARGER: Readonly<Record<Part, readonly Part[]>> = {
+  homography: ["geometry", "all"],
+  geometry: ["all"],
+  images: ["all"],
+  all: [],
+};
+
+/** Smallest part and parameters of each function. */
 export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {
   estimateHomography: ["homography", "pixels1", "pixels2", "options"],
   fitHomography: ["homography", "pixels1", "pixels2"],
@@ -27,12 +35,21 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   pinholePixel: ["geometry", "camera", "pixels"],
   lookAt: ["geometry", "centerInWorld", "targetInWorld", "upInWorld"],
   relativeMotion: ["geometry", "cam1FromWorld", "cam2FromWorld"],
+  composeTransforms: ["geometry", "aFromB", "bFromC"],
+  invertTransform: ["geometry", "aFromB"],
+  transformPoints: ["geometry", "aFromB", "pointsInB"],
+  rotationAngleRad: ["geometry", "aFromB"],
+  intrinsicsMatrix: ["geometry", "intrinsics"],
+  projectionMatrix: ["geometry", "camera"],
   estimateFundamental: ["geometry", "pixels1", "pixels2", "options"],
   estimateEssential: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateRelativePose: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateRelativePoseWithGravity: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "gravity1", "gravity2", "options"],
   estimateRelativePoseAndFocal: ["geometry", "pixels1", "pixels2", "principal1", "principal2", "options"],
   fundamental8point: ["geometry", "pixels1", "pixels2"],
+  fundamental8pointExplained: ["geometry", "pixels1", "pixels2"],
+  fundamental8pointUnnormalized: ["geometry", "pixels1", "pixels2"],
+  epipolarRow: ["geometry", "pixels1", "pixels2"],
   fundamental7point: ["geometry", "pixels1", "pixels2"],
   essential8point: ["geometry", "rays1", "rays2"],
   essential5point: ["geometry", "rays1", "rays2"],
@@ -73,8 +90,26 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   refineAbsolutePose: ["geometry", "camFromWorld", "pointsInWorld", "pixels", "camera", "loss"],
   findFlippedPose: ["geometry", "camFromWorld", "pointsInWorld", "pixels", "camera"],
   reprojectionErrorPx: ["geometry", "camera", "pointsInWorld", "pixels"],
+  estimateLine: ["geometry", "points", "options"],
+  fitLineTotalLeastSquares: ["geometry", "points"],
+  fitLineHuber: ["geometry", "points", "widthPx"],
+  leastMedianLine: ["geometry", "points", "options"],
+  numTrialsWithReplacement: ["geometry", "inlierRatio", "sampleSize", "confidence"],
+  numTrialsWithoutReplacement: ["geometry", "numInliers", "numData", "sampleSize", "confidence"],
+  estimateTwoView: ["geometry", "pixels1", "pixels2", "options"],
+  estimateTwoViewCalibrated: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
+  estimateRotation: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   twoViewProblem: ["geometry", "options"],
   multiViewProblem: ["geometry", "options"],
+  centeredDifference: ["images", "image", "border"],
+  sobel: ["images", "image", "border"],
+  derivative: ["images", "image", "kind", "border"],
+  gaussianDerivative: ["images", "image", "sigmaPx", "border"],
+  gaussianBlur: ["images", "image", "sigmaPx", "border"],
+  boxFilter: ["images", "image", "size", "border"],
+  correlate: ["images", "image", "kernel", "border"],
+  warpPerspective: ["images", "image", "outFromImage", "options"],
+  warpAffine: ["images", "image", "outFromImage", "options"],
   photoToGray: ["images", "photo"],
   detectFeatures: ["images", "image", "options"],
   detectSift: ["images", "image", "options"],
@@ -83,6 +118,11 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   harrisResponse: ["images", "image", "k", "options"],
   minEigenvalueResponse: ["images", "image", "options"],
   goodFeaturesToTrack: ["images", "image", "options"],
+  nonMaximumSuppression: ["images", "response", "radius", "threshold"],
+  windowTensor: ["images", "image", "u", "v", "options"],
+  windowTensorFromGradients: ["images", "gradients"],
+  windowHarris: ["images", "tensor", "k"],
+  shiftSurface: ["images", "image", "u", "v", "halfWindow", "reach", "border"],
   refineCorners: ["images", "image", "corners", "options"],
   matchDescriptors: ["images", "descriptors1", "descriptors2", "options"],
   nearestTwo: ["images", "descriptors1", "descriptors2"],
@@ -96,6 +136,25 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   depthImage: ["images", "disparity", "focalPx", "baselineM"],
   pointCloud: ["images", "disparity", "q"],
   depthFromDisparity: ["images", "focalPx", "baselineM", "disparityPx"],
+  depthInterval: ["images", "focalPx", "baselineM", "disparityPx", "errorPx"],
+  undistortionMap: ["images", "camera", "keep"],
+  undistortImage: ["images", "image", "camera", "keep"],
+  remap: ["images", "image", "map"],
+  findBoard: ["all", "image", "board", "options"],
+  detectMarkers: ["all", "image", "dictionary", "options"],
+  boardMarks: ["all", "board"],
+  boardDrawing: ["all", "board"],
+  photographOfBoard: ["all", "board", "camera", "camFromBoard", "noise", "seed"],
+  calibrate: ["all", "board", "views", "width", "height", "options"],
+  calibrateRig: ["all", "board", "leftCamera", "rightCamera", "left", "right", "options"],
+  intrinsicsFromPlanes: ["all", "pixelsFromPlane"],
+  twoViewReconstruction: ["all", "pixels1", "pixels2", "camera1", "camera2", "cam2FromCam1", "options"],
+  adjustBundle: ["all", "bundle", "options"],
+  matchPhotos: ["all", "photos", "options"],
+  reconstruct: ["all", "images", "cameras", "pairs", "options"],
+  reconstructPhotos: ["all", "photos", "cameras", "photoOptions", "options"],
+  optimizePoseGraph: ["all", "edges", "numVertices", "worldFromVertex", "loss", "options"],
+  averageRotations: ["all", "measured", "numViews", "loss", "options"],
 };
 
 /** Pose and focal length. */
@@ -106,6 +165,175 @@ export interface AbsolutePoseWithFocal {
   focalPx: number;
   /** Its standard deviation, pixels; null from a minimal solver. */
   focalStdPx: number | null;
+}
+
+/** Bundle after its adjustment. */
+export interface AdjustedBundle {
+  /** Refined cameras and points, with the observations that were given. */
+  bundle: Bundle;
+  /** Report of the refinement. */
+  report: LmReport;
+}
+
+/** Rotations of views that agree best with those between pairs of them. */
+export interface AveragedRotations {
+  /**
+   * Rotation of each view, with a translation of 0. The first view of each connected part has the
+   * identity.
+   */
+  viewFromWorld: RigidTransform[];
+  /** Angle by which each measurement is off, radians. */
+  errorsRad: Float64Array;
+}
+
+/** Flat board with marks at known places: x along its columns, y along its rows, z = 0. */
+export interface Board {
+  /**
+   * Marks. Markers of a ChArUco board have `markerShare` of the side of its squares; tags of an
+   * AprilGrid are `spacing` of their side apart.
+   */
+  pattern: "chessboard" | "circles" | "asymmetricCircles" | { charuco: { dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11"; markerShare: number } } | { aprilGrid: { spacing: number } };
+  /** Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks in a row. */
+  columns: number;
+  /** The same along a column; rows of disks. */
+  rows: number;
+  /** Side of a square or a tag, or distance of two rows of disks, meters. */
+  squareM: number;
+}
+
+/** Black shapes of a board, in squares; the first mark is at the origin, y points down. */
+export interface BoardDrawing {
+  /** Upper left and lower right corner of each rectangle, 4 numbers each. */
+  rectangles: Float64Array;
+  /** Centers of disks, interleaved. */
+  disks: Float64Array;
+  /** Radius of the disks. */
+  diskRadius: number;
+}
+
+/** Cameras, points and observations. */
+export interface Bundle {
+  /** Cameras. */
+  cameras: PosedCamera[];
+  /** Points in the world, interleaved. */
+  points: Float64Array;
+  /** Index of the camera of each observation. */
+  observationCamera: Uint32Array;
+  /** Index of the point of each observation. */
+  observationPoint: Uint32Array;
+  /** Measured pixel of each observation, interleaved. */
+  observationPixel: Float64Array;
+  /** Number of the lens of each camera; 0 for missing entries. */
+  lensOfCamera: Uint32Array;
+  /** Further cameras mounted on each camera. */
+  sensors: Sensor[];
+  /** Sensor of each observation, 0 for the camera itself and for missing entries. */
+  observationSensor: Uint32Array;
+}
+
+/** Cameras, points and observations: entry k of each array of observations belongs to observation k. */
+export interface BundleLike {
+  /** Cameras. */
+  cameras: readonly PosedCameraLike[];
+  /** Points in the world. */
+  points: Points3;
+  /** Index of the camera. */
+  observationCamera: ArrayLike<number>;
+  /** Index of the point. */
+  observationPoint: ArrayLike<number>;
+  /** Measured pixel. */
+  observationPixel: Points2;
+  /**
+   * Number of the lens of each camera; 0 for missing entries. Cameras of one lens have equal lenses and
+   * share its refined parameters.
+   */
+  lensOfCamera?: ArrayLike<number>;
+  /** Further cameras mounted on each camera. */
+  sensors?: readonly SensorLike[];
+  /** 0 if the camera itself made the observation, k if sensor k - 1 did; 0 for missing entries. */
+  observationSensor?: ArrayLike<number>;
+}
+
+/** Options of `adjustBundle`. */
+export interface BundleOptions {
+  /**
+   * When to stop. @default { costTolerance: 0.000000001, gradientTolerance: 0.0000000001,
+   * initialDamping: 0.0001, maxIterations: 50, patience: 0, stepTolerance: 0.0000000001 }
+   */
+  lm?: LmOptions;
+  /** The loss of each reprojection error; its width is in pixels. @default "trivial" */
+  loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } };
+  /** Used only while fewer than two cameras are held. @default "twoCameras" */
+  gauge?: "twoCameras" | "free";
+  /** Cameras that stay where they are, by index; missing entries are free. @default [] */
+  heldCameras?: readonly (boolean)[];
+  /** Points that stay where they are, by index; missing entries are free. @default [] */
+  heldPoints?: readonly (boolean)[];
+  /** Refine one factor for the focal lengths of each lens. @default false */
+  refineFocal?: boolean;
+  /** Refine where the principal points are: one shift for each lens, pixels. @default false */
+  refinePrincipalPoint?: boolean;
+  /**
+   * Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational one, k1
+   * to k4 of a fisheye, k of the division model. @default false
+   */
+  refineDistortion?: boolean;
+  /**
+   * Refine the tangential terms p1 and p2 of each lens; fisheyes and the division model have none.
+   * @default false
+   */
+  refineTangential?: boolean;
+  /**
+   * Priors of camera positions, by index; missing entries are unknown. With any prior, no camera is held
+   * by the gauge. @default []
+   */
+  positionPriors?: readonly (PositionPrior | null)[];
+  /** The loss of the position priors; its width is in standard deviations. @default "trivial" */
+  positionLoss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } };
+}
+
+/** Calibration result of one view. */
+export interface CalibratedView {
+  /** Pose of the board, meters. */
+  camFromBoard: RigidTransform;
+  /** Root mean square of its reprojection errors, pixels. */
+  rmsPx: number;
+  /** Number of marks seen. */
+  numMarks: number;
+}
+
+/** Calibrated camera and its uncertainty. */
+export interface Calibration {
+  /** Camera. */
+  camera: Camera;
+  /** Root mean square of all reprojection errors: distances, pixels. */
+  rmsPx: number;
+  /** Standard deviation of fu, fv, cu, cv, pixels. */
+  stdDevK: Float64Array;
+  /** Standard deviation of each coefficient of the lens. */
+  stdDevLens: Float64Array;
+  /** Share of the area of the image inside the marks of some view, 0 to 1. */
+  coverage: number;
+  /** Result of each view; null where none was given. */
+  views: (CalibratedView | null)[];
+  /** Causes of uncertainty that the errors do not show. */
+  warnings: CalibrationWarning[];
+}
+
+/** Choices of `calibrate`. */
+export interface CalibrationOptions {
+  /** The model of the lens. @default "brown" */
+  lens?: "brown" | "rational" | "fisheye" | "division";
+  /** At most so many steps of refinement. @default 200 */
+  maxIterations?: number;
+}
+
+/** Cause of uncertainty that the errors of a calibration do not show. */
+export interface CalibrationWarning {
+  /** Kind: parallel, uncertainFocal, lowCoverage, badView, or other. */
+  kind: string;
+  /** Cause as a sentence. */
+  message: string;
 }
 
 /** A calibrated camera of any lens. */
@@ -126,6 +354,14 @@ export interface CorrectedMatches {
   pixels1: Float64Array;
   /** Pixels of image 2, interleaved. */
   pixels2: Float64Array;
+}
+
+/** Depths that a disparity and its error allow. */
+export interface DepthInterval {
+  /** Smallest depth, meters. */
+  nearM: number;
+  /** Largest depth, meters; null if the interval reaches infinity. */
+  farM: number | null;
 }
 
 /** Descriptors, one after the other. */
@@ -161,6 +397,18 @@ export interface DisparityFilter {
   maxGapPx?: number;
 }
 
+/** Fundamental matrix by the eight-point method, with its intermediate results. */
+export interface EightPoint {
+  /** F of rank 2 and unit norm. */
+  fundamental: Float64Array;
+  /** Least-squares solution before its rank was lowered to 2, of unit norm. */
+  fullRank: Float64Array;
+  /** The 9 singular values of the linear system, largest first. */
+  singularValues: Float64Array;
+  /** Largest singular value over the eighth: amplification of errors of the data. */
+  conditionNumber: number;
+}
+
 /** Epipoles: (u, v, 1), or (u, v, 0) with a unit direction for those at infinity. */
 export interface Epipoles {
   /** Epipole of image 1. */
@@ -182,56 +430,49 @@ export interface EssentialWithFocal {
  * `MatchOptions` and `RansacOptions` for matches and models.
  */
 export interface FeatureOptions {
-  /** RootSIFT. @default "rootSift" */
+  /** RootSIFT. */
   kind?: "sift" | "rootSift" | "orb" | "harris";
-  /** Maximum number of features, the strongest; 0 means no limit. 8192. @default 8192 */
+  /** Maximum number of features, the strongest; 0 means no limit. 8192. */
   maxFeatures?: number;
   /**
    * Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the kind. SIFT:
    * `contrastThreshold`, 0.02, which includes faint features. ORB: `fastThreshold`, 20/255. Harris: the
-   * share of the strongest response, `quality`, 0.01. @default null
+   * share of the strongest response, `quality`, 0.01.
    */
   contrastThreshold?: number | null;
-  /**
-   * Take every direction to be 0, for cameras held upright. Harris' corners have none. False. @default
-   * false
-   */
+  /** Take every direction to be 0, for cameras held upright. Harris' corners have none. False. */
   upright?: boolean;
   /**
    * SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones,
    * which takes seconds, only if they have fewer than `maxFeatures` without; none if 0. 1.5 million.
-   * @default 1500000
    */
   maxUpsampledPixels?: number;
   /**
    * SIFT: assumed blur of the input, pixels, 0 to half of `sigmaPx`. 0.5, as Lowe's; 0.3 gives more
-   * matches in sharp photographs, fewer where features are rare. @default 0.5
+   * matches in sharp photographs, fewer where features are rare.
    */
   inputBlurPx?: number;
-  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. @default 1.6 */
+  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. */
   sigmaPx?: number;
-  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. @default 3 */
+  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. */
   layersPerOctave?: number;
-  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. @default 10 */
+  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. */
   edgeThreshold?: number;
-  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. @default 2 */
+  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. */
   maxOrientations?: number;
-  /**
-   * SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
-   * @default 0.800000011920929
-   */
+  /** SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8. */
   orientationPeakRatio?: number;
-  /** ORB: levels of the pyramid, 1 to 16. 8. @default 8 */
+  /** ORB: levels of the pyramid, 1 to 16. 8. */
   numLevels?: number;
-  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. @default 1.2 */
+  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. */
   scaleFactor?: number;
-  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. @default 0.03999999910593033 */
+  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. */
   harrisK?: number;
-  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. @default 8 */
+  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. */
   minDistancePx?: number;
-  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. @default 3 */
+  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. */
   tensorWindowPx?: number;
-  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. @default 11 */
+  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. */
   patchPx?: number;
 }
 
@@ -241,6 +482,16 @@ export interface Features {
   keypoints: Keypoints;
   /** Their descriptors. */
   descriptors: Descriptors;
+}
+
+/** Result of a search for a board. */
+export interface FoundBoard {
+  /** Pixel of each mark, row by row, interleaved; NaN for hidden marks. Null without a board. */
+  pixels: Float64Array | null;
+  /** Number of marks seen. */
+  numSeen: number;
+  /** Why the board was not found, as a sentence; null if it was. */
+  problem: string | null;
 }
 
 /** Options of `goodFeaturesToTrack`. */
@@ -268,6 +519,18 @@ export interface GoodFeaturesOptions {
   grid?: Grid | null;
 }
 
+/** Partial derivatives of an image. */
+export interface Gradient {
+  /** Derivative along u, to the right. */
+  du: GrayImage;
+  /** Derivative along v, downwards. */
+  dv: GrayImage;
+  /** Length of the gradient. */
+  magnitude: GrayImage;
+  /** Direction of steepest ascent, atan2(dv, du), radians; 0 where the image is flat. */
+  orientation: GrayImage;
+}
+
 /** Floats, one a pixel, rows from top to bottom. */
 export interface GrayImage {
   /** Pixels. */
@@ -281,9 +544,9 @@ export interface GrayImage {
 /** Cells of the image that share the corners out evenly. */
 export interface Grid {
   /** Cells side by side, ≥ 1. */
-  columns?: number | null;
+  columns?: number;
   /** Cells one above the other, ≥ 1. */
-  rows?: number | null;
+  rows?: number;
 }
 
 /** An image, rows from top to bottom: an ImageData, or an object like it. */
@@ -346,6 +609,26 @@ export interface KeypointsLike {
   octaves?: ArrayLike<number>;
 }
 
+/** Line with the least median of squared distances. */
+export interface LeastMedianLine {
+  /** Line (a, b, c), fitted to its inliers: `a u + b v + c = 0`, a² + b² = 1. */
+  model: Float64Array;
+  /** Median distance from the best line of a sample, pixels. */
+  medianPx: number;
+  /** Standard deviation of the noise that follows from the median, pixels. */
+  sigmaPx: number;
+  /** Number of points within 2.5 standard deviations, equal points counted once. */
+  numInliers: number;
+}
+
+/** Choices of `leastMedian`. */
+export interface LeastMedianOptions {
+  /** Samples drawn, ≥ 1. 500. @default 500 */
+  numSamples?: number;
+  /** Equal seeds give equal results. 0. @default 0 */
+  seed?: number;
+}
+
 /** A lens model with its coefficients. */
 export interface Lens {
   /** Model. */
@@ -354,22 +637,99 @@ export interface Lens {
   coefficients: ArrayLike<number>;
 }
 
+/** Step of a Levenberg-Marquardt loop. */
+export interface LmIteration {
+  /** Counted from 1; 0 is the start. */
+  index: number;
+  /** Best cost so far. */
+  cost: number;
+  /** Damping of the step. */
+  damping: number;
+  /** Whether the step lowered the cost and was kept. */
+  accepted: boolean;
+}
+
+/** When to stop, and how to start. */
+export interface LmOptions {
+  /** Maximum number of steps, including rejected ones. @default 50 */
+  maxIterations?: number;
+  /** Converged when no component of the gradient is larger. @default 0.0000000001 */
+  gradientTolerance?: number;
+  /** Converged when a step is shorter than this times the parameters' length. @default 0.0000000001 */
+  stepTolerance?: number;
+  /** Converged when an accepted step lowers the cost by less than this fraction. @default 0.000000001 */
+  costTolerance?: number;
+  /** The first λ, relative to the diagonal of `JᵀJ`. @default 0.0001 */
+  initialDamping?: number;
+  /**
+   * Maximum number of steps in a row that raise the cost before the loop returns to the best place and
+   * tries smaller ones. 0, a cost that never rises, suits most problems; on pose graphs the full step
+   * first bends the trajectory and only the next one stretches it into place. @default 0
+   */
+  patience?: number;
+}
+
+/** Result of a Levenberg-Marquardt loop. */
+export interface LmReport {
+  /** Cost at the start: half the sum of the losses of all residuals. */
+  initialCost: number;
+  /** Cost at the end. */
+  finalCost: number;
+  /** Number of steps tried. */
+  iterations: number;
+  /** Number of steps kept. */
+  accepted: number;
+  /** Reason for the end of the loop. */
+  termination: "smallGradient" | "smallStep" | "smallCostChange" | "maxIterations" | "stuck";
+  /** Start and every step tried, in order. */
+  history: LmIteration[];
+}
+
+/** Square marker in a photo. */
+export interface Marker {
+  /** Number in the dictionary. */
+  id: number;
+  /**
+   * Corners of the black border, pixels: clockwise from the one that is upper left in an upright marker.
+   */
+  corners: Float64Array;
+  /** Number of bits that differ from the dictionary's. */
+  hamming: number;
+}
+
+/** Options of `detectMarkers`. */
+export interface MarkerOptions {
+  /** Maximum number of wrong bits; `None` for `maxHamming`. @default null */
+  maxHamming?: number | null;
+  /** Width of the black border, bits; at least 1. @default 1 */
+  borderBits?: number;
+  /** Minimum side, pixels; smaller ones than 1.5 pixels a bit are not found. @default 0 */
+  minSidePx?: number;
+}
+
 /** Which nearest neighbors count as matches. */
 export interface MatchOptions {
   /**
    * The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves the test
-   * out. Lowe 2004, §7.1. @default 0.800000011920929
+   * out. Lowe 2004, §7.1.
    */
   maxRatio?: number | null;
-  /** Require mutual nearest neighbors. @default true */
+  /** Require mutual nearest neighbors. */
   mutual?: boolean;
-  /** The largest distance, ≥ 0; `None` for any. @default null */
+  /** The largest distance, ≥ 0; `None` for any. */
   maxDistance?: number | null;
   /**
    * No feature of the second image in two matches: the closest stays. Mutual matches are unique already.
-   * @default true
    */
   unique?: boolean;
+}
+
+/** Keypoints of photos and matches between pairs of them. */
+export interface MatchedPhotos {
+  /** Keypoints of each photo. */
+  images: SfmImage[];
+  /** Matches between photos. */
+  pairs: PairMatches[];
 }
 
 /** Matches between two lists of features. */
@@ -382,6 +742,18 @@ export interface Matches {
   distances: Float32Array;
   /** Distance over that of the second nearest, in [0, 1]. */
   ratios: Float32Array;
+}
+
+/** Matches between two lists of keypoints. */
+export interface MatchesLike {
+  /** Indices in the first list. */
+  indices1: ArrayLike<number>;
+  /** Indices in the second list. */
+  indices2: ArrayLike<number>;
+  /** Distance of the descriptors. 0 if not given. */
+  distances?: ArrayLike<number>;
+  /** Distance over that of the second nearest. 0 if not given. */
+  ratios?: ArrayLike<number>;
 }
 
 /** A matrix: numbers by row, or an array of rows. */
@@ -441,6 +813,14 @@ export interface NviewPoint {
   rmsErrorPx: number;
 }
 
+/** Pose graph after its optimization. */
+export interface OptimizedGraph {
+  /** Poses of the vertices. */
+  worldFromVertex: RigidTransform[];
+  /** Report of the optimization. */
+  report: PoseGraphReport;
+}
+
 /** Options of `detectOrb`. */
 export interface OrbOptions {
   /** Maximum number of features over all levels, ≥ 1. @default 1000 */
@@ -453,6 +833,73 @@ export interface OrbOptions {
   fastThreshold?: number;
   /** Take every direction to be 0: for cameras held upright. @default false */
   upright?: boolean;
+}
+
+/** Matches between two photos. */
+export interface PairMatches {
+  /** Index of the first photo. */
+  image1: number;
+  /** Index of the second photo. */
+  image2: number;
+  /** Matches between their keypoints. */
+  matches: Matches;
+}
+
+/** Matches between two photos. */
+export interface PairMatchesLike {
+  /** Index of the first photo. */
+  image1: number;
+  /** Index of the second photo. */
+  image2: number;
+  /** Matches between their keypoints. */
+  matches: MatchesLike;
+}
+
+/** Options of `photoFeatures` and `matchFeatures`. */
+export interface PhotoOptions {
+  /**
+   * RootSIFT, up to 8192 features, faint ones too. @default { contrastThreshold: null, edgeThreshold:
+   * 10, harrisK: 0.03999999910593033, inputBlurPx: 0.5, kind: "rootSift", layersPerOctave: 3,
+   * maxFeatures: 8192, maxOrientations: 2, maxUpsampledPixels: 1500000, minDistancePx: 8, numLevels: 8,
+   * orientationPeakRatio: 0.800000011920929, patchPx: 11, scaleFactor: 1.2, sigmaPx: 1.6,
+   * tensorWindowPx: 3, upright: false }
+   */
+  features?: FeatureOptions;
+  /**
+   * Ratio 0.8, mutual. @default { maxDistance: null, maxRatio: 0.800000011920929, mutual: true, unique:
+   * true }
+   */
+  matching?: MatchOptions;
+  /**
+   * Number of following photographs to match each one with; 0 for all. For frames in order of time.
+   * @default 0
+   */
+  neighbors?: number;
+  /**
+   * Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than in the
+   * order of the first photograph's keypoints. False. @default false
+   */
+  bestFirst?: boolean;
+}
+
+/** Reconstruction of photos. */
+export interface PhotoReconstruction {
+  /** Keypoints of each photo. */
+  images: SfmImage[];
+  /** Matches between photos. */
+  pairs: PairMatches[];
+  /** Cameras and points. */
+  result: SfmResult;
+}
+
+/** Map of pixels of a result to a source. */
+export interface PixelMap {
+  /** Width of the result, pixels. */
+  width: number;
+  /** Height of the result, pixels. */
+  height: number;
+  /** Place (u, v) in the source that each pixel is read from, interleaved; NaN for none. */
+  sources: Float32Array;
 }
 
 /** Rectangle of pixels. */
@@ -493,6 +940,32 @@ export type Points2 = ArrayLike<number> | readonly ArrayLike<number>[];
 /** Points of 3 coordinates each: interleaved, or an array of 3 each. */
 export type Points3 = ArrayLike<number> | readonly ArrayLike<number>[];
 
+/** Measured pose of a vertex in the frame of another. */
+export interface PoseGraphEdge {
+  /** Index of the vertex where the edge starts. */
+  from: number;
+  /** Index of the vertex where the edge ends. */
+  to: number;
+  /** Pose of `to` in the frame of `from`. */
+  fromFromTo: RigidTransformLike;
+  /** Inverse covariance, 6 x 6, translation first. The identity if not given. */
+  information?: Matrix;
+}
+
+/** Report of the optimization of a pose graph. */
+export interface PoseGraphReport {
+  /** Sum of squared errors in standard deviations at the start. */
+  initialChi2: number;
+  /** The same at the end; large where measurements contradict each other. */
+  finalChi2: number;
+  /** Number of steps tried. */
+  iterations: number;
+  /** Reason for the end of the loop. */
+  termination: "smallGradient" | "smallStep" | "smallCostChange" | "maxIterations" | "stuck";
+  /** Number of connected parts, each with a vertex that stays where it is. */
+  numComponents: number;
+}
+
 /** Relative pose and common focal length. */
 export interface PoseWithFocal {
   /** Pose. */
@@ -521,43 +994,51 @@ export interface PosedCameraLike {
   camFromWorld: RigidTransformLike;
 }
 
+/**
+ * A camera position measured otherwise, such as by GPS: see `localFromGeodetic` for converting its
+ * degrees.
+ */
+export interface PositionPrior {
+  /** The camera's center in the world. */
+  centerInWorld?: ArrayLike<number>;
+  /** Standard deviation along each axis of the world, in its unit. */
+  sigma?: ArrayLike<number>;
+}
+
 /** Options of `Ransac`. */
 export interface RansacOptions {
   /**
    * The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of
-   * one's own, the unit of its errors. 1. @default 1
+   * one's own, the unit of its errors. 1.
    */
   maxErrorPx?: number;
-  /** Source of the threshold. Given. @default "given" */
+  /** Source of the threshold. Given. */
   threshold?: "given" | "noise";
-  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. @default 0.999 */
+  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. */
   confidence?: number;
   /**
    * Minimum number of samples, unless `maxIterations` is lower. 200: the number required by the inlier
    * ratio takes every sample without outliers for a good start, but with noise only some of them lead to
-   * the best model. @default 200
+   * the best model.
    */
   minIterations?: number;
-  /** Maximum number of samples, ≥ 1. 10 000. @default 10000 */
+  /** Maximum number of samples, ≥ 1. 10 000. */
   maxIterations?: number;
-  /** Equal seeds give equal results. 0. @default 0 */
+  /** Equal seeds give equal results. 0. */
   seed?: number;
-  /** Sampling strategy. Uniform. @default "uniform" */
+  /** Sampling strategy. Uniform. */
   sampler?: "uniform" | "prosac";
-  /** Scoring function. MSAC. @default "msac" */
+  /** Scoring function. MSAC. */
   score?: "msac" | "inlierCount";
-  /**
-   * Whether a promising model is improved from its inliers at once, and the best one at the end. True.
-   * @default true
-   */
+  /** Whether a promising model is improved from its inliers at once, and the best one at the end. True. */
   localOptimization?: boolean;
-  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. @default 4 */
+  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. */
   innerIterations?: number;
-  /** Formula for the sufficient number of samples. Without replacement. @default "withoutReplacement" */
+  /** Formula for the sufficient number of samples. Without replacement. */
   budget?: "withReplacement" | "withoutReplacement";
   /**
    * Whether every model is compared with every datum, so that a figure can show its score. Otherwise a
-   * model is dropped as soon as it cannot win. False. @default false
+   * model is dropped as soon as it cannot win. False.
    */
   scoreEveryTrial?: boolean;
 }
@@ -590,6 +1071,26 @@ export interface RansacReport<M> {
   stop: "confident" | "exhausted" | "interrupted";
   /** Whether random data might show as much support. */
   couldBeChance: boolean;
+}
+
+/** Cameras and points in one frame. */
+export interface Reconstruction {
+  /** Camera of each photo; null if it is not registered. */
+  cameras: (PosedCamera | null)[];
+  /** Points in the world, interleaved. */
+  points: Float64Array;
+  /** Mean color of the keypoints of each point, 3 bytes each. */
+  colors: Uint8Array;
+  /** Root mean square of the reprojection errors of each point, pixels. */
+  errorsPx: Float64Array;
+  /** Index of the point of each observation. */
+  observationPoint: Uint32Array;
+  /** Index of the photo of each observation. */
+  observationImage: Uint32Array;
+  /** Index of the keypoint of each observation. */
+  observationKeypoint: Uint32Array;
+  /** Whether it stands where the known positions of its photos are. */
+  isPlaced: boolean;
 }
 
 /** Rectification of a rig: matches share a row, or a column if it is vertical. */
@@ -662,6 +1163,32 @@ export interface RelativePose {
   direction: Float64Array;
 }
 
+/** Measured rotation between two views. */
+export interface RelativeRotation {
+  /** Index of the first view. */
+  from: number;
+  /** Index of the second view. */
+  to: number;
+  /** Rotation from the frame of the first view to that of the second. */
+  toFromFrom: RigidTransformLike;
+}
+
+/** Two cameras mounted on a rig. */
+export interface RigCalibration {
+  /** Motion from the left to the right camera, meters. */
+  rightFromLeft: RigidTransform;
+  /** Distance between the cameras, meters. */
+  baselineM: number;
+  /** Root mean square of the reprojection errors in both cameras, pixels. */
+  rmsPx: number;
+  /** Standard deviation of the rotation about the axes of the right camera, radians. */
+  stdDevRotationRad: Float64Array;
+  /** Standard deviation of the translation, meters. */
+  stdDevTranslationM: Float64Array;
+  /** Root mean square of each pair, pixels; null where not both cameras see the board. */
+  pairsRmsPx: (number | null)[];
+}
+
 /** Rotation and translation: `x_in_a = a_from_b * x_in_b`. */
 export interface RigidTransform {
   /** Rotation matrix, 9 numbers by row. */
@@ -690,6 +1217,120 @@ export interface SelectedPose {
   numInFront: number;
   /** The same for the second-best motion. */
   secondNumInFront: number;
+}
+
+/** Camera rigidly mounted on each camera of a bundle. */
+export interface Sensor {
+  /** From the frame of the camera to that of the sensor. */
+  sensorFromCamera: RigidTransform;
+  /** Size, intrinsics and lens. */
+  camera: Camera;
+  /** Number of its lens, as in `lensOfCamera`. */
+  lens: number;
+}
+
+/** Camera rigidly mounted on each camera of a bundle, such as the right one of a rig. */
+export interface SensorLike {
+  /** From the frame of the camera to that of the sensor; it is not refined. */
+  sensorFromCamera: RigidTransformLike;
+  /** Size, intrinsics and lens. */
+  camera: Camera;
+  /** Number of its lens, as in `lensOfCamera`. 0 if not given. */
+  lens?: number;
+}
+
+/** Keypoints of one photo. */
+export interface SfmImage {
+  /** Pixels of the keypoints, interleaved. */
+  keypoints: Float64Array;
+  /** Color of each keypoint, 3 bytes each. */
+  colors: Uint8Array;
+  /** Number of the lens: photos of one lens share its refined parameters. */
+  lens: number;
+}
+
+/** Keypoints of one photo. */
+export interface SfmImageLike {
+  /** Pixels of the keypoints. */
+  keypoints: Points2;
+  /** Color of each keypoint, 3 bytes each. */
+  colors?: Uint8Array | Uint8ClampedArray;
+  /** Number of the lens: photos of one lens share its refined parameters. 0 if not given. */
+  lens?: number;
+  /** Position of the camera, if known. */
+  position?: PositionPrior;
+}
+
+/** Options of `reconstruct`. */
+export interface SfmOptions {
+  /**
+   * RANSAC for the essential matrix of a pair, and, with a threshold and a sampler of its own, for
+   * registering an image. Its threshold is 2 pixels, and its seed is ignored. @default { budget:
+   * "withoutReplacement", confidence: 0.999, innerIterations: 4, localOptimization: true, maxErrorPx: 2,
+   * maxIterations: 10000, minIterations: 200, sampler: "uniform", score: "msac", scoreEveryTrial: false,
+   * seed: 0, threshold: "given" }
+   */
+  ransac?: RansacOptions;
+  /** Largest reprojection error when an image is registered, pixels. 6. @default 6 */
+  maxRegistrationErrorPx?: number;
+  /** Largest reprojection error of an observation that is kept, pixels. 4. @default 4 */
+  maxReprojectionErrorPx?: number;
+  /** Fewest matches that connect two images, and fewest points that register one. 15. @default 15 */
+  minNumInliers?: number;
+  /** Smallest angle under which a point must be seen, degrees. 1.5. @default 1.5 */
+  minAngleDeg?: number;
+  /**
+   * Median angle that the two first images should have, degrees; halved, again and again, if no pair has
+   * it. 16. @default 16
+   */
+  minStartAngleDeg?: number;
+  /** Fewest images that must see a point which is kept in the end. 2. @default 2 */
+  minTrackLength?: number;
+  /** Refine one factor for the focal lengths of each lens. False. @default false */
+  refineFocal?: boolean;
+  /**
+   * Refine where the principal points are, one shift for each lens. False: turning a camera looks much
+   * the same. @default false
+   */
+  refinePrincipalPoint?: boolean;
+  /** Refine the radial terms of each lens, as `refineDistortion` has them. False. @default false */
+  refineDistortion?: boolean;
+  /** Refine the tangential terms p1 and p2 of each lens that has them. False. @default false */
+  refineTangential?: boolean;
+  /** Equal seeds give equal results. 0. @default 0 */
+  seed?: number;
+}
+
+/** Result of structure from motion. */
+export interface SfmResult {
+  /** Reconstructions that could not be connected, largest first; each has its own frame. */
+  components: Reconstruction[];
+  /** Indices of photos that are in none. */
+  unregistered: Uint32Array;
+  /** Steps taken, in order. */
+  steps: SfmStep[];
+}
+
+/** Step of structure from motion. */
+export interface SfmStep {
+  /** Kind: started, registered or adjusted. */
+  kind: string;
+  /** The two photos that started a component, the registered one, or none. */
+  images: Uint32Array;
+  /** Number of registered photos of the component; null unless one was registered. */
+  numRegistered: number | null;
+  /** Number of points of the component; null after an adjustment. */
+  numPoints: number | null;
+  /** Half the sum of the losses after the refinement, square pixels; null without one. */
+  cost: number | null;
+}
+
+/** Change of a window under every shift by whole pixels up to a reach. */
+export interface ShiftSurface {
+  /** Largest shift to each side, pixels. */
+  reach: number;
+  /** Squared change under the shift (du, dv) at `(reach + dv) (2 reach + 1) + reach + du`. */
+  values: Float64Array;
 }
 
 /**
@@ -788,13 +1429,13 @@ export interface StereoSgm {
 
 /** Options of a structure tensor. */
 export interface StructureTensorOptions {
-  /** The filter for the derivatives. */
+  /** The filter for the derivatives. @default "sobel3" */
   derivative?: "sobel3" | "sobel5" | "scharr";
-  /** The weights of the neighbors. */
+  /** The weights of the neighbors. @default { box: 3 } */
   window?: { box: number } | { gaussian: number };
-  /** The units. */
+  /** The units. @default "textbook" */
   scaling?: "textbook" | "openCv";
-  /** Border of the image; derivatives beyond a constant border count as 0. */
+  /** Border of the image; derivatives beyond a constant border count as 0. @default "reflect101" */
   border?: "replicate" | "reflect101" | { constant: number };
 }
 
@@ -832,6 +1473,30 @@ export interface Tracks {
   forwardBackwardPx: Float64Array;
 }
 
+/** Options of the choice among models of two views. */
+export interface TwoViewOptions {
+  /**
+   * For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
+   * 1.25 times its threshold, by the Sampson error. `ThresholdKind::Noise` is that of F, which needs no
+   * intrinsics, for all of them. @default { budget: "withoutReplacement", confidence: 0.999,
+   * innerIterations: 4, localOptimization: true, maxErrorPx: 1, maxIterations: 10000, minIterations:
+   * 200, sampler: "uniform", score: "msac", scoreEveryTrial: false, seed: 0, threshold: "given" }
+   */
+  ransac?: RansacOptions;
+  /** Fewer different inliers than this mean `Configuration::Degenerate`. 15. @default 15 */
+  minNumInliers?: number;
+  /**
+   * A homography that explains at least this share of the epipolar inliers means a plane or a turn.
+   * Above 1 nothing does. 0.8. @default 0.8
+   */
+  maxHomographyShare?: number;
+  /**
+   * E is preferred to F if it has at least this share of F's inliers. A share above 1 asks for more of
+   * them than F has. 0.95. @default 0.95
+   */
+  minEssentialShare?: number;
+}
+
 /** Matches between two images of 640 x 480 pixels, with ground truth. */
 export interface TwoViewProblem {
   /** First camera, at (0, 0, -distance), which looks along +z. */
@@ -866,6 +1531,80 @@ export interface TwoViewProblemOptions {
   seed?: number;
 }
 
+/** Two cameras and their points, in the frame of camera 1; the cameras have distance 1. */
+export interface TwoViewReconstruction {
+  /** Refined motion, with a translation of length 1. */
+  cam2FromCam1: RigidTransform;
+  /** Points, interleaved. */
+  points: Float64Array;
+  /** The same points as first triangulated, interleaved. */
+  triangulated: Float64Array;
+  /** Index of the match of each point, increasing. */
+  matchOfPoint: Uint32Array;
+  /** Number of matches in front of both cameras by each of the four motions of E, most first. */
+  numInFront: Uint32Array;
+  /** Root mean square of the reprojection errors as first triangulated, pixels. */
+  rmsBeforePx: number;
+  /** Root mean square after the refinement, pixels. */
+  rmsPx: number;
+  /** Report of the last refinement. */
+  report: LmReport;
+}
+
+/** Which points of two views to keep, and how to refine them. */
+export interface TwoViewReconstructionOptions {
+  /** Minimum triangulation angle, radians, ≥ 0. @default 0.008726646259971648 */
+  minAngleRad?: number;
+  /** Maximum reprojection error of a point after the refinement, pixels, > 0. @default 4 */
+  maxErrorPx?: number;
+  /** Fewer points than this are no reconstruction. @default 15 */
+  minNumPoints?: number;
+  /**
+   * The refinement of both cameras' motion and all points. @default { gauge: "twoCameras", heldCameras:
+   * [], heldPoints: [], lm: { costTolerance: 0.000000001, gradientTolerance: 0.0000000001,
+   * initialDamping: 0.0001, maxIterations: 50, patience: 0, stepTolerance: 0.0000000001 }, loss: {
+   * huber: { width: 2 } }, positionLoss: "trivial", positionPriors: [], refineDistortion: false,
+   * refineFocal: false, refinePrincipalPoint: false, refineTangential: false }
+   */
+  bundle?: BundleOptions;
+}
+
+/** Geometry of two views. */
+export interface TwoViewReport {
+  /** Configuration of the views. */
+  configuration: "general" | "planar" | "panoramic" | "degenerate";
+  /** Kind of the model. */
+  kind: "fundamental" | "essential" | "homography";
+  /** Chosen matrix, 9 numbers by row. */
+  model: Float64Array;
+  /** Whether model and homography are of rays, not of pixels: lenses with distortion. */
+  isOfRays: boolean;
+  /** F, where the views have one. */
+  fundamental: Float64Array | null;
+  /** H, if one was found. */
+  homography: Float64Array | null;
+  /** Motion of calibrated views, translation of length 1, or 0 for a rotation. */
+  cam2FromCam1: RigidTransform | null;
+  /** Second motion that explains a plane about as well. */
+  otherCam2FromCam1: RigidTransform | null;
+  /** 1 for each match that fits the model, otherwise 0. */
+  inliers: Uint8Array;
+  /** Number of inliers. */
+  numInliers: number;
+  /** Matches with infinite or huge coordinates, no inliers. */
+  numLeftOut: number;
+  /** Threshold of F and E, pixels. */
+  maxErrorPx: number;
+  /** Samples drawn, over all models tried. */
+  iterations: number;
+  /** Samples required for the model; Infinity if no number is enough. */
+  requiredIterations: number;
+  /** Reason for the end of the search. */
+  stop: "confident" | "exhausted" | "interrupted";
+  /** Median angle at which rays of inliers meet, radians, of calibrated views with motion. */
+  medianTriangulationAngleRad: number | null;
+}
+
 /** Rectification without calibration. */
 export interface UncalibratedRectification {
   /** Homography of image 1. */
@@ -880,6 +1619,66 @@ export interface UncalibratedRectification {
   outline1: PixelRect;
   /** Bounds of image 2. */
   outline2: PixelRect;
+}
+
+/** Photo without distortion. */
+export interface UndistortedImage {
+  /** Image of the kind that was given. */
+  image: ImageOfKind;
+  /** K of the new camera. */
+  intrinsics: Intrinsics;
+  /** Part of the image in which every pixel was photographed. */
+  valid: PixelRect;
+}
+
+/** Best camera without distortion for the photos of a camera. */
+export interface Undistortion {
+  /** K of the new camera, with square pixels. Its images have the size of the photos. */
+  intrinsics: Intrinsics;
+  /** Part of the result in which every pixel was photographed. */
+  valid: PixelRect;
+  /** Place in the photo that each pixel of the result is read from, for `remap`. */
+  map: PixelMap;
+}
+
+/** Options of a warp. */
+export interface WarpOptions {
+  /** Width of the result, pixels. @default null */
+  width?: number | null;
+  /** Height of the result, pixels. @default null */
+  height?: number | null;
+  /** Interpolation between pixels. @default "bilinear" */
+  interpolation?: "bilinear" | "bicubic";
+  /** Border of the image. @default null */
+  border?: "replicate" | "reflect101" | { constant: number } | null;
+}
+
+/** Structure tensor of one window, and what follows from it. */
+export interface WindowTensor {
+  /** Sum of Iu Iu. */
+  uu: number;
+  /** Sum of Iu Iv. */
+  uv: number;
+  /** Sum of Iv Iv. */
+  vv: number;
+  /** Product of the eigenvalues. */
+  determinant: number;
+  /** Sum of the eigenvalues. */
+  trace: number;
+  /** The larger first. */
+  eigenvalues: Float64Array;
+  /** Direction of the larger one's eigenvector, atan2(v, u), radians. */
+  directionRad: number;
+}
+
+/** Structure tensor of one window. */
+export interface WindowTensorLike {
+  /** Sum of Iu Iu. */
+  uu: number;
+  /** Sum of Iu Iv. */
+  uv: number;
+  /** Sum of Iv Iv. */
+  vv: number;
 }
 
 /** Functions by part. */
@@ -918,6 +1717,18 @@ export interface Functions {
   lookAt(centerInWorld: ArrayLike<number>, targetInWorld: ArrayLike<number>, upInWorld: ArrayLike<number>): Promise<RigidTransform>;
   /** Motion between two poses, `cam2FromCam1`. */
   relativeMotion(cam1FromWorld: RigidTransformLike, cam2FromWorld: RigidTransformLike): Promise<RigidTransform>;
+  /** Transform after another: `aFromB` after `bFromC` is `aFromC`. */
+  composeTransforms(aFromB: RigidTransformLike, bFromC: RigidTransformLike): Promise<RigidTransform>;
+  /** Inverse transform: of `aFromB`, `bFromA`. */
+  invertTransform(aFromB: RigidTransformLike): Promise<RigidTransform>;
+  /** Points moved from frame b to frame a. */
+  transformPoints(aFromB: RigidTransformLike, pointsInB: Points3): Promise<Float64Array>;
+  /** Angle of the rotation of a transform, radians in [0, pi]. */
+  rotationAngleRad(aFromB: RigidTransformLike): Promise<number>;
+  /** Matrix K of intrinsics, 9 numbers by row. */
+  intrinsicsMatrix(intrinsics: Intrinsics): Promise<Float64Array>;
+  /** Projection matrix K [R | t] of a camera, 12 numbers by row, for undistorted pixels. */
+  projectionMatrix(camera: PosedCameraLike): Promise<Float64Array>;
   /** Fundamental matrix of matches with outliers, by RANSAC: `x2' F x1 = 0`, unit norm. */
   estimateFundamental(pixels1: Points2, pixels2: Points2, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
   /** Essential matrix of matches with outliers, by RANSAC: unit norm. */
@@ -930,6 +1741,15 @@ export interface Functions {
   estimateRelativePoseAndFocal(pixels1: Points2, pixels2: Points2, principal1: ArrayLike<number>, principal2: ArrayLike<number>, options?: RansacOptions & Control): Promise<RansacReport<PoseWithFocal>>;
   /** Fundamental matrix of eight or more matches without outliers, normalized. */
   fundamental8point(pixels1: Points2, pixels2: Points2): Promise<Float64Array>;
+  /** Result of `fundamental8point` with its intermediate results. */
+  fundamental8pointExplained(pixels1: Points2, pixels2: Points2): Promise<EightPoint>;
+  /** Eight-point method without normalization of the pixels, for comparison. */
+  fundamental8pointUnnormalized(pixels1: Points2, pixels2: Points2): Promise<EightPoint>;
+  /**
+   * Rows of the linear system of the eight-point method, 9 numbers for each match: their product with F
+   * by row is `x2' F x1`.
+   */
+  epipolarRow(pixels1: Points2, pixels2: Points2): Promise<Float64Array>;
   /** Fundamental matrices of seven matches. */
   fundamental7point(pixels1: Points2, pixels2: Points2): Promise<Float64Array[]>;
   /** Essential matrix of eight or more pairs of rays without outliers. */
@@ -1016,10 +1836,61 @@ export interface Functions {
   findFlippedPose(camFromWorld: RigidTransformLike, pointsInWorld: Points3, pixels: Points2, camera: Camera): Promise<RigidTransform | null>;
   /** Distances between projected points and measured pixels, pixels. */
   reprojectionErrorPx(camera: PosedCameraLike, pointsInWorld: Points3, pixels: Points2): Promise<Float64Array>;
+  /** Line of points with outliers, by RANSAC: (a, b, c) with `a u + b v + c = 0`, a² + b² = 1. */
+  estimateLine(points: Points2, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
+  /** Line (a, b, c) with the least sum of squared distances from points. */
+  fitLineTotalLeastSquares(points: Points2): Promise<Float64Array>;
+  /**
+   * Line (a, b, c) with the least sum of Huber losses of the distances from points, which are linear
+   * beyond `widthPx` pixels.
+   */
+  fitLineHuber(points: Points2, widthPx: number): Promise<Float64Array>;
+  /**
+   * Line of points of which fewer than half are outliers, by the least median of squares; needs no
+   * threshold.
+   */
+  leastMedianLine(points: Points2, options?: LeastMedianOptions & Control): Promise<LeastMedianLine>;
+  /**
+   * Number of samples that suffices for a confidence in (0, 1), if data are drawn with replacement;
+   * `inlierRatio` is in [0, 1]. Infinity if no number does.
+   */
+  numTrialsWithReplacement(inlierRatio: number, sampleSize: number, confidence: number): Promise<number>;
+  /**
+   * Number of samples that suffices for a confidence in (0, 1), if data are drawn without replacement.
+   * Infinity if no number does.
+   */
+  numTrialsWithoutReplacement(numInliers: number, numData: number, sampleSize: number, confidence: number): Promise<number>;
+  /** Geometry of two views without calibration, by RANSAC: F or H. */
+  estimateTwoView(pixels1: Points2, pixels2: Points2, options?: TwoViewOptions & Control): Promise<TwoViewReport>;
+  /** Geometry of two calibrated views, by RANSAC: E, H or a rotation, and the motion. */
+  estimateTwoViewCalibrated(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, options?: TwoViewOptions & Control): Promise<TwoViewReport>;
+  /** Rotation matrix `cam2FromCam1` of two calibrated views from the same place, by RANSAC. */
+  estimateRotation(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
   /** Draws points and two cameras that see them. */
   twoViewProblem(options?: TwoViewProblemOptions & Control): Promise<TwoViewProblem>;
   /** Draws points and cameras that see them. */
   multiViewProblem(options?: MultiViewProblemOptions & Control): Promise<MultiViewProblem>;
+  /** Gradient by centered differences, slopes per pixel. A constant border has the unit of the values. */
+  centeredDifference(image: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  /** Gradient by the 3 x 3 Sobel filter, 8 times the slope per pixel. */
+  sobel(image: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  /**
+   * Gradient by a filter of small integers, not divided by its gain: 8 for sobel3, 128 for sobel5, 32
+   * for scharr.
+   */
+  derivative(image: ImageLike, kind?: "sobel3" | "sobel5" | "scharr", border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  /** Gradient of the image blurred by a Gaussian of standard deviation `sigmaPx`, slopes per pixel. */
+  gaussianDerivative(image: ImageLike, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  /** Image blurred by a Gaussian of standard deviation `sigmaPx`, cut off at about 4 of them. */
+  gaussianBlur(image: ImageLike, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  /** Mean of the `size` x `size` window around each pixel; `size` is odd. */
+  boxFilter(image: ImageLike, size: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  /** Image correlated with a kernel with odd sides, which is not flipped. */
+  correlate(image: ImageLike, kernel: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  /** Image moved by a homography from its pixels to those of the result, up to scale. */
+  warpPerspective(image: ImageLike, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
+  /** Image moved by an affine map, 2 x 3, from its pixels to those of the result. */
+  warpAffine(image: ImageLike, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
   /** Gray values in [0, 1] in which features of a photo are detected. */
   photoToGray(photo: ImageLike): Promise<GrayImage>;
   /** Features of the kind that the options name, strongest first. */
@@ -1036,6 +1907,22 @@ export interface Functions {
   minEigenvalueResponse(image: ImageLike, options?: StructureTensorOptions & Control): Promise<GrayImage>;
   /** Corners to track, strongest first. */
   goodFeaturesToTrack(image: ImageLike, options?: GoodFeaturesOptions & Control): Promise<Keypoints>;
+  /**
+   * Local maxima of a response, strongest first: pixels above `threshold` that are largest in a window
+   * `2 radius + 1` pixels wide.
+   */
+  nonMaximumSuppression(response: ImageLike, radius: number, threshold: number): Promise<Keypoints>;
+  /** Structure tensor of the window around a pixel of an image. */
+  windowTensor(image: ImageLike, u: number, v: number, options?: StructureTensorOptions & Control): Promise<WindowTensor>;
+  /** Structure tensor of a window from the gradients (Iu, Iv) of its pixels. */
+  windowTensorFromGradients(gradients: Points2): Promise<WindowTensor>;
+  /** Corner response of Harris of a window, `determinant - k trace^2`, with k such as 0.05. */
+  windowHarris(tensor: WindowTensorLike, k: number): Promise<number>;
+  /**
+   * Squared change of a window of `2 halfWindow + 1` pixels around (u, v), when it is shifted by up to
+   * `reach` pixels to each side. A constant border has the unit of the values.
+   */
+  shiftSurface(image: ImageLike, u: number, v: number, halfWindow: number, reach: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<ShiftSurface>;
   /** Corners located between pixels; NaN for those that cannot be. */
   refineCorners(image: ImageLike, corners: Points2, options?: RefineOptions & Control): Promise<Float64Array>;
   /** Matches between two lists of descriptors, in the order of the first. */
@@ -1071,4 +1958,76 @@ export interface Functions {
   pointCloud(disparity: GrayImage, q: Matrix): Promise<Float64Array>;
   /** Depth of a disparity, meters. */
   depthFromDisparity(focalPx: number, baselineM: number, disparityPx: number): Promise<number>;
+  /** Depths of a disparity that is wrong by at most `errorPx` pixels. */
+  depthInterval(focalPx: number, baselineM: number, disparityPx: number, errorPx: number): Promise<DepthInterval>;
+  /**
+   * Best camera without distortion for the photos of a camera, and the map to its images: valid keeps
+   * the area that was photographed everywhere, all keeps everything, with black borders.
+   */
+  undistortionMap(camera: Camera, keep?: "valid" | "all"): Promise<Undistortion>;
+  /** Photo redrawn without the distortion of its camera; `keep` as for `undistortionMap`. */
+  undistortImage(image: ImageLike, camera: Camera, keep?: "valid" | "all"): Promise<UndistortedImage>;
+  /** Image redrawn by a map, bilinear; 0 where nothing is read. */
+  remap(image: ImageLike, map: PixelMap): Promise<ImageOfKind>;
+  /**
+   * Searches a photo for a board of any pattern. A chessboard may be partly hidden; of a board with
+   * markers, a part is enough.
+   */
+  findBoard(image: ImageLike, board: Board, options?: Control): Promise<FoundBoard>;
+  /** Finds ArUco markers and AprilTags, in the order of their numbers. */
+  detectMarkers(image: ImageLike, dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11", options?: MarkerOptions & Control): Promise<Marker[]>;
+  /** Places of all marks on a board, row by row, meters, interleaved. */
+  boardMarks(board: Board): Promise<Float64Array>;
+  /** Black shapes of a board, to print it. */
+  boardDrawing(board: Board): Promise<BoardDrawing>;
+  /**
+   * Photo of a board with gray values in [0, 1], to test with exact truth. `noise` is the standard
+   * deviation of the gray values, 0 if not given.
+   */
+  photographOfBoard(board: Board, camera: Camera, camFromBoard: RigidTransformLike, noise?: number, seed?: number): Promise<GrayImage>;
+  /**
+   * Intrinsics, lens, and poses of a board with the least squared reprojection errors in photos of
+   * `width` x `height` pixels. A view has the `pixels` of `findBoard`; null for a photo without a board.
+   */
+  calibrate(board: Board, views: readonly (Points2 | null)[], width: number, height: number, options?: CalibrationOptions & Control): Promise<Calibration>;
+  /**
+   * Relative pose of two calibrated cameras from views of a board at the same moments. Null for a photo
+   * without a board.
+   */
+  calibrateRig(board: Board, leftCamera: Camera, rightCamera: Camera, left: readonly (Points2 | null)[], right: readonly (Points2 | null)[], options?: Control): Promise<RigCalibration>;
+  /**
+   * Intrinsics of a camera without distortion from homographies of planes to its photos, by Zhang's
+   * closed form.
+   */
+  intrinsicsFromPlanes(pixelsFromPlane: readonly Matrix[]): Promise<Intrinsics>;
+  /**
+   * Points of the matches of two views without outliers, refined together with the motion. The length of
+   * the given translation is ignored.
+   */
+  twoViewReconstruction(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: TwoViewReconstructionOptions & Control): Promise<TwoViewReconstruction>;
+  /** Refines cameras and points, and their lenses if asked, by the reprojection errors. */
+  adjustBundle(bundle: BundleLike, options?: BundleOptions & Control): Promise<AdjustedBundle>;
+  /**
+   * Keypoints of all photos, and matches between all pairs of them or between those that are near in
+   * order.
+   */
+  matchPhotos(photos: readonly ImageLike[], options?: PhotoOptions & Control): Promise<MatchedPhotos>;
+  /**
+   * Cameras and points from keypoints and matches: incremental structure from motion. `cameras` has one
+   * camera for each photo, or one for all.
+   */
+  reconstruct(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], options?: SfmOptions & Control): Promise<SfmResult>;
+  /** Cameras and points from photos: `matchPhotos` with `photoOptions`, then `reconstruct`. */
+  reconstructPhotos(photos: readonly ImageLike[], cameras: readonly Camera[], photoOptions?: PhotoOptions, options?: SfmOptions & Control): Promise<PhotoReconstruction>;
+  /**
+   * Poses of vertices that agree best with the measured poses between pairs of them, loops included. The
+   * width of the loss is in standard deviations. Without `worldFromVertex`, the start follows from the
+   * edges of `numVertices` vertices.
+   */
+  optimizePoseGraph(edges: readonly PoseGraphEdge[], numVertices: number, worldFromVertex?: readonly RigidTransformLike[], loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } }, options?: LmOptions & Control): Promise<OptimizedGraph>;
+  /**
+   * Rotations of `numViews` views that agree best with measured rotations between pairs of them. The
+   * width of the loss is in radians.
+   */
+  averageRotations(measured: readonly RelativeRotation[], numViews: number, loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } }, options?: Control): Promise<AveragedRotations>;
 }

@@ -1,32 +1,39 @@
 /** Loads the modules of the parts and calls them, in this thread. */
 
-import type { Part } from "./api.js";
+import { LARGER, type Part } from "./api.js";
 import { PARTS } from "./parts.js";
 import type { Bindings } from "./source.js";
 
 /** Receives stage and completed share; cancels by returning false. */
 export type Report = (stage: string, share: number) => boolean;
 
-const loading = new Map<Part, Promise<Bindings>>();
-const broken = new Set<Part>();
-
-/** Loads a part once; after a failure, the next call tries again. */
-export function loadPart(part: Part): Promise<Bindings> {
-  let bindings = loading.get(part);
-  if (bindings === undefined) {
-    bindings = load(part);
-    loading.set(part, bindings);
-    bindings.catch(() => loading.delete(part));
-  }
-  return bindings;
+/** A part with its functions. */
+export interface Loaded {
+  part: Part;
+  bindings: Bindings;
 }
 
-async function load(part: Part): Promise<Bindings> {
+const loading = new Map<Part, Promise<Loaded>>();
+const broken = new Set<Part>();
+
+/** Loads a part once, unless one that contains it is loaded; after a failure, the next call tries again. */
+export function loadPart(part: Part): Promise<Loaded> {
+  for (const name of [part, ...LARGER[part]]) {
+    const loaded = loading.get(name);
+    if (loaded !== undefined) return loaded;
+  }
+  const loaded = load(part);
+  loading.set(part, loaded);
+  loaded.catch(() => loading.delete(part));
+  return loaded;
+}
+
+async function load(part: Part): Promise<Loaded> {
   if (typeof WebAssembly === "undefined") throw new Error("WebAssembly is not available here");
   const { script, wasm } = PARTS[part];
   try {
     await script.default({ module_or_path: await compile(wasm()) });
-    return script;
+    return { part, bindings: script };
   } catch (cause) {
     const why = cause instanceof Error ? cause.message : String(cause);
     throw new Error(`the part ${part} cannot be loaded: ${why}`, { cause });
@@ -50,13 +57,7 @@ async function compile(url: URL): Promise<WebAssembly.Module> {
 }
 
 /** Calls a function of a loaded part. Throws a fault, or the error of a module that stops. */
-export function callPart(
-  bindings: Bindings,
-  part: Part,
-  name: string,
-  given: readonly unknown[],
-  report?: Report,
-): unknown {
+export function callPart({ part, bindings }: Loaded, name: string, given: readonly unknown[], report?: Report): unknown {
   if (broken.has(part)) throw new Error(`the part ${part} has stopped: use a worker, or reload the page`);
   try {
     return bindings.call(name, given, report);

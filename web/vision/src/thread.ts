@@ -10,7 +10,7 @@ export class ThreadRunner implements Runner {
   async run({ part, name, given, signal, progress }: Job): Promise<unknown> {
     if (this.#isClosed) throw closed();
     signal?.throwIfAborted();
-    const bindings = await loadPart(part);
+    const loaded = await loadPart(part);
     if (this.#isClosed) throw closed();
     signal?.throwIfAborted();
     if (name === undefined) return undefined;
@@ -24,7 +24,7 @@ export class ThreadRunner implements Runner {
       return thrown.length === 0 && !signal?.aborted;
     };
     try {
-      return callPart(bindings, part, name, given, progress || signal ? report : undefined);
+      return callPart(loaded, name, given, progress || signal ? report : undefined);
     } catch (problem) {
       if (thrown.length > 0) throw thrown[0];
       signal?.throwIfAborted();

@@ -6,7 +6,7 @@ import type { Answer, Call } from "./messages.js";
 
 async function answer({ id, part, name, given, reports }: Call, post: Post): Promise<void> {
   try {
-    const bindings = await loadPart(part);
+    const loaded = await loadPart(part);
     if (name === undefined) {
       post({ id, result: undefined }, []);
       return;
@@ -15,7 +15,7 @@ async function answer({ id, part, name, given, reports }: Call, post: Post): Pro
       post({ id, stage, share }, []);
       return true;
     };
-    const result = callPart(bindings, part, name, given, reports ? report : undefined);
+    const result = callPart(loaded, name, given, reports ? report : undefined);
     post({ id, result }, buffers(result));
   } catch (problem) {
     post({ id, fault: faultOf(problem) }, []);

@@ -178,6 +178,74 @@ for (const worker of [false, true]) {
     assert.ok(moved.filter((shift) => Math.abs(shift - 2) < 0.3).length > 0.8 * moved.length);
   });
 
+  withVision("a line has a slope, with and without outliers", async (vision) => {
+    const points = [[0, 0], [1, 1], [2, 2], [3, 3], [4, 4], [0, 30]];
+    const report = await vision.estimateLine(points, { maxErrorPx: 1 });
+    assert.deepEqual([...report.inliers], [1, 1, 1, 1, 1, 0]);
+    const slope = ([a, b]) => -a / b;
+    const inliers = points.slice(0, 5);
+    for (const line of [report.model, await vision.fitLineTotalLeastSquares(inliers), (await vision.leastMedianLine(points)).model]) {
+      assert.ok(Math.abs(slope(line) - 1) < 1e-9, `${line}`);
+    }
+    assert.ok(Math.abs(slope(await vision.fitLineHuber(points.slice(0, 5), 1)) - 1) < 1e-9);
+    assert.equal(await vision.numTrialsWithReplacement(0.5, 8, 0.99), 1177);
+    assert.equal(await vision.numTrialsWithReplacement(0, 8, 0.99), Infinity);
+    await assert.rejects(vision.numTrialsWithReplacement(1.5, 8, 0.99), /^RangeError: the share of inliers .* 1.5$/);
+  });
+
+  withVision("gradients have the unit of the values", async (vision) => {
+    const patch = { width: 3, height: 3, data: Float32Array.of(30, 60, 90, 40, 90, 140, 35, 120, 150) };
+    const { du, dv, magnitude } = await vision.centeredDifference(patch, "replicate");
+    assert.deepEqual([du.data[4], dv.data[4]], [50, 30]);
+    assert.ok(Math.abs(magnitude.data[4] - Math.hypot(50, 30)) < 1e-5);
+    const raw = await vision.sobel(patch, "replicate");
+    assert.deepEqual([raw.du.data[4], raw.dv.data[4]], [375, 185]);
+    const bytes = await vision.centeredDifference({ ...patch, data: Uint8Array.from(patch.data) }, "replicate");
+    assert.ok(Math.abs(255 * bytes.du.data[4] - 50) < 1e-4);
+    await assert.rejects(vision.sobel(patch, "wrap"), /^TypeError: border must be one of replicate, reflect101, constant, but is the string "wrap"$/);
+  });
+
+  withVision("a window of three gradients has the response that Harris gives", async (vision) => {
+    const tensor = await vision.windowTensorFromGradients([[4, 0], [0, 3], [2, 2]]);
+    assert.deepEqual([tensor.determinant, tensor.trace], [244, 33]);
+    assert.ok(Math.abs((await vision.windowHarris(tensor, 0.04)) - 200.44) < 1e-9);
+    await assert.rejects(vision.windowHarris(3, 0.04), /^TypeError: tensor must be an object with uu, uv and vv, but is 3$/);
+  });
+
+  withVision("transforms compose, invert, and move points", async (vision) => {
+    const turn = { rotation: [0, -1, 0, 1, 0, 0, 0, 0, 1], translation: [1, 2, 3] };
+    assert.deepEqual([...(await vision.transformPoints(turn, [[1, 0, 0]]))].map((x) => Math.round(1e9 * x) / 1e9), [1, 3, 3]);
+    const { translation } = await vision.composeTransforms(await vision.invertTransform(turn), turn);
+    assert.ok(Math.hypot(...translation) < 1e-12);
+    assert.ok(Math.abs((await vision.rotationAngleRad(turn)) - Math.PI / 2) < 1e-12);
+  });
+
+  withVision("a bundle is refined, and its parts are checked", async (vision) => {
+    const { observationIsInlier, ...world } = await vision.multiViewProblem({ numCameras: 3, numPoints: 20 });
+    const moved = world.points.map((x, index) => x + 0.02 * ((index % 3) - 1));
+    const { bundle, report } = await vision.adjustBundle({ ...world, points: moved });
+    assert.ok(report.finalCost < 1e-9 * report.initialCost, `${report.initialCost} to ${report.finalCost}`);
+    assert.deepEqual([report.history[0].index, report.history.at(-1).cost], [0, report.finalCost]);
+    // The result is a bundle again.
+    assert.ok((await vision.adjustBundle(bundle)).report.initialCost <= report.finalCost + 1e-12);
+    const cases = [
+      [{ ...world, observationCamera: [0, 1] }, RangeError, /^bundle.observationCamera must have 60 numbers, one for each pixel, but has 2$/],
+      [{ ...world, observationPoint: world.observationPoint.map(() => 99) }, RangeError, /99/],
+      [{ ...world, lensOfCamera: [0, -1] }, RangeError, "bundle.lensOfCamera must contain integers from 0 to 4294967295, but contains -1"],
+      [{ ...world, observationIsInlier }, TypeError, /^bundle has no observationIsInlier; it has cameras, points/],
+      [{ ...world, cameras: undefined }, TypeError, "bundle.cameras must be an array, but is missing"],
+    ];
+    for (const [given, type, message] of cases) {
+      await assert.rejects(vision.adjustBundle(given), (problem) => {
+        if (typeof message === "string") assert.equal(problem.message, message);
+        else assert.match(problem.message, message);
+        assert.equal(problem.constructor, type);
+        return true;
+      });
+    }
+    await assert.rejects(vision.adjustBundle(world, { heldPoints: [1] }), /^TypeError: options.heldPoints\[0\] must be true or false, but is 1$/);
+  });
+
   withVision("a detached buffer is an error", async (vision) => {
     const pixels = Float64Array.from(SQUARE.flat());
     structuredClone(pixels, { transfer: [pixels.buffer] });

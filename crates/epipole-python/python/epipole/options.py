@@ -146,8 +146,8 @@ class PhotoOptions(TypedDict, total=False):
 
 
 class PositionPrior(TypedDict, total=False):
-    center_in_world: Sequence[Sequence[float] | None]
-    sigma: Sequence[Sequence[float] | None]
+    center_in_world: Sequence[float]
+    sigma: Sequence[float]
 
 
 class RansacOptions(TypedDict, total=False):

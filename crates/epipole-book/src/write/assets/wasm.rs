@@ -39,7 +39,7 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
 }
 
 /// Features of `epipole-js`: the parts of the npm package of the core, a module each.
-const PARTS: &[&str] = &["homography", "geometry", "images"];
+const PARTS: &[&str] = &["homography", "geometry", "images", "all"];
 
 /// Builds the modules of the npm package of the core. Returns their folder.
 ///
