@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { figurePage, made, shareAnswers } from "./pages.mjs";
 import { bindings, book, elements, here, loadBindings } from "./places.mjs";
-import { serve } from "./server.mjs";
+import { BOOK_POLICY, serve } from "./server.mjs";
 
 const module = await loadBindings();
 /** Every figure of the module: `{name, title, help}`. */
@@ -42,7 +42,7 @@ const test = base.extend({
   /** Address of the book as published: under a sub-path, with its own policy. */
   library: [
     async ({}, use) => {
-      const server = await serve({ mounts: { course: book } });
+      const server = await serve({ mounts: { course: book }, policy: BOOK_POLICY });
       await use(`${server.origin}/course`);
       await server.close();
     },

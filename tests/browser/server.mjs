@@ -16,10 +16,13 @@ export const TYPES = {
   ".json": "application/json",
 };
 
-/** Content security policy of the book's pages. */
+/** Content security policy of pages with figures. */
 export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
   "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
+
+/** Policy of the book, whose chapters run code in workers made from blobs. */
+export const BOOK_POLICY = `${POLICY}; worker-src 'self' blob:`;
 
 /**
  * Policy of the Lab: also the reader's videos, and the blob URLs that workers poll for

@@ -34,23 +34,23 @@ const FIGURES = [
   ["epipole-web", "figures", "figures"],
   ["epipole-web", "jobs", "long computations"],
 ];
-const MODULES = [
-  ...FIGURES,
+const LAB = [
   ["epipole-lab", "page", "Lab"],
   ["epipole-lab", "vision-worker", "Lab's workers"],
   ["epipole-lab", "files-worker", "Lab's workers"],
 ];
-/** Modules of the npm package of the core. */
-const VISION = ["homography", "geometry", "images"].map((part) => ["epipole-js", part, part]);
+/** Modules of the npm package of the core, which runs the readers' code. */
+const VISION = ["homography", "geometry", "images", "all"].map((part) => ["epipole-js", part, part]);
+const READERS = VISION.map(([name, part]) => [name, part, "readers' code"]);
 /** Entry points that esbuild bundles. */
 const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
-const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
+const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/run/sandbox.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
 /** Fonts: the one in the figures, and those from npm that the builder subsets. */
 const FIGURE_SANS = ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"];
 const STIX = ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"];
 /** The lists to write: for the site, and for the packages of the figures. */
 const LISTS = [
-  { file: "web/THIRD-PARTY.txt", of: "Epipole's pages, modules and packages", modules: MODULES, scripts: SCRIPTS, fonts: [STIX, FIGURE_SANS] },
+  { file: "web/THIRD-PARTY.txt", of: "Epipole's pages, modules and packages", modules: [...FIGURES, ...READERS, ...LAB], scripts: SCRIPTS, fonts: [STIX, FIGURE_SANS] },
   { file: "web/THIRD-PARTY-FIGURES.txt", of: "the figures of Epipole", modules: FIGURES, scripts: ELEMENTS, fonts: [FIGURE_SANS] },
   { file: "web/vision/THIRD-PARTY.txt", of: "the npm package of the core", modules: VISION, scripts: ["web/vision/src/index.ts"], fonts: [] },
 ];
