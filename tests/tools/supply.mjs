@@ -41,7 +41,7 @@ const MODULES = [
   ["epipole-lab", "files-worker", "Lab's workers"],
 ];
 /** Modules of the npm package of the core. */
-const VISION = ["homography", "geometry", "images"].map((part) => ["epipole-js", part, part]);
+const VISION = ["homography", "geometry", "images", "all"].map((part) => ["epipole-js", part, part]);
 /** Entry points that esbuild bundles. */
 const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
 const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
