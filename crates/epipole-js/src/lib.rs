@@ -2,8 +2,9 @@
 //!
 //! A call reads its arguments ([`argument`], [`options`]), computes, and returns plain data
 //! ([`output`]); [`functions`] declares it. Files are named for the modules of the core. Each part
-//! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table gives the calls, the type
-//! declarations in `web/vision/src/api.ts`, and the native results that tests compare bit for bit.
+//! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table
+//! gives the calls, the type declarations in `web/vision/src/api.ts`, and the native results that
+//! tests compare bit for bit.
 
 pub mod argument;
 pub mod bridge;

@@ -2011,10 +2011,7 @@ export interface Functions {
   twoViewReconstruction(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: TwoViewReconstructionOptions & Control): Promise<TwoViewReconstruction>;
   /** Refines cameras and points, and their lenses if asked, by the reprojection errors. */
   adjustBundle(bundle: BundleLike, options?: BundleOptions & Control): Promise<AdjustedBundle>;
-  /**
-   * Keypoints of all photos, and matches between all pairs of them or between those that are near in
-   * order.
-   */
+  /** Keypoints of all photos, and matches between all pairs, or between photos that are near in order. */
   matchPhotos(photos: readonly ImageSource[], options?: PhotoOptions & Control): Promise<MatchedPhotos>;
   /**
    * Cameras and points from keypoints and matches: incremental structure from motion. `cameras` has one
