@@ -431,49 +431,56 @@ export interface EssentialWithFocal {
  * `MatchOptions` and `RansacOptions` for matches and models.
  */
 export interface FeatureOptions {
-  /** RootSIFT. */
+  /** RootSIFT. @default "rootSift" */
   kind?: "sift" | "rootSift" | "orb" | "harris";
-  /** Maximum number of features, the strongest; 0 means no limit. 8192. */
+  /** Maximum number of features, the strongest; 0 means no limit. 8192. @default 8192 */
   maxFeatures?: number;
   /**
    * Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the kind. SIFT:
    * `contrastThreshold`, 0.02, which includes faint features. ORB: `fastThreshold`, 20/255. Harris: the
-   * share of the strongest response, `quality`, 0.01.
+   * share of the strongest response, `quality`, 0.01. @default null
    */
   contrastThreshold?: number | null;
-  /** Take every direction to be 0, for cameras held upright. Harris' corners have none. False. */
+  /**
+   * Take every direction to be 0, for cameras held upright. Harris' corners have none. False. @default
+   * false
+   */
   upright?: boolean;
   /**
    * SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones,
    * which takes seconds, only if they have fewer than `maxFeatures` without; none if 0. 1.5 million.
+   * @default 1500000
    */
   maxUpsampledPixels?: number;
   /**
    * SIFT: assumed blur of the input, pixels, 0 to half of `sigmaPx`. 0.5, as Lowe's; 0.3 gives more
-   * matches in sharp photographs, fewer where features are rare.
+   * matches in sharp photographs, fewer where features are rare. @default 0.5
    */
   inputBlurPx?: number;
-  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. */
+  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. @default 1.6 */
   sigmaPx?: number;
-  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. */
+  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. @default 3 */
   layersPerOctave?: number;
-  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. */
+  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. @default 10 */
   edgeThreshold?: number;
-  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. */
+  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. @default 2 */
   maxOrientations?: number;
-  /** SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8. */
+  /**
+   * SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
+   * @default 0.800000011920929
+   */
   orientationPeakRatio?: number;
-  /** ORB: levels of the pyramid, 1 to 16. 8. */
+  /** ORB: levels of the pyramid, 1 to 16. 8. @default 8 */
   numLevels?: number;
-  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. */
+  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. @default 1.2 */
   scaleFactor?: number;
-  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. */
+  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. @default 0.03999999910593033 */
   harrisK?: number;
-  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. */
+  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. @default 8 */
   minDistancePx?: number;
-  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. */
+  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. @default 3 */
   tensorWindowPx?: number;
-  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. */
+  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. @default 11 */
   patchPx?: number;
 }
 
@@ -715,15 +722,16 @@ export interface MarkerOptions {
 export interface MatchOptions {
   /**
    * The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves the test
-   * out. Lowe 2004, §7.1.
+   * out. Lowe 2004, §7.1. @default 0.800000011920929
    */
   maxRatio?: number | null;
-  /** Require mutual nearest neighbors. */
+  /** Require mutual nearest neighbors. @default true */
   mutual?: boolean;
-  /** The largest distance, ≥ 0; `None` for any. */
+  /** The largest distance, ≥ 0; `None` for any. @default null */
   maxDistance?: number | null;
   /**
    * No feature of the second image in two matches: the closest stays. Mutual matches are unique already.
+   * @default true
    */
   unique?: boolean;
 }
@@ -1013,36 +1021,39 @@ export interface PositionPrior {
 export interface RansacOptions {
   /**
    * The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of
-   * one's own, the unit of its errors. 1.
+   * one's own, the unit of its errors. 1. @default 1
    */
   maxErrorPx?: number;
-  /** Source of the threshold. Given. */
+  /** Source of the threshold. Given. @default "given" */
   threshold?: "given" | "noise";
-  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. */
+  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. @default 0.999 */
   confidence?: number;
   /**
    * Minimum number of samples, unless `maxIterations` is lower. 200: the number required by the inlier
    * ratio takes every sample without outliers for a good start, but with noise only some of them lead to
-   * the best model.
+   * the best model. @default 200
    */
   minIterations?: number;
-  /** Maximum number of samples, ≥ 1. 10 000. */
+  /** Maximum number of samples, ≥ 1. 10 000. @default 10000 */
   maxIterations?: number;
-  /** Equal seeds give equal results. 0. */
+  /** Equal seeds give equal results. 0. @default 0 */
   seed?: number;
-  /** Sampling strategy. Uniform. */
+  /** Sampling strategy. Uniform. @default "uniform" */
   sampler?: "uniform" | "prosac";
-  /** Scoring function. MSAC. */
+  /** Scoring function. MSAC. @default "msac" */
   score?: "msac" | "inlierCount";
-  /** Whether a promising model is improved from its inliers at once, and the best one at the end. True. */
+  /**
+   * Whether a promising model is improved from its inliers at once, and the best one at the end. True.
+   * @default true
+   */
   localOptimization?: boolean;
-  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. */
+  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. @default 4 */
   innerIterations?: number;
-  /** Formula for the sufficient number of samples. Without replacement. */
+  /** Formula for the sufficient number of samples. Without replacement. @default "withoutReplacement" */
   budget?: "withReplacement" | "withoutReplacement";
   /**
    * Whether every model is compared with every datum, so that a figure can show its score. Otherwise a
-   * model is dropped as soon as it cannot win. False.
+   * model is dropped as soon as it cannot win. False. @default false
    */
   scoreEveryTrial?: boolean;
 }
