@@ -125,6 +125,11 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "images")]
     Group {
         part: "images",
+        functions: feature::window::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
         functions: stereo::FUNCTIONS,
     },
     #[cfg(feature = "images")]
@@ -192,6 +197,8 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         imaging::signatures(types),
         #[cfg(feature = "images")]
         feature::signatures(types),
+        #[cfg(feature = "images")]
+        feature::window::signatures(types),
         #[cfg(feature = "images")]
         stereo::signatures(types),
         #[cfg(feature = "images")]

@@ -120,14 +120,14 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   minEigenvalueResponse: ["images", "image", "options"],
   goodFeaturesToTrack: ["images", "image", "options"],
   nonMaximumSuppression: ["images", "response", "radius", "threshold"],
-  windowTensor: ["images", "image", "u", "v", "options"],
-  windowTensorFromGradients: ["images", "gradients"],
-  windowHarris: ["images", "tensor", "k"],
-  shiftSurface: ["images", "image", "u", "v", "halfWindow", "reach", "border"],
   refineCorners: ["images", "image", "corners", "options"],
   matchDescriptors: ["images", "descriptors1", "descriptors2", "options"],
   nearestTwo: ["images", "descriptors1", "descriptors2"],
   trackLucasKanade: ["images", "first", "second", "points", "options"],
+  windowTensor: ["images", "image", "u", "v", "options"],
+  windowTensorFromGradients: ["images", "gradients"],
+  windowHarris: ["images", "tensor", "k"],
+  shiftSurface: ["images", "image", "u", "v", "halfWindow", "reach", "border"],
   rectifyCalibrated: ["images", "camera1", "camera2", "cam2FromCam1", "options"],
   rectifyImages: ["images", "image1", "image2", "camera1", "camera2", "cam2FromCam1", "options"],
   rectifyUncalibrated: ["images", "fundamental", "pixels1", "pixels2", "width", "height"],
@@ -1927,6 +1927,14 @@ export interface Functions {
    * `2 radius + 1` pixels wide.
    */
   nonMaximumSuppression(response: ImageSource, radius: number, threshold: number): Promise<Keypoints>;
+  /** Corners located between pixels; NaN for those that cannot be. */
+  refineCorners(image: ImageSource, corners: Points2, options?: RefineOptions & Control): Promise<Float64Array>;
+  /** Matches between two lists of descriptors, in the order of the first. */
+  matchDescriptors(descriptors1: Descriptors, descriptors2: Descriptors, options?: MatchOptions & Control): Promise<Matches>;
+  /** The two nearest of the second list for each descriptor of the first. */
+  nearestTwo(descriptors1: Descriptors, descriptors2: Descriptors): Promise<Neighbors>;
+  /** Points tracked from one image to the next (Lucas and Kanade, on a pyramid). */
+  trackLucasKanade(first: ImageSource, second: ImageSource, points: Points2, options?: TrackOptions & Control): Promise<Tracks>;
   /** Structure tensor of the window around a pixel of an image. */
   windowTensor(image: ImageSource, u: number, v: number, options?: StructureTensorOptions & Control): Promise<WindowTensor>;
   /** Structure tensor of a window from the gradients (Iu, Iv) of its pixels. */
@@ -1938,14 +1946,6 @@ export interface Functions {
    * `reach` pixels to each side. A constant border has the unit of the values.
    */
   shiftSurface(image: ImageSource, u: number, v: number, halfWindow: number, reach: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<ShiftSurface>;
-  /** Corners located between pixels; NaN for those that cannot be. */
-  refineCorners(image: ImageSource, corners: Points2, options?: RefineOptions & Control): Promise<Float64Array>;
-  /** Matches between two lists of descriptors, in the order of the first. */
-  matchDescriptors(descriptors1: Descriptors, descriptors2: Descriptors, options?: MatchOptions & Control): Promise<Matches>;
-  /** The two nearest of the second list for each descriptor of the first. */
-  nearestTwo(descriptors1: Descriptors, descriptors2: Descriptors): Promise<Neighbors>;
-  /** Points tracked from one image to the next (Lucas and Kanade, on a pyramid). */
-  trackLucasKanade(first: ImageSource, second: ImageSource, points: Points2, options?: TrackOptions & Control): Promise<Tracks>;
   /** Rectifies a calibrated rig with cameras of the same size. */
   rectifyCalibrated(camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: RectifyOptions & Control): Promise<Rectification>;
   /** Rectifies a calibrated rig and its images; pixels that the camera did not see are black. */
