@@ -218,6 +218,47 @@ for (const worker of [false, true]) {
     await assert.rejects(vision.numTrialsWithReplacement(1.5, 8, 0.99), /^RangeError: the share of inliers .* 1.5$/);
   });
 
+  withVision("the eight-point method shows its condition, which normalization lowers", async (vision) => {
+    assert.deepEqual([...(await vision.epipolarRow([100, 50], [110, 48]))], [11000, 5500, 110, 4800, 2400, 48, 100, 50, 1]);
+    // The numbers of NumPy in the chapter on the method.
+    const pixels1 = [584, 385, 97, 341, 348, 351, 367, 137, 122, 60, 348, 304, 454, 201, 444, 264, 148, 194, 587, 368];
+    const pixels2 = [506, 399, 114, 338, 335, 355, 371, 143, 88, 88, 366, 308, 375, 214, 456, 269, 159, 203, 612, 381];
+    const raw = await vision.fundamental8pointUnnormalized(pixels1, pixels2);
+    const found = await vision.fundamental8pointExplained(pixels1, pixels2);
+    assert.equal(raw.conditionNumber.toFixed(0), "65203");
+    assert.equal(found.conditionNumber.toFixed(1), "19.8");
+    assert.deepEqual(found.fundamental, await vision.fundamental8point(pixels1, pixels2));
+    const few = [pixels1, pixels2].map((pixels) => pixels.slice(0, 14));
+    await assert.rejects(vision.fundamental8pointExplained(...few), { code: "TooFew" });
+  });
+
+  withVision("two views are general, planar or turned, and reconstructed", async (vision) => {
+    const world = await vision.twoViewProblem({ numPoints: 80 });
+    const { pixels1, pixels2, camera1, camera2, points } = world;
+    const { camera } = camera1;
+    assert.equal((await vision.estimateTwoView(pixels1, pixels2)).configuration, "general");
+    const found = await vision.estimateTwoViewCalibrated(pixels1, pixels2, camera, camera2.camera);
+    assert.deepEqual([found.kind, found.numInliers], ["essential", 80]);
+    const wall = await vision.twoViewProblem({ numPoints: 80, structure: { plane: { halfSideM: 1 } } });
+    const plane = await vision.estimateTwoView(wall.pixels1, wall.pixels2);
+    assert.deepEqual([plane.configuration, plane.kind], ["planar", "homography"]);
+    const scene = await vision.twoViewReconstruction(pixels1, pixels2, camera, camera2.camera, found.cam2FromCam1);
+    assert.ok(scene.rmsPx < 1e-6 && scene.matchOfPoint.length === 80, `${scene.rmsPx}`);
+    // The distance of the cameras is 1 there.
+    const { translation } = await vision.relativeMotion(camera1.camFromWorld, camera2.camFromWorld);
+    const length = Math.hypot(...translation);
+    const seen = await vision.transformPoints(camera1.camFromWorld, points);
+    scene.points.forEach((x, index) => assert.ok(Math.abs(length * x - seen[index]) < 1e-6));
+    await assert.rejects(vision.estimateRotation(pixels1, pixels2, camera), /^TypeError: camera2 must be an object, but is missing$/);
+  });
+
+  withVision("an interval of depth may reach infinity", async (vision) => {
+    const { nearM, farM } = await vision.depthInterval(700, 0.12, 30, 0.5);
+    assert.ok(Math.abs(nearM - 84 / 30.5) < 1e-12 && Math.abs(farM - 84 / 29.5) < 1e-12);
+    assert.equal((await vision.depthInterval(700, 0.12, 0.5, 1)).farM, null);
+    await assert.rejects(vision.depthInterval(700, 0.12, 30, -1), RangeError);
+  });
+
   withVision("gradients have the unit of the values", async (vision) => {
     const patch = { width: 3, height: 3, data: Float32Array.of(30, 60, 90, 40, 90, 140, 35, 120, 150) };
     const { du, dv, magnitude } = await vision.centeredDifference(patch, "replicate");
