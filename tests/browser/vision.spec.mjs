@@ -112,3 +112,59 @@ for (const [what, options] of [
     expect(problem).toMatch(/^the worker has stopped: |cannot run in a worker: /);
   });
 }
+
+test("pictures of the browser are images", async ({ page }) => {
+  await open(page);
+  const found = await page.evaluate(async () => {
+    const { Vision } = await import("/vision/index.js");
+    const canvas = new OffscreenCanvas(40, 30);
+    const context = canvas.getContext("2d");
+    for (let u = 0; u < 40; u += 1) {
+      context.fillStyle = `rgb(${6 * u} ${255 - 6 * u} ${3 * u})`;
+      context.fillRect(u, 0, 1, 30);
+    }
+    const data = context.getImageData(0, 0, 40, 30);
+    const blob = await canvas.convertToBlob({ type: "image/png" });
+    const bitmap = await createImageBitmap(canvas);
+    const frame = new VideoFrame(canvas, { timestamp: 0 });
+    const pictures = { blob, file: new File([blob], "photo.png", { type: "image/png" }), bitmap, frame };
+    const vision = await Vision.load();
+    const expected = await vision.photoToGray(data);
+    const worst = {};
+    for (const [kind, picture] of Object.entries(pictures)) {
+      const gray = await vision.photoToGray(picture);
+      worst[kind] = Math.max(...gray.data.map((value, index) => Math.abs(value - expected.data[index])));
+    }
+    frame.close();
+    bitmap.close();
+    const problems = [];
+    for (const bad of [bitmap, new Blob(["no image"], { type: "image/png" })]) {
+      problems.push(await vision.photoToGray(bad).catch((error) => `${error.name}: ${error.message}`));
+    }
+    problems.push(await vision.matchPhotos([data, new Blob(["no image"])]).catch((error) => error.message));
+    vision.close();
+    return { worst, problems };
+  });
+  // A VideoFrame may pass through another color space.
+  expect(found.worst).toEqual({ blob: 0, file: 0, bitmap: 0, frame: expect.any(Number) });
+  expect(found.worst.frame).toBeLessThan(0.02);
+  expect(found.problems).toEqual([
+    "TypeError: photo is closed: call before its close()",
+    "TypeError: photo of type image/png cannot be decoded: pass an image that this browser shows",
+    "photos[1] of unknown type cannot be decoded: pass an image that this browser shows",
+  ]);
+});
+
+test("a loaded part answers for the parts that it contains", async ({ page }) => {
+  const requests = await open(page);
+  const length = await page.evaluate(async () => {
+    const { Vision } = await import("/vision/index.js");
+    const vision = await Vision.load({ parts: ["geometry"] });
+    const square = [0, 0, 1, 0, 1, 1, 0, 1];
+    const { length } = await vision.fitHomography(square, square);
+    vision.close();
+    return length;
+  });
+  expect(length).toBe(9);
+  expect(requests.filter((path) => path.endsWith(".wasm"))).toEqual(["/vision/parts/geometry.wasm"]);
+});

@@ -1,7 +1,6 @@
 //! Arguments: from values to points, matrices and cameras.
 
 use crate::fault::{Fault, Result};
-use crate::output::Indices;
 use crate::types::Types;
 use crate::value::Value;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, PosedCamera, RigidTransform};
@@ -251,29 +250,6 @@ impl<const D: usize> Argument for OPoint<f64, Const<D>> {
 
     fn read(name: &str, value: &Value) -> Result<Self> {
         SVector::read(name, value).map(Self::from)
-    }
-}
-
-impl Argument for Indices {
-    fn typescript(_: &mut Types) -> String {
-        "ArrayLike<number>".to_owned()
-    }
-
-    fn read(name: &str, value: &Value) -> Result<Self> {
-        let numbers = value
-            .numbers()
-            .ok_or_else(|| not(name, "an array of indices", value))?;
-        let wrong =
-            |number: &&f64| number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(*number);
-        match numbers.iter().find(wrong) {
-            Some(number) => Err(Fault::of_range(format!(
-                "{name} must contain integers from 0 to {}, but contains {number}",
-                u32::MAX
-            ))),
-            None => Ok(Self(
-                numbers.iter().map(|&number| number as usize).collect(),
-            )),
-        }
     }
 }
 

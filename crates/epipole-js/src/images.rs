@@ -114,7 +114,13 @@ impl Argument for Image {
                 ),
             ],
         );
-        "ImageLike".to_owned()
+        types.alias(
+            "ImageSource",
+            "An image; in browsers also an `ImageBitmap`, a `VideoFrame`, or a `Blob` or `File` with \
+             an encoded image.",
+            "ImageLike | Picture",
+        );
+        "ImageSource".to_owned()
     }
 
     fn read(name: &str, value: &Value) -> Result<Self> {

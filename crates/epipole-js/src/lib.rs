@@ -2,8 +2,9 @@
 //!
 //! A call reads its arguments ([`argument`], [`options`]), computes, and returns plain data
 //! ([`output`]); [`functions`] declares it. Files are named for the modules of the core. Each part
-//! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table gives the calls, the type
-//! declarations in `web/vision/src/api.ts`, and the native results that tests compare bit for bit.
+//! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table
+//! gives the calls, the type declarations in `web/vision/src/api.ts`, and the native results that
+//! tests compare bit for bit.
 
 pub mod argument;
 pub mod bridge;
@@ -124,6 +125,11 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "images")]
     Group {
         part: "images",
+        functions: feature::window::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
         functions: stereo::FUNCTIONS,
     },
     #[cfg(feature = "images")]
@@ -191,6 +197,8 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         imaging::signatures(types),
         #[cfg(feature = "images")]
         feature::signatures(types),
+        #[cfg(feature = "images")]
+        feature::window::signatures(types),
         #[cfg(feature = "images")]
         stereo::signatures(types),
         #[cfg(feature = "images")]

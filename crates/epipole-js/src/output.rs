@@ -1,6 +1,7 @@
 //! Results of the core as values of JavaScript.
 
-use crate::argument::Argument;
+use crate::argument::{Argument, not};
+use crate::fault::{Fault, Result};
 use crate::types::Types;
 use crate::value::{Key, Value};
 use epipole::ArrayVec;
@@ -131,6 +132,29 @@ pub struct Integers(pub Vec<i32>);
 
 /// A list of indices below 2³².
 pub struct Indices(pub Vec<usize>);
+
+impl Argument for Indices {
+    fn typescript(_: &mut Types) -> String {
+        "ArrayLike<number>".to_owned()
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        let numbers = value
+            .numbers()
+            .ok_or_else(|| not(name, "an array of indices", value))?;
+        let wrong =
+            |number: &&f64| number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(*number);
+        match numbers.iter().find(wrong) {
+            Some(number) => Err(Fault::of_range(format!(
+                "{name} must contain integers from 0 to {}, but contains {number}",
+                u32::MAX
+            ))),
+            None => Ok(Self(
+                numbers.iter().map(|&number| number as usize).collect(),
+            )),
+        }
+    }
+}
 
 impl Numbers {
     /// Interleaved coordinates.

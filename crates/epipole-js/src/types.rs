@@ -53,8 +53,12 @@ impl Types {
         self.declarations.insert(name.to_owned(), interface);
     }
 
-    /// Adds the interface of an option struct, whose fields may all be left out.
+    /// Adds the interface of an option struct, whose fields may all be left out. One that is there
+    /// keeps its defaults.
     pub(crate) fn options(&mut self, name: &str, fields: &[(String, String)]) {
+        if self.declarations.contains_key(name) {
+            return;
+        }
         let fields = fields.iter().map(|(name, of)| Field {
             name: format!("{name}?"),
             of: of.clone(),
@@ -71,8 +75,9 @@ impl Types {
     /// Documents the default of an option.
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn set_default(&mut self, name: &str, field: &str, value: &str) {
-        if let Some(found) = self.field(name, field) {
-            found.docs = format!("{} @default {value}", found.docs).trim().to_owned();
+        let field = self.field(name, field);
+        if let Some(found) = field.filter(|found| found.docs.is_empty()) {
+            found.docs = format!("@default {value}");
         }
     }
 

@@ -64,7 +64,8 @@ fn api() -> String {
     let larger: String = larger.collect();
     format!(
         "/** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */\n\n\
-         import type {{ Control }} from \"./control.js\";\n\n\
+         import type {{ Control }} from \"./control.js\";\n\
+         import type {{ Picture }} from \"./pictures.js\";\n\n\
          /** Parts of the library, each a module. */\n\
          export const PART_NAMES = {} as const;\n\n\
          /** A part of the library. */\nexport type Part = (typeof PART_NAMES)[number];\n\n\

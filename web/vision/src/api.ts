@@ -1,6 +1,7 @@
 /** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */
 
 import type { Control } from "./control.js";
+import type { Picture } from "./pictures.js";
 
 /** Parts of the library, each a module. */
 export const PART_NAMES = ["homography", "geometry", "images", "all"] as const;
@@ -119,14 +120,14 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   minEigenvalueResponse: ["images", "image", "options"],
   goodFeaturesToTrack: ["images", "image", "options"],
   nonMaximumSuppression: ["images", "response", "radius", "threshold"],
-  windowTensor: ["images", "image", "u", "v", "options"],
-  windowTensorFromGradients: ["images", "gradients"],
-  windowHarris: ["images", "tensor", "k"],
-  shiftSurface: ["images", "image", "u", "v", "halfWindow", "reach", "border"],
   refineCorners: ["images", "image", "corners", "options"],
   matchDescriptors: ["images", "descriptors1", "descriptors2", "options"],
   nearestTwo: ["images", "descriptors1", "descriptors2"],
   trackLucasKanade: ["images", "first", "second", "points", "options"],
+  windowTensor: ["images", "image", "u", "v", "options"],
+  windowTensorFromGradients: ["images", "gradients"],
+  windowHarris: ["images", "tensor", "k"],
+  shiftSurface: ["images", "image", "u", "v", "halfWindow", "reach", "border"],
   rectifyCalibrated: ["images", "camera1", "camera2", "cam2FromCam1", "options"],
   rectifyImages: ["images", "image1", "image2", "camera1", "camera2", "cam2FromCam1", "options"],
   rectifyUncalibrated: ["images", "fundamental", "pixels1", "pixels2", "width", "height"],
@@ -430,49 +431,56 @@ export interface EssentialWithFocal {
  * `MatchOptions` and `RansacOptions` for matches and models.
  */
 export interface FeatureOptions {
-  /** RootSIFT. */
+  /** RootSIFT. @default "rootSift" */
   kind?: "sift" | "rootSift" | "orb" | "harris";
-  /** Maximum number of features, the strongest; 0 means no limit. 8192. */
+  /** Maximum number of features, the strongest; 0 means no limit. 8192. @default 8192 */
   maxFeatures?: number;
   /**
    * Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the kind. SIFT:
    * `contrastThreshold`, 0.02, which includes faint features. ORB: `fastThreshold`, 20/255. Harris: the
-   * share of the strongest response, `quality`, 0.01.
+   * share of the strongest response, `quality`, 0.01. @default null
    */
   contrastThreshold?: number | null;
-  /** Take every direction to be 0, for cameras held upright. Harris' corners have none. False. */
+  /**
+   * Take every direction to be 0, for cameras held upright. Harris' corners have none. False. @default
+   * false
+   */
   upright?: boolean;
   /**
    * SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones,
    * which takes seconds, only if they have fewer than `maxFeatures` without; none if 0. 1.5 million.
+   * @default 1500000
    */
   maxUpsampledPixels?: number;
   /**
    * SIFT: assumed blur of the input, pixels, 0 to half of `sigmaPx`. 0.5, as Lowe's; 0.3 gives more
-   * matches in sharp photographs, fewer where features are rare.
+   * matches in sharp photographs, fewer where features are rare. @default 0.5
    */
   inputBlurPx?: number;
-  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. */
+  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. @default 1.6 */
   sigmaPx?: number;
-  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. */
+  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. @default 3 */
   layersPerOctave?: number;
-  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. */
+  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. @default 10 */
   edgeThreshold?: number;
-  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. */
+  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. @default 2 */
   maxOrientations?: number;
-  /** SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8. */
+  /**
+   * SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
+   * @default 0.800000011920929
+   */
   orientationPeakRatio?: number;
-  /** ORB: levels of the pyramid, 1 to 16. 8. */
+  /** ORB: levels of the pyramid, 1 to 16. 8. @default 8 */
   numLevels?: number;
-  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. */
+  /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. @default 1.2 */
   scaleFactor?: number;
-  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. */
+  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. @default 0.03999999910593033 */
   harrisK?: number;
-  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. */
+  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. @default 8 */
   minDistancePx?: number;
-  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. */
+  /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. @default 3 */
   tensorWindowPx?: number;
-  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. */
+  /** Harris: side of the patch that describes a corner, pixels, 2 to 64. 11. @default 11 */
   patchPx?: number;
 }
 
@@ -568,6 +576,9 @@ export interface ImageOfKind {
   /** Values. */
   data: Uint8Array | Float32Array;
 }
+
+/** An image; in browsers also an `ImageBitmap`, a `VideoFrame`, or a `Blob` or `File` with an encoded image. */
+export type ImageSource = ImageLike | Picture;
 
 /** Pinhole intrinsics, pixels; pixel centers are at integers. */
 export interface Intrinsics {
@@ -711,15 +722,16 @@ export interface MarkerOptions {
 export interface MatchOptions {
   /**
    * The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves the test
-   * out. Lowe 2004, §7.1.
+   * out. Lowe 2004, §7.1. @default 0.800000011920929
    */
   maxRatio?: number | null;
-  /** Require mutual nearest neighbors. */
+  /** Require mutual nearest neighbors. @default true */
   mutual?: boolean;
-  /** The largest distance, ≥ 0; `None` for any. */
+  /** The largest distance, ≥ 0; `None` for any. @default null */
   maxDistance?: number | null;
   /**
    * No feature of the second image in two matches: the closest stays. Mutual matches are unique already.
+   * @default true
    */
   unique?: boolean;
 }
@@ -1009,36 +1021,39 @@ export interface PositionPrior {
 export interface RansacOptions {
   /**
    * The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of
-   * one's own, the unit of its errors. 1.
+   * one's own, the unit of its errors. 1. @default 1
    */
   maxErrorPx?: number;
-  /** Source of the threshold. Given. */
+  /** Source of the threshold. Given. @default "given" */
   threshold?: "given" | "noise";
-  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. */
+  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. @default 0.999 */
   confidence?: number;
   /**
    * Minimum number of samples, unless `maxIterations` is lower. 200: the number required by the inlier
    * ratio takes every sample without outliers for a good start, but with noise only some of them lead to
-   * the best model.
+   * the best model. @default 200
    */
   minIterations?: number;
-  /** Maximum number of samples, ≥ 1. 10 000. */
+  /** Maximum number of samples, ≥ 1. 10 000. @default 10000 */
   maxIterations?: number;
-  /** Equal seeds give equal results. 0. */
+  /** Equal seeds give equal results. 0. @default 0 */
   seed?: number;
-  /** Sampling strategy. Uniform. */
+  /** Sampling strategy. Uniform. @default "uniform" */
   sampler?: "uniform" | "prosac";
-  /** Scoring function. MSAC. */
+  /** Scoring function. MSAC. @default "msac" */
   score?: "msac" | "inlierCount";
-  /** Whether a promising model is improved from its inliers at once, and the best one at the end. True. */
+  /**
+   * Whether a promising model is improved from its inliers at once, and the best one at the end. True.
+   * @default true
+   */
   localOptimization?: boolean;
-  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. */
+  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. @default 4 */
   innerIterations?: number;
-  /** Formula for the sufficient number of samples. Without replacement. */
+  /** Formula for the sufficient number of samples. Without replacement. @default "withoutReplacement" */
   budget?: "withReplacement" | "withoutReplacement";
   /**
    * Whether every model is compared with every datum, so that a figure can show its score. Otherwise a
-   * model is dropped as soon as it cannot win. False.
+   * model is dropped as soon as it cannot win. False. @default false
    */
   scoreEveryTrial?: boolean;
 }
@@ -1871,49 +1886,57 @@ export interface Functions {
   /** Draws points and cameras that see them. */
   multiViewProblem(options?: MultiViewProblemOptions & Control): Promise<MultiViewProblem>;
   /** Gradient by centered differences, slopes per pixel. A constant border has the unit of the values. */
-  centeredDifference(image: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  centeredDifference(image: ImageSource, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
   /** Gradient by the 3 x 3 Sobel filter, 8 times the slope per pixel. */
-  sobel(image: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  sobel(image: ImageSource, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
   /**
    * Gradient by a filter of small integers, not divided by its gain: 8 for sobel3, 128 for sobel5, 32
    * for scharr.
    */
-  derivative(image: ImageLike, kind?: "sobel3" | "sobel5" | "scharr", border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  derivative(image: ImageSource, kind?: "sobel3" | "sobel5" | "scharr", border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
   /** Gradient of the image blurred by a Gaussian of standard deviation `sigmaPx`, slopes per pixel. */
-  gaussianDerivative(image: ImageLike, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
+  gaussianDerivative(image: ImageSource, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<Gradient>;
   /** Image blurred by a Gaussian of standard deviation `sigmaPx`, cut off at about 4 of them. */
-  gaussianBlur(image: ImageLike, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  gaussianBlur(image: ImageSource, sigmaPx: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
   /** Mean of the `size` x `size` window around each pixel; `size` is odd. */
-  boxFilter(image: ImageLike, size: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  boxFilter(image: ImageSource, size: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
   /** Image correlated with a kernel with odd sides, which is not flipped. */
-  correlate(image: ImageLike, kernel: ImageLike, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  correlate(image: ImageSource, kernel: ImageSource, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
   /** Image moved by a homography from its pixels to those of the result, up to scale. */
-  warpPerspective(image: ImageLike, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
+  warpPerspective(image: ImageSource, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
   /** Image moved by an affine map, 2 x 3, from its pixels to those of the result. */
-  warpAffine(image: ImageLike, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
+  warpAffine(image: ImageSource, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
   /** Gray values in [0, 1] in which features of a photo are detected. */
-  photoToGray(photo: ImageLike): Promise<GrayImage>;
+  photoToGray(photo: ImageSource): Promise<GrayImage>;
   /** Features of the kind that the options name, strongest first. */
-  detectFeatures(image: ImageLike, options?: FeatureOptions & Control): Promise<Features>;
+  detectFeatures(image: ImageSource, options?: FeatureOptions & Control): Promise<Features>;
   /** SIFT features, strongest first. */
-  detectSift(image: ImageLike, options?: SiftOptions & Control): Promise<Features>;
+  detectSift(image: ImageSource, options?: SiftOptions & Control): Promise<Features>;
   /** ORB features, strongest first. */
-  detectOrb(image: ImageLike, options?: OrbOptions & Control): Promise<Features>;
+  detectOrb(image: ImageSource, options?: OrbOptions & Control): Promise<Features>;
   /** SIFT descriptors of given keypoints. */
-  describeSift(image: ImageLike, keypoints: KeypointsLike, options?: SiftOptions & Control): Promise<Descriptors>;
+  describeSift(image: ImageSource, keypoints: KeypointsLike, options?: SiftOptions & Control): Promise<Descriptors>;
   /** Corner response of Harris with its factor k, such as 0.05. */
-  harrisResponse(image: ImageLike, k: number, options?: StructureTensorOptions & Control): Promise<GrayImage>;
+  harrisResponse(image: ImageSource, k: number, options?: StructureTensorOptions & Control): Promise<GrayImage>;
   /** Smaller eigenvalue of the structure tensor. */
-  minEigenvalueResponse(image: ImageLike, options?: StructureTensorOptions & Control): Promise<GrayImage>;
+  minEigenvalueResponse(image: ImageSource, options?: StructureTensorOptions & Control): Promise<GrayImage>;
   /** Corners to track, strongest first. */
-  goodFeaturesToTrack(image: ImageLike, options?: GoodFeaturesOptions & Control): Promise<Keypoints>;
+  goodFeaturesToTrack(image: ImageSource, options?: GoodFeaturesOptions & Control): Promise<Keypoints>;
   /**
    * Local maxima of a response, strongest first: pixels above `threshold` that are largest in a window
    * `2 radius + 1` pixels wide.
    */
-  nonMaximumSuppression(response: ImageLike, radius: number, threshold: number): Promise<Keypoints>;
+  nonMaximumSuppression(response: ImageSource, radius: number, threshold: number): Promise<Keypoints>;
+  /** Corners located between pixels; NaN for those that cannot be. */
+  refineCorners(image: ImageSource, corners: Points2, options?: RefineOptions & Control): Promise<Float64Array>;
+  /** Matches between two lists of descriptors, in the order of the first. */
+  matchDescriptors(descriptors1: Descriptors, descriptors2: Descriptors, options?: MatchOptions & Control): Promise<Matches>;
+  /** The two nearest of the second list for each descriptor of the first. */
+  nearestTwo(descriptors1: Descriptors, descriptors2: Descriptors): Promise<Neighbors>;
+  /** Points tracked from one image to the next (Lucas and Kanade, on a pyramid). */
+  trackLucasKanade(first: ImageSource, second: ImageSource, points: Points2, options?: TrackOptions & Control): Promise<Tracks>;
   /** Structure tensor of the window around a pixel of an image. */
-  windowTensor(image: ImageLike, u: number, v: number, options?: StructureTensorOptions & Control): Promise<WindowTensor>;
+  windowTensor(image: ImageSource, u: number, v: number, options?: StructureTensorOptions & Control): Promise<WindowTensor>;
   /** Structure tensor of a window from the gradients (Iu, Iv) of its pixels. */
   windowTensorFromGradients(gradients: Points2): Promise<WindowTensor>;
   /** Corner response of Harris of a window, `determinant - k trace^2`, with k such as 0.05. */
@@ -1922,31 +1945,23 @@ export interface Functions {
    * Squared change of a window of `2 halfWindow + 1` pixels around (u, v), when it is shifted by up to
    * `reach` pixels to each side. A constant border has the unit of the values.
    */
-  shiftSurface(image: ImageLike, u: number, v: number, halfWindow: number, reach: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<ShiftSurface>;
-  /** Corners located between pixels; NaN for those that cannot be. */
-  refineCorners(image: ImageLike, corners: Points2, options?: RefineOptions & Control): Promise<Float64Array>;
-  /** Matches between two lists of descriptors, in the order of the first. */
-  matchDescriptors(descriptors1: Descriptors, descriptors2: Descriptors, options?: MatchOptions & Control): Promise<Matches>;
-  /** The two nearest of the second list for each descriptor of the first. */
-  nearestTwo(descriptors1: Descriptors, descriptors2: Descriptors): Promise<Neighbors>;
-  /** Points tracked from one image to the next (Lucas and Kanade, on a pyramid). */
-  trackLucasKanade(first: ImageLike, second: ImageLike, points: Points2, options?: TrackOptions & Control): Promise<Tracks>;
+  shiftSurface(image: ImageSource, u: number, v: number, halfWindow: number, reach: number, border?: "replicate" | "reflect101" | { constant: number }): Promise<ShiftSurface>;
   /** Rectifies a calibrated rig with cameras of the same size. */
   rectifyCalibrated(camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: RectifyOptions & Control): Promise<Rectification>;
   /** Rectifies a calibrated rig and its images; pixels that the camera did not see are black. */
-  rectifyImages(image1: ImageLike, image2: ImageLike, camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: RectifyOptions & Control): Promise<RectifiedImages>;
+  rectifyImages(image1: ImageSource, image2: ImageSource, camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: RectifyOptions & Control): Promise<RectifiedImages>;
   /** Rectifies two images from their fundamental matrix and matches without outliers. */
   rectifyUncalibrated(fundamental: Matrix, pixels1: Points2, pixels2: Points2, width: number, height: number): Promise<UncalibratedRectification>;
   /**
    * Disparities `uLeft - uRight` of the pixels of a rectified image by block matching; NaN without a
    * match.
    */
-  stereoBm(left: ImageLike, right: ImageLike, options?: StereoBm & Control): Promise<GrayImage>;
+  stereoBm(left: ImageSource, right: ImageSource, options?: StereoBm & Control): Promise<GrayImage>;
   /**
    * Disparities `uLeft - uRight` of the pixels of a rectified image by semi-global matching; NaN without
    * a match.
    */
-  stereoSgm(left: ImageLike, right: ImageLike, options?: StereoSgm & Control): Promise<GrayImage>;
+  stereoSgm(left: ImageSource, right: ImageSource, options?: StereoSgm & Control): Promise<GrayImage>;
   /**
    * Removes connected regions of fewer than `minSize` pixels, whose neighbors differ by at most
    * `rangePx`.
@@ -1966,16 +1981,16 @@ export interface Functions {
    */
   undistortionMap(camera: Camera, keep?: "valid" | "all"): Promise<Undistortion>;
   /** Photo redrawn without the distortion of its camera; `keep` as for `undistortionMap`. */
-  undistortImage(image: ImageLike, camera: Camera, keep?: "valid" | "all"): Promise<UndistortedImage>;
+  undistortImage(image: ImageSource, camera: Camera, keep?: "valid" | "all"): Promise<UndistortedImage>;
   /** Image redrawn by a map, bilinear; 0 where nothing is read. */
-  remap(image: ImageLike, map: PixelMap): Promise<ImageOfKind>;
+  remap(image: ImageSource, map: PixelMap): Promise<ImageOfKind>;
   /**
    * Searches a photo for a board of any pattern. A chessboard may be partly hidden; of a board with
    * markers, a part is enough.
    */
-  findBoard(image: ImageLike, board: Board, options?: Control): Promise<FoundBoard>;
+  findBoard(image: ImageSource, board: Board, options?: Control): Promise<FoundBoard>;
   /** Finds ArUco markers and AprilTags, in the order of their numbers. */
-  detectMarkers(image: ImageLike, dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11", options?: MarkerOptions & Control): Promise<Marker[]>;
+  detectMarkers(image: ImageSource, dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11", options?: MarkerOptions & Control): Promise<Marker[]>;
   /** Places of all marks on a board, row by row, meters, interleaved. */
   boardMarks(board: Board): Promise<Float64Array>;
   /** Black shapes of a board, to print it. */
@@ -2007,18 +2022,15 @@ export interface Functions {
   twoViewReconstruction(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, cam2FromCam1: RigidTransformLike, options?: TwoViewReconstructionOptions & Control): Promise<TwoViewReconstruction>;
   /** Refines cameras and points, and their lenses if asked, by the reprojection errors. */
   adjustBundle(bundle: BundleLike, options?: BundleOptions & Control): Promise<AdjustedBundle>;
-  /**
-   * Keypoints of all photos, and matches between all pairs of them or between those that are near in
-   * order.
-   */
-  matchPhotos(photos: readonly ImageLike[], options?: PhotoOptions & Control): Promise<MatchedPhotos>;
+  /** Keypoints of all photos, and matches between all pairs, or between photos that are near in order. */
+  matchPhotos(photos: readonly ImageSource[], options?: PhotoOptions & Control): Promise<MatchedPhotos>;
   /**
    * Cameras and points from keypoints and matches: incremental structure from motion. `cameras` has one
    * camera for each photo, or one for all.
    */
   reconstruct(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], options?: SfmOptions & Control): Promise<SfmResult>;
   /** Cameras and points from photos: `matchPhotos` with `photoOptions`, then `reconstruct`. */
-  reconstructPhotos(photos: readonly ImageLike[], cameras: readonly Camera[], photoOptions?: PhotoOptions, options?: SfmOptions & Control): Promise<PhotoReconstruction>;
+  reconstructPhotos(photos: readonly ImageSource[], cameras: readonly Camera[], photoOptions?: PhotoOptions, options?: SfmOptions & Control): Promise<PhotoReconstruction>;
   /**
    * Poses of vertices that agree best with the measured poses between pairs of them, loops included. The
    * width of the loss is in standard deviations. Without `worldFromVertex`, the start follows from the

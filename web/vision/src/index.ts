@@ -2,6 +2,7 @@
 /** Multi-view geometry in JavaScript: `const vision = await Vision.load()`. */
 
 import { FUNCTIONS, PART_NAMES, type Functions, type Part } from "./api.js";
+import { hasPicture, withPixels } from "./pictures.js";
 import { findStart, isPage } from "./ports.js";
 import { WorkerRunner, type Runner } from "./runner.js";
 
@@ -67,7 +68,11 @@ for (const [name, [part, ...parameters]] of Object.entries(FUNCTIONS)) {
   const value = async function (this: Vision, ...given: unknown[]): Promise<unknown> {
     const runner = runners.get(this);
     if (runner === undefined) throw new TypeError(`${name} is called without its Vision`);
-    given.forEach((value, index) => requireAttached(parameters[index] ?? "an argument", value));
+    const nameOf = (index: number) => parameters[index] ?? "an argument";
+    given.forEach((value, index) => requireAttached(nameOf(index), value));
+    if (given.some(hasPicture)) {
+      given = await Promise.all(given.map((value, index) => withPixels(nameOf(index), value)));
+    }
     const options = at < 0 ? undefined : given[at];
     if (typeof options !== "object" || options === null) return runner.run({ part, name, given });
     const { signal, progress, ...rest } = options as Record<string, unknown>;

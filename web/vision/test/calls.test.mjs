@@ -8,6 +8,24 @@ import { Vision, VisionError } from "../dist/index.js";
 const SQUARE = [[0, 0], [100, 0], [100, 100], [0, 100]];
 const moved = (pixels) => pixels.map(([u, v]) => [2 * u + 2, 2 * v + 3]);
 
+/** Photo of two textured walls, z = 4 - 0.5 |x|, by a camera moved along x. */
+function wedge(width, height, along) {
+  const at = (x, y) => ((((x * 7919 + y * 104729 + x * y * 31) % 251) + 251) % 251) / 250;
+  const smooth = (x, y) => {
+    const [column, row] = [Math.floor(x), Math.floor(y)];
+    const [s, t] = [x - column, y - row].map((share) => share * share * (3 - 2 * share));
+    const on = (row) => at(column, row) * (1 - s) + at(column + 1, row) * s;
+    return on(row) * (1 - t) + on(row + 1) * t;
+  };
+  return Uint8Array.from({ length: width * height }, (_, place) => {
+    const du = ((place % width) - (width - 1) / 2) / 150;
+    const dv = (Math.floor(place / width) - (height - 1) / 2) / 150;
+    const depth = Math.min(...[0.5, -0.5].map((slope) => (4 - slope * along) / (1 + slope * du)));
+    const [x, y] = [along + depth * du, depth * dv];
+    return 160 * smooth(4 * x, 4 * y) + 95 * smooth(11 * x + 3, 11 * y);
+  });
+}
+
 /** Both ways of running. */
 for (const worker of [false, true]) {
   const where = worker ? "in a worker" : "in this thread";
@@ -166,6 +184,13 @@ for (const worker of [false, true]) {
     await assert.rejects(vision.stereoBm(left, left, { numDisparities: 1e6 }), RangeError);
   });
 
+  withVision("a Blob is an error where pictures cannot be decoded", async (vision) => {
+    const file = new File([new Uint8Array(4)], "photo.jpg", { type: "image/jpeg" });
+    const instead = "which cannot be decoded here: pass an object with width, height and data";
+    await assert.rejects(vision.photoToGray(file), { name: "TypeError", message: `photo is a File, ${instead}` });
+    await assert.rejects(vision.matchPhotos([new Blob([])]), { name: "TypeError", message: `photos[0] is a Blob, ${instead}` });
+  });
+
   withVision("features of two images match", async (vision) => {
     const [width, height] = [96, 64];
     // Blocks of random brightness, and the same two pixels to the left.
@@ -191,6 +216,47 @@ for (const worker of [false, true]) {
     assert.equal(await vision.numTrialsWithReplacement(0.5, 8, 0.99), 1177);
     assert.equal(await vision.numTrialsWithReplacement(0, 8, 0.99), Infinity);
     await assert.rejects(vision.numTrialsWithReplacement(1.5, 8, 0.99), /^RangeError: the share of inliers .* 1.5$/);
+  });
+
+  withVision("the eight-point method shows its condition, which normalization lowers", async (vision) => {
+    assert.deepEqual([...(await vision.epipolarRow([100, 50], [110, 48]))], [11000, 5500, 110, 4800, 2400, 48, 100, 50, 1]);
+    // The numbers of NumPy in the chapter on the method.
+    const pixels1 = [584, 385, 97, 341, 348, 351, 367, 137, 122, 60, 348, 304, 454, 201, 444, 264, 148, 194, 587, 368];
+    const pixels2 = [506, 399, 114, 338, 335, 355, 371, 143, 88, 88, 366, 308, 375, 214, 456, 269, 159, 203, 612, 381];
+    const raw = await vision.fundamental8pointUnnormalized(pixels1, pixels2);
+    const found = await vision.fundamental8pointExplained(pixels1, pixels2);
+    assert.equal(raw.conditionNumber.toFixed(0), "65203");
+    assert.equal(found.conditionNumber.toFixed(1), "19.8");
+    assert.deepEqual(found.fundamental, await vision.fundamental8point(pixels1, pixels2));
+    const few = [pixels1, pixels2].map((pixels) => pixels.slice(0, 14));
+    await assert.rejects(vision.fundamental8pointExplained(...few), { code: "TooFew" });
+  });
+
+  withVision("two views are general, planar or turned, and reconstructed", async (vision) => {
+    const world = await vision.twoViewProblem({ numPoints: 80 });
+    const { pixels1, pixels2, camera1, camera2, points } = world;
+    const { camera } = camera1;
+    assert.equal((await vision.estimateTwoView(pixels1, pixels2)).configuration, "general");
+    const found = await vision.estimateTwoViewCalibrated(pixels1, pixels2, camera, camera2.camera);
+    assert.deepEqual([found.kind, found.numInliers], ["essential", 80]);
+    const wall = await vision.twoViewProblem({ numPoints: 80, structure: { plane: { halfSideM: 1 } } });
+    const plane = await vision.estimateTwoView(wall.pixels1, wall.pixels2);
+    assert.deepEqual([plane.configuration, plane.kind], ["planar", "homography"]);
+    const scene = await vision.twoViewReconstruction(pixels1, pixels2, camera, camera2.camera, found.cam2FromCam1);
+    assert.ok(scene.rmsPx < 1e-6 && scene.matchOfPoint.length === 80, `${scene.rmsPx}`);
+    // The distance of the cameras is 1 there.
+    const { translation } = await vision.relativeMotion(camera1.camFromWorld, camera2.camFromWorld);
+    const length = Math.hypot(...translation);
+    const seen = await vision.transformPoints(camera1.camFromWorld, points);
+    scene.points.forEach((x, index) => assert.ok(Math.abs(length * x - seen[index]) < 1e-6));
+    await assert.rejects(vision.estimateRotation(pixels1, pixels2, camera), /^TypeError: camera2 must be an object, but is missing$/);
+  });
+
+  withVision("an interval of depth may reach infinity", async (vision) => {
+    const { nearM, farM } = await vision.depthInterval(700, 0.12, 30, 0.5);
+    assert.ok(Math.abs(nearM - 84 / 30.5) < 1e-12 && Math.abs(farM - 84 / 29.5) < 1e-12);
+    assert.equal((await vision.depthInterval(700, 0.12, 0.5, 1)).farM, null);
+    await assert.rejects(vision.depthInterval(700, 0.12, 30, -1), RangeError);
   });
 
   withVision("gradients have the unit of the values", async (vision) => {
@@ -244,6 +310,109 @@ for (const worker of [false, true]) {
       });
     }
     await assert.rejects(vision.adjustBundle(world, { heldPoints: [1] }), /^TypeError: options.heldPoints\[0\] must be true or false, but is 1$/);
+  });
+
+  withVision("images are warped, of any kind", async (vision) => {
+    const image = { width: 3, height: 1, data: Uint8Array.of(10, 20, 30) };
+    const right = [[1, 0, 1], [0, 1, 0], [0, 0, 1]];
+    assert.deepEqual((await vision.warpPerspective(image, right)).data, Uint8Array.of(0, 10, 20));
+    assert.deepEqual((await vision.warpAffine(image, right.slice(0, 2), { width: 4 })).data, Uint8Array.of(0, 10, 20, 30));
+    const constant = { border: { constant: 7 }, interpolation: "bicubic" };
+    assert.deepEqual((await vision.warpPerspective(image, right, constant)).data[0], 7);
+    await assert.rejects(vision.warpAffine(image, right), /^RangeError: outFromImage must have 6 numbers, but has 9$/);
+    await assert.rejects(vision.warpPerspective(image, [1, 0, 0, 0, 1, 0, 0, 0, 0]), { code: "Degenerate" });
+    await assert.rejects(vision.warpPerspective(image, right, { width: 70000 }), /^RangeError: options must have sides from 1 to 65535 pixels, but has 70000 x 1$/);
+  });
+
+  withVision("a photo is undistorted at once and by its map", async (vision) => {
+    const [width, height] = [64, 48];
+    const camera = {
+      width,
+      height,
+      intrinsics: { fuPx: 60, fvPx: 60, cuPx: 31.5, cvPx: 23.5 },
+      lens: { kind: "brown", coefficients: [-0.2, 0, 0, 0, 0] },
+    };
+    const image = { width, height, data: Uint8Array.from({ length: width * height }, (_, i) => (i * 37) % 251) };
+    const { map, intrinsics, valid } = await vision.undistortionMap(camera);
+    const { image: flat } = await vision.undistortImage(image, camera);
+    assert.deepEqual(await vision.remap(image, map), flat);
+    assert.ok(intrinsics.fuPx < 60 && valid.uMax <= 63, `${intrinsics.fuPx} ${valid.uMax}`);
+    await assert.rejects(vision.undistortImage(image, { ...camera, width: 63 }), /^RangeError: image must have the size of its camera, 63 x 48, but has 64 x 48$/);
+    await assert.rejects(vision.undistortImage(image, camera, "most"), /^TypeError: keep must be one of valid, all, but is the string "most"$/);
+    await assert.rejects(vision.remap(image, { ...map, width: 3 }), /^RangeError: map.sources must have 288 numbers for 3 x 48 pixels, but has 6144$/);
+  });
+
+  withVision("photos of a board calibrate the camera that took them", async (vision) => {
+    const board = { pattern: "chessboard", columns: 7, rows: 5, squareM: 0.03 };
+    const camera = {
+      width: 320,
+      height: 240,
+      intrinsics: { fuPx: 300, fvPx: 300, cuPx: 159.5, cvPx: 119.5 },
+      lens: { kind: "brown", coefficients: [-0.05, 0.01, 0, 0, 0] },
+    };
+    const views = [];
+    for (const [x, y] of [[0.28, 0], [-0.28, 0], [0, 0.28], [0, -0.28]]) {
+      const pose = { quaternion: [0.96, x, y, 0], translation: [-0.09 + 0.1 * y, -0.06, 0.35] };
+      const photo = await vision.photographOfBoard(board, camera, pose);
+      const { pixels, numSeen, problem } = await vision.findBoard(photo, board);
+      assert.deepEqual([numSeen, problem], [35, null]);
+      views.push(pixels);
+    }
+    const found = await vision.calibrate(board, [...views, null], 320, 240);
+    assert.ok(Math.abs(found.camera.intrinsics.fuPx - 300) < 2, `${found.camera.intrinsics.fuPx}`);
+    assert.ok(found.rmsPx < 0.1, `${found.rmsPx}`);
+    assert.deepEqual([found.views.length, found.views[4]], [5, null]);
+    const dark = { width: 64, height: 48, data: new Uint8Array(64 * 48) };
+    const { pixels, problem } = await vision.findBoard(dark, board);
+    assert.deepEqual([pixels, typeof problem], [null, "string"]);
+    await assert.rejects(vision.findBoard(dark, board, { size: 3 }), /^TypeError: options has no size; it has signal, progress$/);
+    await assert.rejects(vision.findBoard(dark, { ...board, pattern: "checkers" }), /^TypeError: board.pattern must be one of chessboard, circles/);
+    await assert.rejects(vision.findBoard(dark, { ...board, rows: 1 }), /^RangeError: board: the number of a board's rows/);
+    await assert.rejects(vision.calibrate(board, [views[0].slice(2)], 320, 240), RangeError);
+    await assert.rejects(vision.detectMarkers(dark, "4x4"), /^TypeError: dictionary must be one of Aruco4x4_50, /);
+  });
+
+  withVision("photos become cameras and points, with progress, until aborted", async (vision) => {
+    const [width, height] = [160, 120];
+    const photos = [0, 0.25, 0.5, 0.75].map((along) => ({ width, height, data: wedge(width, height, along) }));
+    const cameras = [{ width, height, intrinsics: { fuPx: 150, fvPx: 150, cuPx: 79.5, cvPx: 59.5 } }];
+    const stages = new Set();
+    const progress = (stage) => stages.add(stage);
+    const { images, pairs, result } = await vision.reconstructPhotos(photos, cameras, {}, { progress });
+    assert.deepEqual([images.length, pairs.length, result.unregistered.length], [4, 6, 0]);
+    assert.ok(stages.size > 2, [...stages].join());
+    const [{ points, colors, cameras: found }] = result.components;
+    assert.ok(points.length > 300 && colors.length === points.length);
+    const step = await vision.relativeMotion(found[0].camFromWorld, found[1].camFromWorld);
+    const [x, ...rest] = step.translation;
+    assert.ok(Math.abs(x) > 20 * Math.hypot(...rest), `${step.translation}`);
+    // The same from its parts.
+    assert.deepEqual((await vision.reconstruct(images, cameras, pairs)).components, result.components);
+    const controller = new AbortController();
+    const signal = controller.signal;
+    const abort = () => controller.abort();
+    await assert.rejects(vision.reconstructPhotos(photos, cameras, {}, { signal, progress: abort }), { name: "AbortError" });
+    await assert.rejects(vision.reconstructPhotos(photos, []), RangeError);
+    await assert.rejects(vision.reconstructPhotos(photos.slice(1), cameras, { neighbours: 2 }), /^TypeError: photoOptions has no neighbours; it has features/);
+    await assert.rejects(vision.reconstruct(images, cameras, [{ image1: 0, image2: 1, matches: { indices1: [0], indices2: [] } }]), {
+      name: "RangeError",
+      message: "pairs[0].matches.indices2 must have 1 numbers, as many as indices1, but has 0",
+    });
+    const floats = { width: 1, height: 1, data: Float32Array.of(0) };
+    await assert.rejects(vision.matchPhotos([floats]), /^TypeError: photos\[0\] must be an image of bytes, but has floats$/);
+  });
+
+  withVision("a loop of poses closes", async (vision) => {
+    const quarter = { rotation: [0, 0, 1, 0, 1, 0, -1, 0, 0], translation: [0, 0, 1] };
+    const edges = [0, 1, 2, 3].map((from) => ({ from, to: (from + 1) % 4, fromFromTo: quarter }));
+    const { worldFromVertex, report } = await vision.optimizePoseGraph(edges, 4);
+    assert.ok(report.finalChi2 < 1e-12, `${report.finalChi2}`);
+    assert.ok(Math.abs(Math.hypot(...worldFromVertex[2].translation) - Math.SQRT2) < 1e-6);
+    const turns = edges.map(({ from, to }) => ({ from, to, toFromFrom: quarter }));
+    const { errorsRad } = await vision.averageRotations(turns, 4);
+    assert.ok(errorsRad.every((error) => error < 1e-6));
+    await assert.rejects(vision.optimizePoseGraph(edges, 3), RangeError);
+    await assert.rejects(vision.averageRotations(turns, 2 ** 21), /^RangeError: numViews must be at most 1048576, but is 2097152$/);
   });
 
   withVision("a detached buffer is an error", async (vision) => {

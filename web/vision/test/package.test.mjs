@@ -33,6 +33,9 @@ const world = await vision.twoViewProblem({ structure: { plane: { halfSideM: 1 }
 const pose = await vision.estimateRelativePose(world.pixels1, world.pixels2, world.camera1.camera, world.camera2.camera);
 await vision.refineHomography(report.model, pixels, pixels, { huber: { width: 1 } });
 await vision.fundamentalFromCameras(world.camera1, { camera: world.camera2.camera, camFromWorld: { translation: [0, 0, 1] } });
+const bitmap: ImageBitmap = await createImageBitmap(new Blob([]));
+await vision.photoToGray(bitmap);
+await vision.reconstructPhotos([new File([], "photo.jpg"), bitmap], [world.camera1.camera], { neighbors: 2 }, { seed: 1 });
 const image = { width: 2, height: 1, data: new Uint8ClampedArray(8) };
 const sift = await vision.detectSift(image as ImageData, { maxFeatures: 10 });
 await vision.matchDescriptors(sift.descriptors, sift.descriptors);
@@ -84,6 +87,22 @@ test("the package contains scripts, modules, types and licenses, and no dependen
     for (const [, path] of read(name).toString().matchAll(/(?:from|import|import\(|URL\() ?"(\.\/[^"]+)"/g)) {
       assert.ok(names.includes(new URL(path, `file:///${name}`).pathname.slice(1)), `${name} needs ${path}`);
     }
+  }
+});
+
+test("publint and arethetypeswrong find nothing", () => {
+  const temporary = mkdtempSync(join(tmpdir(), "vision-pack-"));
+  try {
+    const pack = ["pack", "--json", "--ignore-scripts", "--pack-destination", temporary];
+    const [{ filename }] = JSON.parse(execFileSync("npm", pack, { cwd: fileURLToPath(folder), encoding: "utf8" }));
+    const packed = join(temporary, filename);
+    const tool = (name) => fileURLToPath(new URL(`../node_modules/.bin/${name}`, folder));
+    const options = { encoding: "utf8", stdio: "pipe" };
+    assert.match(execFileSync(tool("publint"), ["run", packed, "--strict"], options), /All good!/);
+    // The package has modules only; scripts of CommonJS import it dynamically.
+    execFileSync(tool("attw"), [packed, "--profile", "esm-only", "--no-definitely-typed"], options);
+  } finally {
+    rmSync(temporary, { recursive: true });
   }
 });
 

@@ -214,8 +214,8 @@ pub(crate) fn photos(images: Vec<Rgb>) -> Vec<Photo> {
 }
 
 functions! {
-    /// Keypoints of all photos, and matches between all pairs of them or between those that are near
-    /// in order.
+    /// Keypoints of all photos, and matches between all pairs, or between photos that are near in
+    /// order.
     fn match_photos(photos: Vec<Rgb>, options: Options<PhotoOptions>; monitor) -> MatchedPhotos {
         let (images, pairs) = sfm::match_photos(&self::photos(photos), &options.0, monitor)?;
         MatchedPhotos { images, pairs }

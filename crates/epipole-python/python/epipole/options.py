@@ -71,8 +71,8 @@ class GoodFeaturesOptions(TypedDict, total=False):
 
 
 class Grid(TypedDict, total=False):
-    columns: int | None
-    rows: int | None
+    columns: int
+    rows: int
 
 
 class LeastMedianOptions(TypedDict, total=False):
