@@ -66,8 +66,9 @@ test-vision: vision ## the npm package of the core: calls, errors, examples, siz
 	EPIPOLE_NATIVE=target/vision-native.json node --test --test-reporter=spec web/vision/test/
 
 # PYTHONPATH is absolute, because listings and notebooks run in folders of their own.
-test-listings: setup-test python-module ## the Python listings and the notebooks of the chapters
+test-listings: setup-test python-module vision ## the Python and JavaScript listings and the notebooks of the chapters
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/run.py
+	node tests/listings/run.mjs
 	$(BOOK) notebooks target/book-work/notebooks
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/notebooks.py target/book-work/notebooks
 
@@ -166,8 +167,9 @@ bless-vision: setup-build ## writes web/vision/src/api.ts and parts.ts anew from
 bless-licenses: setup-build ## lists anew what we ship that is not ours; read the difference before you commit it
 	node tests/tools/supply.mjs --bless
 
-bless-listings: setup-test python-module ## records anew what the listings print; read the difference before you commit it
+bless-listings: setup-test python-module vision ## records anew what the listings print; read the difference before you commit it
 	PYTHONPATH=$(CURDIR)/$(PACKAGE)/python $(PYTHON) tests/listings/run.py --bless
+	node tests/listings/run.mjs --bless
 	EPIPOLE_BLESS=1 cargo test --quiet --test rust_listings
 
 pictures: setup build ## makes the pictures of README.md anew, from the built book

@@ -11,9 +11,9 @@ import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { bindings, book, elements, loadBindings } from "../browser/places.mjs";
 import { modulesAt, playInPage, playNatively, write } from "../browser/scripts.mjs";
-import { serve } from "../browser/server.mjs";
+import { BOOK_POLICY, serve } from "../browser/server.mjs";
 import { chromium, firefox, webkit } from "./drivers.mjs";
-import { badlySet, drawPhotograph, dropPhotograph, figuresOf, look, ready, takeHold } from "./steps.mjs";
+import { badlySet, drawPhotograph, dropPhotograph, figuresOf, look, ready, runListing, takeHold } from "./steps.mjs";
 
 const ENGINES = { firefox, webkit };
 /**
@@ -62,7 +62,7 @@ function plan() {
 let server;
 let reference;
 before(async () => {
-  server = await serve({ mounts: { course: book, play: player, made, elements, bindings } });
+  server = await serve({ mounts: { course: book, play: player, made, elements, bindings }, policy: BOOK_POLICY });
   reference = await chromium();
 });
 after(async () => {
@@ -163,6 +163,13 @@ const engineTests = (key) =>
       const expected = await shownByReference();
       assert.match(expected.note, /Made smaller, from 1531 × 1097/);
       assert.deepEqual(await shown(engine), expected);
+    }));
+
+    test("a listing runs, and prints what the book says", { timeout: ONE_MS }, (report) => surviving(report, async () => {
+      await engine.open(`${server.origin}/course/epipolar.html`);
+      const html = readFileSync(join(book, "epipolar.html"), "utf8");
+      const [, recorded] = /id="listing-line-js"[\s\S]*?<samp>([^<]*)<\/samp>/.exec(html);
+      assert.equal(await engine.run(runListing, "line"), recorded.trim());
     }));
 
     for (const page of pages) {

@@ -105,3 +105,19 @@ export async function badlySet() {
   }
   return bad;
 }
+
+/** Runs the code of a listing of the page, and says what comes below it. */
+export async function runListing(name) {
+  const box = document.getElementById(`listing-${name}`);
+  const button = box.querySelector("button.run");
+  const until = async (holds) => {
+    for (const start = performance.now(); !holds(); ) {
+      if (performance.now() - start > 60_000) throw new Error(`it takes too long: ${box.innerText}`);
+      await new Promise((done) => setTimeout(done, 50));
+    }
+  };
+  const said = () => box.querySelector(".run-output")?.textContent ?? "";
+  button.click();
+  await until(() => said() !== "" && button.dataset.state === "ready");
+  return said().trim();
+}

@@ -20,6 +20,7 @@ export async function packed(text: string): Promise<string> {
 /** Unpacks text. Rejects with a sentence if it is damaged. */
 export async function unpacked(code: string): Promise<string> {
   try {
+    if (!/^[dp]/.test(code) || code.length > MOST) throw new Error("of no way that is known");
     const letters = atob(code.slice(1).replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
     const plain = code.startsWith("d") ? await through(bytes, new DecompressionStream("deflate-raw")) : bytes;

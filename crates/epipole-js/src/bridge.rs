@@ -106,8 +106,10 @@ fn typed_from_js(value: &JsValue) -> Option<Value> {
 
 fn record_from_js(object: &Object, depth: usize) -> Value {
     let get = |key: &JsValue| from_js(&Reflect::get(object, key).unwrap_or_default(), depth + 1);
+    // An undefined option has its default; null is a value.
     let mut entries: Vec<(Key, Value)> = Object::keys(object)
         .iter()
+        .filter(|key| !Reflect::get(object, key).unwrap_or_default().is_undefined())
         .map(|key| (Key::from(key.as_string().unwrap_or_default()), get(&key)))
         .collect();
     // Properties of an ImageData are those of its prototype, in Chromium all but the data.

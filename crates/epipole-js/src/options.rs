@@ -320,9 +320,8 @@ impl<'de> MapAccess<'de> for Fields<'_> {
     fn next_key_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
         while let Some((first, rest)) = self.entries.split_first() {
             self.entries = rest;
-            // An undefined option has its default.
-            let field = self.fields.iter().find(|field| camel(field) == first.0);
-            if let Some(&field) = field.filter(|_| first.1 != Value::Nothing) {
+            let mut fields = self.fields.iter();
+            if let Some(&field) = fields.find(|field| camel(field) == first.0) {
                 self.value = Some(first);
                 return seed.deserialize(field.into_deserializer()).map(Some);
             }
