@@ -2,11 +2,15 @@
 
 import type { FigureFacts, Marks, Question, Reply } from "./messages.js";
 
+/** Time after which a figure counts as one that does not open, milliseconds. */
+const LATE_MS = 20_000;
+
 interface Figure extends HTMLElement {
   readonly state: Record<string, string>;
   readonly readouts: Record<string, number | string>;
   readonly data: Record<string, unknown>;
   readonly panels: readonly string[];
+  open(): Promise<void>;
   whenReady(): Promise<void>;
   apply(parameters: Record<string, string>): void;
   photograph(panel: string): { width: number; height: number; data: Uint8Array } | undefined;
@@ -37,9 +41,10 @@ export async function factsFor(code: string): Promise<Record<string, FigureFacts
 
 async function open(figure: Figure): Promise<void> {
   await customElements.whenDefined("epipole-figure");
-  // A figure that nobody has opened has no readouts; its own state opens it unchanged.
-  if (Object.keys(figure.readouts).length === 0) figure.apply(figure.state);
-  await figure.whenReady();
+  await figure.open();
+  if (figure.hasAttribute("data-ready")) return;
+  const late = new Promise((_, fail) => setTimeout(fail, LATE_MS, new Error("a figure does not open: reload the page")));
+  await Promise.race([figure.whenReady(), late]);
 }
 
 function factsOf(figure: Figure): FigureFacts {

@@ -97,9 +97,9 @@ export class Program {
     this.#setRunning(true);
     this.#editor.mark(undefined);
     this.#say("Running …");
-    const facts = await factsFor(code);
+    const facts = await factsFor(code).catch((problem: Error) => problem);
     if (run !== this.#run) return;
-    const prepared = prepare(code, ADDRESSES, facts, this.#block.check);
+    const prepared = facts instanceof Error ? facts : prepare(code, ADDRESSES, facts, this.#block.check);
     this.#clear();
     if ("message" in prepared) return this.#fail(prepared);
     this.#session = new Session(code, prepared, {

@@ -149,7 +149,7 @@ export class FigureController {
 
   /** Glides to parameters, after opening the figure and bringing it into view. */
   glide(parameters: Parameters, duration: number): Promise<Refused[]> {
-    this.dispatch({ type: "glide" });
+    this.dispatch({ type: "wanted" });
     return this.#motion.glide(parameters, duration, this.#comeIntoView());
   }
 
@@ -289,12 +289,22 @@ export class FigureController {
     this.#announcer.emit("epipole-error", { message });
   }
 
+  /** Opens the figure wherever it is; resolves once it runs or has failed. */
+  async open(): Promise<void> {
+    this.dispatch({ type: "wanted" });
+    await this.#running();
+  }
+
+  /** Waits until the figure runs or has failed. */
+  async #running(): Promise<void> {
+    if (this.#state.ready) return;
+    while (!this.#renderer && this.#state.phase !== "failed") await new Promise((resolve) => setTimeout(resolve, 50));
+    this.#renderer?.show();
+  }
+
   /** Brings the figure into view, once it runs or has failed. */
   async #comeIntoView(): Promise<void> {
-    if (!this.#state.ready) {
-      while (!this.#renderer && this.#state.phase !== "failed") await new Promise((resolve) => setTimeout(resolve, 50));
-      this.#renderer?.show();
-    }
+    await this.#running();
     await bringIntoView(this.shell.picture.element);
   }
 }

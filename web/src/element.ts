@@ -173,6 +173,11 @@ export class EpipoleFigure extends Base {
     return this.#controller.snapshot?.controls.find((control) => control.id === id)?.value_text;
   }
 
+  /** Opens the figure without bringing it into view; resolves once it runs or has failed. */
+  async open(): Promise<void> {
+    await this.#controller.open();
+  }
+
   /** Resolves once the figure can be operated and asked. */
   whenReady(): Promise<void> {
     return this.#controller.whenReady;

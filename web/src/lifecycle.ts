@@ -75,7 +75,7 @@ export type LifecycleEvent =
   | { type: "idle" }
   | { type: "interest" }
   /** The page animates the figure, in view or not. */
-  | { type: "glide" }
+  | { type: "wanted" }
   | { type: "touch" }
   /** The canvas has to show what the poster cannot. */
   | { type: "reveal" }
@@ -141,7 +141,7 @@ export function reduce(state: State, event: LifecycleEvent): Next {
       const next = { ...state, interested: true };
       return isClosed(next) ? begin(next) : showLive(next);
     }
-    case "glide":
+    case "wanted":
       return begin({ ...state, near: true, interested: true });
     case "touch":
       return stay({ ...state, touched: true });

@@ -43,7 +43,7 @@ test("a figure opens once it is near the viewport and the page is idle", () => {
 
 test("the page, its address and glides open it from afar", () => {
   assert.equal(run([open]).state.phase, "loading");
-  assert.equal(run(["glide"]).state.phase, "loading");
+  assert.equal(run(["wanted"]).state.phase, "loading");
 });
 
 test("the poster stays until somebody takes an interest", () => {
