@@ -191,6 +191,15 @@ for (const worker of [false, true]) {
     await assert.rejects(vision.matchPhotos([new Blob([])]), { name: "TypeError", message: `photos[0] is a Blob, ${instead}` });
   });
 
+  withVision("null turns off an option that is on by default, undefined leaves it", async (vision) => {
+    const floats = (...rows) => ({ kind: "floats", dimension: 2, data: Float32Array.from(rows.flat()) });
+    // The second neighbor is almost as near as the first.
+    const [first, second] = [floats([0, 0]), floats([1, 0], [0, 1.01])];
+    const count = async (options) => (await vision.matchDescriptors(first, second, options)).indices1.length;
+    assert.deepEqual([await count(), await count({ maxRatio: undefined }), await count({ maxRatio: null })], [0, 0, 1]);
+    await assert.rejects(count({ mutual: null }), /^TypeError: options.mutual must be true or false/);
+  });
+
   withVision("features of two images match", async (vision) => {
     const [width, height] = [96, 64];
     // Blocks of random brightness, and the same two pixels to the left.
