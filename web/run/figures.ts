@@ -67,6 +67,7 @@ export async function answer(question: Question): Promise<Reply> {
     // Each step of a loop is seen.
     await new Promise((done) => requestAnimationFrame(done));
     figure.flush();
+    await open(figure);
   } else if (question.ask === "draw") figure.draw(question.marks);
   else figure.clearMarks();
   return factsOf(figure);

@@ -173,9 +173,10 @@ export class EpipoleFigure extends Base {
     return this.#controller.snapshot?.controls.find((control) => control.id === id)?.value_text;
   }
 
-  /** Opens the figure without bringing it into view; resolves once it runs or has failed. */
+  /** Opens the figure without bringing it into view; resolves once it has computed what it shows, or has failed. */
   async open(): Promise<void> {
     await this.#controller.open();
+    await this.#controller.answered();
   }
 
   /** Resolves once the figure can be operated and asked. */
