@@ -6,7 +6,7 @@ import { book } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
 
-const NAMES = { numpy: "NumPy", opencv: "OpenCV", epipole: "Epipole (Python)", rust: "Rust" };
+const NAMES = { numpy: "NumPy", opencv: "OpenCV", epipole: "Epipole (Python)", rust: "Rust", js: "JavaScript" };
 const part = (page, listing, tab) => page.locator(`#listing-${listing}-${tab}`);
 const tab = (page, listing, name) => page.locator(`#listing-${listing}`).getByRole("tab", { name });
 
@@ -51,9 +51,9 @@ test("the keys choose as well, also where nothing may be stored", async ({ page,
     ["ArrowRight", "Epipole (Python)"],
     ["ArrowRight", "Rust"],
     ["ArrowLeft", "Epipole (Python)"],
-    ["End", "Rust"],
+    ["End", "JavaScript"],
     ["ArrowRight", "NumPy"],
-    ["ArrowLeft", "Rust"],
+    ["ArrowLeft", "JavaScript"],
     ["Home", "NumPy"],
   ]) {
     await page.keyboard.press(key);
@@ -91,6 +91,7 @@ test("without a script and on paper all parts are there, under their names", asy
       await expect(here.locator("samp")).toContainText("pixel (400, 160)");
     }
     await expect(shown.locator("#listing-one-ray .copy")).toBeHidden();
+    await expect(shown.locator("#listing-one-ray .run")).toBeHidden();
     await expect(shown.locator("#listing-one-ray .listing-tabs")).toBeHidden();
   }
   await context.close();

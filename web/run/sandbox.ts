@@ -76,16 +76,12 @@ function groups(name: string, value: unknown, size: number): number[] {
   return flat;
 }
 
-/** Bytes of a channel: floats of an image reach from 0 to 255, or from their smallest to their largest. */
+/** Bytes as they are; other numbers from 0, or the smallest below it, to the largest. NaN is black. */
 function toBytes(data: ArrayLike<number>): ArrayLike<number> {
   if (data instanceof Uint8Array || data instanceof Uint8ClampedArray) return data;
-  let [low, high] = [Infinity, -Infinity];
-  for (let index = 0; index < data.length; index++) {
-    const value = data[index] ?? NaN;
-    if (value < low) low = value;
-    if (value > high && value < Infinity) high = value;
-  }
-  if (low >= 0 && high <= 255 && high > 1) return data;
+  const finite = Array.from(data).filter(Number.isFinite);
+  const low = finite.reduce((least, value) => Math.min(least, value), 0);
+  const high = finite.reduce((most, value) => Math.max(most, value), low);
   const scale = high > low ? 255 / (high - low) : 0;
   return Uint8ClampedArray.from(data, (value) => (Number.isFinite(value) ? (value - low) * scale : 0));
 }

@@ -295,9 +295,14 @@ fn chooser(name: &str, tabs: &[Tab]) -> String {
         .map(|(index, tab)| {
             let (key, label, chosen) = (tab.key, tab.label, index == 0);
             let stop = if chosen { "0" } else { "-1" };
+            // A narrow screen shows what stands before the bracket.
+            let words = match label.split_once(" (") {
+                Some((word, rest)) => format!("{word}<span class=\"tab-more\"> ({rest}</span>"),
+                None => label.to_owned(),
+            };
             format!(
                 "<button type=\"button\" role=\"tab\" id=\"listing-{name}-{key}-tab\" data-tab=\"{key}\" data-label=\"{label}\" \
-                 aria-controls=\"listing-{name}-{key}\" aria-selected=\"{chosen}\" tabindex=\"{stop}\">{label}</button>"
+                 aria-controls=\"listing-{name}-{key}\" aria-selected=\"{chosen}\" tabindex=\"{stop}\">{words}</button>"
             )
         })
         .collect();
