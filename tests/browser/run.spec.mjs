@@ -78,6 +78,7 @@ test("every task refuses what it starts from, accepts its solution, and counts i
   }
   expect(solved.length).toBeGreaterThan(5);
   await page.goto(`${library}/progress.html`);
+  await expect(page.locator(".progress thead th")).toHaveText(["Chapter", "Questions solved", "Tasks solved", "Goals reached"]);
   for (const [chapter, share] of solved) {
     await expect(page.locator(`tr[data-quiz="${chapter}"] .tasks`)).toHaveText(share);
   }

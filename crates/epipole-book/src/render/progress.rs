@@ -22,7 +22,7 @@ pub(super) fn solved_mark(page: &Page) -> String {
 pub(super) fn progress_table(pages: &[Page]) -> String {
     let mut html = String::from(
         "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
-         </th><th scope=\"col\">Questions solved</th><th scope=\"col\">Tasks solved</th><th scope=\"col\">Tasks solved</th><th scope=\"col\">Goals reached</th></tr></thead>\n<tbody>\n",
+         </th><th scope=\"col\">Questions solved</th><th scope=\"col\">Tasks solved</th><th scope=\"col\">Goals reached</th></tr></thead>\n<tbody>\n",
     );
     let quizzes = pages
         .iter()
