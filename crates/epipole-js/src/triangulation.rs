@@ -47,7 +47,7 @@ fn of_rays(
 
 functions! {
     /// Points of matches by the direct linear transform, in the frame of the projection
-    /// matrices (3 x 4). NaN for points at infinity.
+    /// matrices (3 x 4). NaN for points at infinity and for those behind a camera.
     fn triangulate_dlt(
         p1: Matrix3x4<f64>, p2: Matrix3x4<f64>, pixels1: Vectors<2>, pixels2: Vectors<2>
     ) -> Numbers {

@@ -1812,7 +1812,7 @@ export interface Functions {
   focalLengthsFromFundamental(fundamental: Matrix, principal1: ArrayLike<number>, principal2: ArrayLike<number>): Promise<Float64Array>;
   /**
    * Points of matches by the direct linear transform, in the frame of the projection matrices (3 x 4).
-   * NaN for points at infinity.
+   * NaN for points at infinity and for those behind a camera.
    */
   triangulateDlt(p1: Matrix, p2: Matrix, pixels1: Points2, pixels2: Points2): Promise<Float64Array>;
   /** Points halfway between rays, in the frame of camera 1. NaN for parallel rays. */
