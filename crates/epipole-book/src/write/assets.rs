@@ -1,6 +1,7 @@
 //! Files that the browser downloads besides the pages: styles, fonts, scripts and WebAssembly.
 //! Every name carries a hash of the content; only names in `embed/` are stable, for other sites.
 
+mod bundle;
 mod embed;
 mod files;
 mod fonts;

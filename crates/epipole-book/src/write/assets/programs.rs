@@ -1,7 +1,7 @@
 //! Files for the code that readers run: the npm package of the core, and the script of its worker.
 
+use super::bundle::bundle;
 use super::files::Assets;
-use super::scripts::bundle;
 use super::wasm::Modules;
 use crate::hash::fnv;
 use crate::tools::{Tools, read};

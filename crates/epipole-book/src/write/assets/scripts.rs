@@ -1,15 +1,13 @@
-//! Scripts and styles, bundled by esbuild. Names carry hashes; entries keep their first part.
+//! Scripts and styles of pages, figures and the Lab.
 
+use super::bundle::bundle;
 use super::files::{Assets, add_hashed};
 use super::programs::Programs;
 use super::wasm::{Module, Modules};
 use super::{embed, fonts};
-use crate::tools::{Tools, read};
+use crate::tools::Tools;
 use anyhow::{Context, Result};
-use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Prefix of fonts in the style sheet, before they have their hashed names.
 const FONT: &str = "stix-two:";
@@ -167,78 +165,4 @@ fn define(name: &str, path: &str) -> String {
 
 fn borrowed(flags: &[String]) -> Vec<&str> {
     flags.iter().map(String::as_str).collect()
-}
-
-#[derive(Deserialize)]
-struct Report {
-    outputs: BTreeMap<PathBuf, Output>,
-}
-
-#[derive(Deserialize)]
-struct Output {
-    #[serde(rename = "entryPoint")]
-    entry: Option<PathBuf>,
-}
-
-/// Bundles one entry into `assets`. Returns name of the entry → path.
-pub(super) fn bundle(
-    tools: &Tools,
-    entry: &str,
-    flags: &[&str],
-    fast: bool,
-    assets: &mut Assets,
-) -> Result<BTreeMap<String, String>> {
-    let stem = Path::new(entry)
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let folder = tools.work.join("bundle").join(&stem);
-    if folder.exists() {
-        std::fs::remove_dir_all(&folder)?;
-    }
-    std::fs::create_dir_all(&folder)?;
-    let report = tools.work.join(format!("{stem}.json"));
-    let mut command = Command::new(tools.modules.join(".bin/esbuild"));
-    command
-        .arg(entry)
-        .args([
-            "--bundle",
-            "--target=es2022,chrome107,firefox104,safari16",
-            "--log-level=warning",
-            // Imports for side effects must not be dropped.
-            "--log-override:ignored-bare-import=error",
-        ])
-        .args([
-            "--entry-names=[name]-[hash]",
-            "--chunk-names=[name]-[hash]",
-            "--legal-comments=none",
-        ])
-        .arg(format!("--outdir={}", folder.display()))
-        .arg(format!("--metafile={}", report.display()))
-        .args(flags);
-    if !fast {
-        command.arg("--minify");
-    }
-    tools.run(&mut command)?;
-    let report: Report = serde_json::from_slice(&read(&report)?)?;
-    let mut entries = BTreeMap::new();
-    for (path, output) in report.outputs {
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let to = format!("assets/{name}");
-        assets
-            .files
-            .insert(to.clone(), read(&tools.project.join(&path))?);
-        if output
-            .entry
-            .is_some_and(|from| from.file_stem() == Path::new(entry).file_stem())
-        {
-            entries.insert(stem.clone(), to);
-        }
-    }
-    Ok(entries)
 }
