@@ -2,9 +2,9 @@
 //
 //     node tests/listings/run.mjs [--bless] [CHAPTER.md ...]
 //
-// Each listing is a program of its own. What it prints is compared with
-// content/listings/<chapter>.<name>.js.txt; --bless writes these files instead. The check of a task must refuse its
-// start and accept its solution; tasks with a figure are left to the browser, which has them.
+// Each listing is a program of its own. Its output is compared with
+// content/listings/<chapter>.<name>.js.txt; --bless writes these files instead. The check of a task
+// must refuse its start and accept its solution; tasks with a figure are left to the browser.
 
 import { execFile } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -21,7 +21,7 @@ const ENDING = /^\s*\{\{\/(listing|task)\}\}/;
 const START = "console.assert = (holds, ...words) => { if (!holds) throw new Error(`assertion failed ${words}`); };";
 const TIME_LIMIT_MS = 60_000;
 
-/** Fences of JavaScript in a chapter: kind and name of what they belong to, their word, code and line. */
+/** Fences of JavaScript in a chapter: kind and name of their block, word, code and line. */
 function blocks(path) {
   const found = [];
   let [kind, name, fence] = ["plain", "", undefined];

@@ -10,7 +10,7 @@ export interface Name {
   isMethod: boolean;
 }
 
-/** What the page adds to the language. */
+/** Functions of the page. */
 const OF_THE_PAGE: Name[] = [
   ["show", "show(image, options?: { title?, points?, lines? })", "Shows an image, with points (u, v) and lines (a, b, c)."],
   ["plot", "plot(x, y?, options?: { title?, label?, xLabel?, yLabel?, dots? })", "Plots numbers."],

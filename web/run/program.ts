@@ -123,7 +123,7 @@ export class Program {
   }
 
   #clear(): void {
-    // What the book has recorded gives way to what the reader sees.
+    // The recorded output gives way to that of the run.
     this.#block.part.querySelector(".prints")?.setAttribute("hidden", "");
     this.#output.clear();
   }

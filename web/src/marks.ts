@@ -86,7 +86,7 @@ function drawn({ rect, x_axis, y_axis }: Panel, { points = [], lines = [] }: Mar
 
 type Place = [x: number, y: number];
 
-/** Where a line meets the edges of a rectangle: two places, or none. */
+/** Intersections of a line with the edges of a rectangle: two, or none. */
 function clipped(a: number, b: number, c: number, left: number, top: number, right: number, bottom: number): Place[] {
   const found: Place[] = [];
   for (const x of [left, right]) {

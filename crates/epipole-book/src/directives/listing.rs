@@ -1,8 +1,8 @@
 //! `{{#listing name | Title}}` … `{{/listing}}`: a listing with a tab for each of its fences, its
 //! output, and cells of the chapter's notebook.
 //!
-//! The fences are any of `python numpy`, `python opencv`, `python epipole`, `rust` and `js`, in this
-//! order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests
+//! The fences are any of `python numpy`, `python opencv`, `python epipole`, `rust` and `js`, in
+//! this order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests
 //! that run it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
 //! `<chapter>.<name>.png`.
 

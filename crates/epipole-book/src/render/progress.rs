@@ -17,8 +17,8 @@ pub(super) fn solved_mark(page: &Page) -> String {
     })
 }
 
-/// A table of all quizzes, and of the tasks and the goals of the figures beside them; the script of the page
-/// fills in the results.
+/// A table of all quizzes, and of the tasks and the goals of the figures beside them; the script of
+/// the page fills in the results.
 pub(super) fn progress_table(pages: &[Page]) -> String {
     let mut html = String::from(
         "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
