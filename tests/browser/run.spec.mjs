@@ -1,4 +1,4 @@
-// Code that runs in the page: output, errors with their line, limits, figures, kept and shared code.
+// Code that runs in the page: output, errors with their line, limits, figures, kept code, links.
 
 import { expect, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";

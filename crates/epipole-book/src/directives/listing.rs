@@ -2,9 +2,9 @@
 //! output, and cells of the chapter's notebook.
 //!
 //! The fences are any of `python numpy`, `python opencv`, `python epipole`, `rust` and `js`, in
-//! this order. The output of a tab is recorded in `listings/<chapter>.<name>.<tab>.txt` by the tests
-//! that run it. A listing with `picture="what it shows"` makes `result.png`, which is recorded as
-//! `<chapter>.<name>.png`.
+//! this order. The tests that run a tab record its output in
+//! `listings/<chapter>.<name>.<tab>.txt`. A listing with `picture="what it shows"` makes
+//! `result.png`, which is recorded as `<chapter>.<name>.png`.
 
 use crate::html::{escape, path_to_root};
 use crate::parse::source::Source;
