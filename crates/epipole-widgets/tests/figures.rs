@@ -6,7 +6,7 @@ mod common;
 
 use common::{assert_sound, finish, random_event};
 use epipole::math::random::Random;
-use epipole_widgets::contract::{Control, ControlKind, Event, Place, Problem, Value};
+use epipole_widgets::contract::{Control, ControlKind, Datum, Event, Place, Problem, Value};
 use epipole_widgets::gallery::FIGURES;
 use epipole_widgets::theme::Theme;
 use epipole_widgets::{Figure, POSTER_WIDTH};
@@ -285,6 +285,82 @@ fn preparations_end_and_change_no_picture() {
         assert_eq!(prepared, again, "{name}");
     }
     assert!(num_steps > 10, "{num_steps}");
+}
+
+/// Figures with data for code of readers, and the names of their data.
+const WITH_DATA: &[(&str, &str)] = &[
+    ("eight-point", "fundamental pixels1 pixels2"),
+    (
+        "epipolar-click",
+        "camera1 camera2 fundamental pixels1 pixels2",
+    ),
+    ("outlier-drag", "pixels1 pixels2"),
+    ("ransac-epipolar", "pixels1 pixels2 thresholdPx"),
+    ("ransac-line", "points thresholdPx"),
+    ("ransac-race", "points thresholdPx"),
+    ("rectify", "camera1 camera2 pixels1 pixels2"),
+    ("triangulate", "camera1 camera2 pixels1 pixels2"),
+];
+
+#[test]
+fn data_of_figures_are_finite_and_matches_come_in_pairs() {
+    let mut found = Vec::new();
+    for figure in figures() {
+        let data = figure.data();
+        if data.is_empty() {
+            continue;
+        }
+        for (name, datum) in &data {
+            let is_finite = match datum {
+                Datum::Number(value) => value.is_finite(),
+                Datum::Points(points) => points.iter().flatten().all(|x| x.is_finite()),
+                Datum::Matrix(rows) => rows.iter().flatten().all(|x| x.is_finite()),
+                Datum::Camera(_) => true,
+            };
+            assert!(is_finite, "{}: {name}", figure.name());
+        }
+        if let (Some(Datum::Points(one)), Some(Datum::Points(two))) =
+            (data.get("pixels1"), data.get("pixels2"))
+        {
+            assert_eq!(one.len(), two.len(), "{}", figure.name());
+            assert!(!one.is_empty(), "{}", figure.name());
+        }
+        let names: Vec<&str> = data.keys().copied().collect();
+        found.push((figure.name(), names.join(" ")));
+    }
+    found.sort();
+    let expected = WITH_DATA
+        .iter()
+        .map(|&(name, data)| (name, data.to_owned()));
+    assert_eq!(found, expected.collect::<Vec<_>>());
+}
+
+#[test]
+fn a_photograph_has_the_pixels_of_its_panel() {
+    let mut found = BTreeSet::new();
+    for mut figure in figures() {
+        for panel in figure.layout(POSTER_WIDTH).panels {
+            let Some(photograph) = figure.photograph(panel.id) else {
+                continue;
+            };
+            let columns = (panel.x_axis.end - panel.x_axis.start).round() as u32;
+            let rows = (panel.y_axis.end - panel.y_axis.start).round() as u32;
+            assert_eq!(
+                photograph.dimensions(),
+                (columns, rows),
+                "{}",
+                figure.name()
+            );
+            found.insert(figure.name());
+        }
+    }
+    let expected = [
+        "disparity-map",
+        "eight-point",
+        "epipolar-click",
+        "ransac-epipolar",
+    ];
+    assert!(found.iter().eq(&expected), "{found:?}");
 }
 
 #[test]
