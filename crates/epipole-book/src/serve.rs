@@ -40,10 +40,13 @@ const WATCHED: &[&str] = &[
     "web/src",
     "web/theme",
     "web/book",
+    "web/run",
+    "web/vision/src",
     "crates/epipole/src",
     "crates/epipole-canvas/src",
     "crates/epipole-widgets/src",
     "crates/epipole-web/src",
+    "crates/epipole-js/src",
 ];
 
 /// Serves the site at `http://localhost:PORT`. With `watch` it is built first and again when a

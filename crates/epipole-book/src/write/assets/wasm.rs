@@ -9,6 +9,7 @@ use crate::tools::{Tools, read, target_folder};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::SystemTime;
 use wasm_bindgen_cli_support::Bindgen;
 
 /// A module and the script that loads it.
@@ -41,16 +42,53 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
 /// Features of `epipole-js`: the parts of the npm package of the core, a module each.
 const PARTS: &[&str] = &["homography", "geometry", "images", "all"];
 
-/// Builds the modules of the npm package of the core. Returns their folder.
+/// Everything that the modules of the npm package are made from, below the project.
+const SOURCES_OF_PARTS: &[&str] = &[
+    "Cargo.lock",
+    "Cargo.toml",
+    "crates/epipole",
+    "crates/epipole-js",
+    "crates/epipole-schema",
+    "crates/epipole-book/src/write/assets",
+];
+
+/// Builds the modules of the npm package of the core, unless they are newer than their sources:
+/// cargo links a part anew after each of the others. Returns their folder.
 ///
 /// # Errors
 /// A tool that is missing or fails, named with the remedy.
 pub fn make_parts(project: &Path) -> Result<PathBuf> {
     let tools = Tools::find(project)?;
-    for part in PARTS {
-        build(&tools, "epipole-js", part)?;
+    let folder = bindings(&tools);
+    let made = PARTS.iter().map(|part| {
+        let module = folder.join(format!("epipole_js_{part}_bg.wasm"));
+        std::fs::metadata(module)?.modified()
+    });
+    let oldest = made.collect::<std::io::Result<Vec<_>>>().ok();
+    let oldest = oldest.and_then(|times| times.into_iter().min());
+    let newest = SOURCES_OF_PARTS
+        .iter()
+        .map(|source| newest(&project.join(source)))
+        .collect::<Result<Vec<_>>>()?;
+    if oldest < newest.into_iter().max() {
+        for part in PARTS {
+            build(&tools, "epipole-js", part)?;
+        }
     }
-    Ok(bindings(&tools))
+    Ok(folder)
+}
+
+/// Time of the last change of a file, or of any file of a folder.
+fn newest(path: &Path) -> Result<SystemTime> {
+    let about = std::fs::metadata(path);
+    let about = about.with_context(|| format!("{} cannot be read", path.display()))?;
+    let mut latest = about.modified()?;
+    if about.is_dir() {
+        for entry in std::fs::read_dir(path)? {
+            latest = latest.max(newest(&entry?.path())?);
+        }
+    }
+    Ok(latest)
 }
 
 /// Folder of the finished modules and their scripts.
