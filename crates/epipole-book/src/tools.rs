@@ -3,6 +3,7 @@
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::SystemTime;
 
 /// Folders of the project that tools need.
 pub(crate) struct Tools {
@@ -54,4 +55,17 @@ pub(crate) fn target_folder(project: &Path) -> PathBuf {
 /// The bytes of a file that must be there.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     std::fs::read(path).with_context(|| format!("{} cannot be read", path.display()))
+}
+
+/// Time of the last change of a file, or of any file of a folder.
+pub(crate) fn newest(path: &Path) -> Result<SystemTime> {
+    let about = std::fs::metadata(path);
+    let about = about.with_context(|| format!("{} cannot be read", path.display()))?;
+    let mut latest = about.modified()?;
+    if about.is_dir() {
+        for entry in std::fs::read_dir(path)? {
+            latest = latest.max(newest(&entry?.path())?);
+        }
+    }
+    Ok(latest)
 }

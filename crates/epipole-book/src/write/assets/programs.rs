@@ -4,7 +4,7 @@ use super::bundle::bundle;
 use super::files::Assets;
 use super::wasm::Modules;
 use crate::hash::fnv;
-use crate::tools::{Tools, read};
+use crate::tools::{Tools, newest, read};
 use anyhow::{Context, Result};
 use std::path::Path;
 use std::process::Command;
@@ -26,14 +26,27 @@ pub(super) fn add(
     assets: &mut Assets,
 ) -> Result<Programs> {
     let out = tools.work.join("vision");
-    let mut command = Command::new("node");
-    command
-        .arg("web/vision/build.mjs")
-        .arg("--bindings")
-        .arg(&modules.parts)
-        .arg("--out")
-        .arg(&out);
-    tools.run(&mut command)?;
+    let sources = [
+        "web/vision/src",
+        "web/vision/build.mjs",
+        "web/package-lock.json",
+    ];
+    let sources = sources.map(|source| tools.project.join(source));
+    // All modules are made together, this one last.
+    let module = modules.parts.join("epipole_js_all_bg.wasm");
+    let changed = sources.iter().chain([&module]).map(|path| newest(path));
+    let changed = changed.collect::<Result<Vec<_>>>()?.into_iter().max();
+    // The scripts of the package are made last.
+    if newest(&out.join("index.js")).ok() < changed {
+        let mut command = Command::new("node");
+        command
+            .arg("web/vision/build.mjs")
+            .arg("--bindings")
+            .arg(&modules.parts)
+            .arg("--out")
+            .arg(&out);
+        tools.run(&mut command)?;
+    }
     let mut files = Vec::new();
     for folder in ["", "parts"] {
         collect(&out, folder, &mut files)?;

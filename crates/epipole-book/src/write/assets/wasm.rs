@@ -5,11 +5,10 @@
 //! one module per part.
 
 use super::likeness;
-use crate::tools::{Tools, read, target_folder};
+use crate::tools::{Tools, newest, read, target_folder};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::SystemTime;
 use wasm_bindgen_cli_support::Bindgen;
 
 /// A module and the script that loads it.
@@ -76,19 +75,6 @@ pub fn make_parts(project: &Path) -> Result<PathBuf> {
         }
     }
     Ok(folder)
-}
-
-/// Time of the last change of a file, or of any file of a folder.
-fn newest(path: &Path) -> Result<SystemTime> {
-    let about = std::fs::metadata(path);
-    let about = about.with_context(|| format!("{} cannot be read", path.display()))?;
-    let mut latest = about.modified()?;
-    if about.is_dir() {
-        for entry in std::fs::read_dir(path)? {
-            latest = latest.max(newest(&entry?.path())?);
-        }
-    }
-    Ok(latest)
 }
 
 /// Folder of the finished modules and their scripts.
