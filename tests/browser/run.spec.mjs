@@ -1,6 +1,6 @@
 // Code that runs in the page: output, errors with their line, limits, figures, kept code, links.
 
-import { expect, test } from "./fixtures.mjs";
+import { expect, expectAccessible, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
@@ -198,6 +198,19 @@ console.table([{ a: 1, b: 2 }, { a: 3 }]);`,
   await expect(output(page).getByRole("img", { name: "ramp, 16×12 pixels" })).toBeVisible();
   await expect(output(page).getByRole("img", { name: /^squares: n² from 0.00 to 9.00 over n from 0.00 to 3.00$/ })).toBeVisible();
   await expect(output(page).locator("tbody tr")).toHaveText(["012", "13"]);
+});
+
+test("axe finds nothing wrong with editor, output and errors, light or dark", async ({ page, library, complaints }) => {
+  await open(page, library);
+  await run(page, 'console.log("a line");\nconsole.table([{ a: 1 }]);\nplot([1, 2, 3]);\nnothing();');
+  await expect(output(page).locator(".run-fault")).toBeVisible();
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    expect(complaints).toEqual([]);
+    await test.step(colorScheme, () => expectAccessible(page));
+    // axe copies elements of the editor with their style attributes, which the policy refuses.
+    complaints.length = 0;
+  }
 });
 
 test("code reads the figure above it, moves it, and draws into it", async ({ page, library }) => {

@@ -55,7 +55,7 @@ function table(rows: unknown): void {
     const own = cells(row);
     return [name, ...columns.map((column) => (column in own ? inspect(own[column]) : ""))];
   });
-  put({ type: "table", columns: ["", ...columns], rows: shown });
+  put({ type: "table", columns: ["(index)", ...columns], rows: shown });
 }
 
 /** Numbers of an array, of pairs, or of a typed array, one after the other. */
