@@ -56,7 +56,7 @@ async function run(folder, code) {
 async function problemOf(block, parts, chapter, folder, bless) {
   const { kind, name, word, code } = block;
   if (kind === "task") {
-    if (word !== "solution" || /\bfigure\(/.test(code)) return undefined;
+    if (word !== "solution") return undefined;
     const judged = (body) =>
       run(folder, `${body}\n;console.log("verdict", await (async () => {${parts.check.code}\n})());`);
     const refused = /^verdict Not yet/m.test(await judged(parts.start.code));
@@ -77,7 +77,7 @@ const bless = given.includes("--bless");
 const named = given.filter((word) => word !== "--bless");
 const all = readdirSync(CONTENT).filter((name) => name.endsWith(".md")).map((name) => join(CONTENT, name));
 const folder = mkdtempSync(join(tmpdir(), "listings-"));
-let [passed, failed] = [0, 0];
+let [passed, failed, skipped] = [0, 0, 0];
 try {
   mkdirSync(join(folder, "node_modules/@epipole"), { recursive: true });
   symlinkSync(join(ROOT, "web/vision"), join(folder, "node_modules/@epipole/vision"), "dir");
@@ -86,6 +86,10 @@ try {
     const parts = {};
     for (const block of blocks(path)) {
       if (block.kind === "task") parts[block.word] = block;
+      if (block.word === "solution" && /\bfigure\(/.test(block.code)) {
+        skipped += 1;
+        continue;
+      }
       const problem = await problemOf(block, parts, chapter, folder, bless).catch((error) => error.stderr || error.message);
       if (block.kind === "task" && block.word !== "solution" && problem === undefined) continue;
       if (problem === undefined) passed += 1;
@@ -98,5 +102,5 @@ try {
 } finally {
   rmSync(folder, { recursive: true });
 }
-console.log(`ℹ pass ${passed}\nℹ fail ${failed}`);
+console.log(`ℹ pass ${passed}\nℹ fail ${failed}\nℹ skipped ${skipped}, which need figures: the browser runs them`);
 process.exitCode = failed > 0 ? 1 : 0;
