@@ -274,6 +274,21 @@ test("names of the package are completed and explained", async ({ page, library 
   await expect(listing(page).locator(".cm-content")).toContainText("vision.estimateFundamental");
 });
 
+test("a browser without workers or WebAssembly says so, and the page goes on", async ({ page, library }) => {
+  await open(page, library);
+  await page.evaluate(() => {
+    globalThis.Kept = globalThis.Worker;
+    delete globalThis.Worker;
+  });
+  await run(page, "console.log(1);");
+  await expect(output(page).locator(".run-fault")).toHaveText(/^Error: this browser starts no worker for the code: /);
+  await page.evaluate(() => (globalThis.Worker = globalThis.Kept));
+  await run(page, `${HEAD.replace("\nconst", "\ndelete globalThis.WebAssembly;\nconst")}await vision.epipoles([1, 0, 0, 0, 1, 0, 0, 0, 0]);`);
+  await expect(output(page).locator(".run-fault")).toHaveText(/WebAssembly is not available here/);
+  await run(page, `${HEAD}const other = await Promise.all([Vision.load(), Vision.load()]);\nconsole.log(other.length);`);
+  await expect(output(page)).toHaveText("2");
+});
+
 test("a site whose package cannot be loaded says so", async ({ page, library, complaints }) => {
   await page.route(/sandbox-/, (route) => route.abort());
   await page.goto(`${library}/epipolar.html`);

@@ -58,7 +58,7 @@ async function openLinked(boxes: HTMLElement[], missing: () => void): Promise<vo
 export function startRunning(missing: () => void): void {
   // A site without the package has nothing to run code with.
   if (EPIPOLE_VISION === "") return;
-  const boxes = [...document.querySelectorAll<HTMLElement>(".listing")].filter((box) => blockOf(box));
+  const boxes = [...document.querySelectorAll<HTMLElement>(".listing")];
   for (const box of boxes) {
     const block = blockOf(box);
     if (!block) continue;

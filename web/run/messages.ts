@@ -42,7 +42,7 @@ export type Item =
   | { type: "text"; text: string; isProblem: boolean }
   | { type: "table"; columns: readonly string[]; rows: readonly (readonly string[])[] }
   | { type: "picture"; picture: Picture }
-  | { type: "plot"; series: readonly Series[]; axes: Axes };
+  | { type: "plot"; series: Series; axes: Axes };
 
 /** From the worker. */
 export type FromWorker =

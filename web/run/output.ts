@@ -1,5 +1,6 @@
 /** Output of a run below its code: lines, tables, pictures, plots, errors. */
 
+import { pathOf } from "../src/marks.js";
 import type { Fault, Item, Picture } from "./messages.js";
 
 /** Widest a small picture is enlarged to, CSS pixels, and how many times. */
@@ -116,8 +117,22 @@ function pictureOf({ width, height, rgba, title, points, lines }: Picture): HTML
     context.imageSmoothingEnabled = false;
     context.drawImage(plain, 0, 0, canvas.width, canvas.height);
     // Pixel centers are at integers.
-    context.setTransform(times, 0, 0, times, times / 2, times / 2);
-    drawMarks(context, { points, lines }, { left: -0.5, top: -0.5, right: width - 0.5, bottom: height - 0.5 }, 1 / times);
+    const path = new Path2D(
+      pathOf(
+        {
+          rect: { x: 0, y: 0, width: canvas.width, height: canvas.height },
+          x_axis: { start: -0.5, end: width - 0.5 },
+          y_axis: { start: -0.5, end: height - 0.5 },
+        },
+        { points, lines },
+      ),
+    );
+    // A light casing, then the color, to stand out on any picture.
+    for (const [color, thickness] of [["#ffffff", 3.5], ["#c34d00", 1.75]] as const) {
+      context.strokeStyle = color;
+      context.lineWidth = thickness;
+      context.stroke(path);
+    }
   }
   const figure = document.createElement("div");
   figure.className = "run-image";
@@ -128,48 +143,4 @@ function pictureOf({ width, height, rgba, title, points, lines }: Picture): HTML
     figure.append(words);
   }
   return figure;
-}
-
-/** Edges of a panel or a picture, in its units. */
-export interface Bounds {
-  left: number;
-  top: number;
-  right: number;
-  bottom: number;
-}
-
-/** Draws points and lines, orange on white, so that they stand out on any picture. `px` is a CSS pixel in the units. */
-export function drawMarks(
-  context: CanvasRenderingContext2D,
-  { points, lines }: { points: readonly number[]; lines: readonly number[] },
-  { left, top, right, bottom }: Bounds,
-  px: number,
-): void {
-  const path = new Path2D();
-  for (let index = 0; index + 2 < lines.length; index += 3) {
-    const [a = 0, b = 0, c = 0] = lines.slice(index, index + 3);
-    const isSteep = Math.abs(a) > Math.abs(b);
-    const u = (v: number) => -(b * v + c) / a;
-    const v = (u: number) => -(a * u + c) / b;
-    const ends = isSteep ? [u(top), top, u(bottom), bottom] : [left, v(left), right, v(right)];
-    const [u1 = NaN, v1 = NaN, u2 = NaN, v2 = NaN] = ends;
-    if (!ends.every(Number.isFinite)) continue;
-    path.moveTo(u1, v1);
-    path.lineTo(u2, v2);
-  }
-  for (let index = 0; index + 1 < points.length; index += 2) {
-    const [u = 0, v = 0] = points.slice(index, index + 2);
-    path.moveTo(u + 4 * px, v);
-    path.arc(u, v, 4 * px, 0, 2 * Math.PI);
-  }
-  context.save();
-  context.beginPath();
-  context.rect(left, top, right - left, bottom - top);
-  context.clip();
-  for (const [color, width] of [["#ffffff", 3.5], ["#c34d00", 1.75]] as const) {
-    context.strokeStyle = color;
-    context.lineWidth = width * px;
-    context.stroke(path);
-  }
-  context.restore();
 }

@@ -5,41 +5,37 @@ import type { Axes, Series } from "./messages.js";
 
 /** Height of a plot, CSS pixels. */
 const HIGH_PX = 260;
+/** Smallest width, CSS pixels. */
+const LEAST_PX = 240;
 const FONT = "13px system-ui, sans-serif";
 
-export function drawPlot(place: HTMLElement, series: readonly Series[], axes: Axes): void {
+export function drawPlot(place: HTMLElement, { x, y, label, dots }: Series, axes: Axes): void {
   // A canvas does not understand light-dark().
   const color = (name: string) => {
     place.style.color = `var(${name})`;
     return getComputedStyle(place).color;
   };
-  const data = uPlot.join(series.map(({ x, y }) => sorted(x, y)));
-  const side = { stroke: color("--muted"), labelFont: FONT, font: FONT, grid: { stroke: color("--edge") }, ticks: { stroke: color("--edge") } };
+  const lines = { grid: { stroke: color("--edge") }, ticks: { stroke: color("--edge") } };
+  const side = { stroke: color("--muted"), labelFont: FONT, font: FONT, ...lines };
   const accent = color("--accent");
   place.style.color = "";
+  const size = () => ({ width: Math.max(LEAST_PX, place.clientWidth), height: HIGH_PX });
+  const points = { show: dots, size: 6, fill: accent };
   const plot = new uPlot(
     {
-      width: Math.max(240, place.clientWidth),
-      height: HIGH_PX,
+      ...size(),
       scales: { x: { time: false } },
-      legend: { show: series.some(({ label }) => label !== "") },
+      legend: { show: label !== "" },
       axes: [{ ...side, label: axes.x || undefined }, { ...side, label: axes.y || undefined }],
-      series: [
-        { label: axes.x || "x" },
-        ...series.map(({ label, dots }) => ({
-          label: label || "y",
-          stroke: accent,
-          width: dots ? 0 : 2,
-          points: { show: dots, size: 6, fill: accent },
-        })),
-      ],
+      series: [{ label: axes.x || "x" }, { label: label || "y", stroke: accent, width: dots ? 0 : 2, points }],
     },
-    data,
+    sorted(x, y),
     place,
   );
-  plot.root.querySelector("canvas")?.setAttribute("role", "img");
-  plot.root.querySelector("canvas")?.setAttribute("aria-label", describe(series, axes));
-  new ResizeObserver(() => plot.setSize({ width: Math.max(240, place.clientWidth), height: HIGH_PX })).observe(place);
+  const canvas = plot.root.querySelector("canvas");
+  canvas?.setAttribute("role", "img");
+  canvas?.setAttribute("aria-label", describe({ x, y, label, dots }, axes));
+  new ResizeObserver(() => plot.setSize(size())).observe(place);
   if (!axes.title) return;
   const title = document.createElement("p");
   title.textContent = axes.title;
@@ -54,13 +50,13 @@ function sorted(x: readonly number[], y: readonly number[]): [number[], (number 
   return [order.map((index) => x[index] ?? 0), order.map(value)];
 }
 
-function describe(series: readonly Series[], { title, x, y }: Axes): string {
+function describe({ x, y, label }: Series, axes: Axes): string {
   const range = (values: readonly number[]) => {
     const finite = values.filter(Number.isFinite);
-    const shown = (value: number) => value.toPrecision(3);
-    const extreme = (pick: (first: number, second: number) => number) => finite.reduce((all, value) => pick(all, value));
-    return finite.length === 0 ? "no numbers" : `from ${shown(extreme(Math.min))} to ${shown(extreme(Math.max))}`;
+    if (finite.length === 0) return "no numbers";
+    const [least, most] = [finite.reduce((a, b) => Math.min(a, b)), finite.reduce((a, b) => Math.max(a, b))];
+    return `from ${least.toPrecision(3)} to ${most.toPrecision(3)}`;
   };
-  const parts = series.map((one) => `${one.label || y || "y"} ${range(one.y)} over ${x || "x"} ${range(one.x)}`);
-  return `${title || "Plot"}: ${parts.join("; ")}`;
+  const shown = `${label || axes.y || "y"} ${range(y)} over ${axes.x || "x"} ${range(x)}`;
+  return `${axes.title || "Plot"}: ${shown}`;
 }

@@ -102,13 +102,17 @@ export class Program {
     const prepared = facts instanceof Error ? facts : prepare(code, ADDRESSES, facts, this.#block.check);
     this.#clear();
     if ("message" in prepared) return this.#fail(prepared);
-    this.#session = new Session(code, prepared, {
-      items: (items) => this.#output.add(items),
-      failed: (fault) => this.#fail(fault),
-      finished: (duration, verdict) => this.#finish(duration, verdict),
-      lasts: () => this.#say("Still running after five seconds. Stop ends it."),
-      answer,
-    });
+    try {
+      this.#session = new Session(code, prepared, {
+        items: (items) => this.#output.add(items),
+        failed: (fault) => this.#fail(fault),
+        finished: (duration, verdict) => this.#finish(duration, verdict),
+        lasts: () => this.#say("Still running after five seconds. Stop ends it."),
+        answer,
+      });
+    } catch (problem) {
+      this.#fail({ name: "Error", message: `this browser starts no worker for the code: ${String(problem)}` });
+    }
   }
 
   stop(): void {

@@ -132,7 +132,7 @@ function plot(x: unknown, y?: unknown, options: PlotOptions = {}): void {
     x: String(options.xLabel ?? ""),
     y: String(options.yLabel ?? ""),
   };
-  put({ type: "plot", series: [series], axes });
+  put({ type: "plot", series, axes });
 }
 
 const waiting = new Map<number, { resolve(reply: Reply): void; reject(why: string): void }>();

@@ -47,7 +47,7 @@ export class MarkLayer {
     this.element.setAttribute("viewBox", `0 0 ${layout.width} ${layout.height}`);
     const parts = layout.panels.map((panel) => {
       const marks = this.#marks.get(panel.id);
-      return marks ? drawn(panel, marks) : "";
+      return marks ? pathOf(panel, marks) : "";
     });
     // Each mark is drawn twice: a light casing, then its color.
     const paths = ["casing", "color"].map((layer) => {
@@ -60,8 +60,11 @@ export class MarkLayer {
   }
 }
 
-/** Path of a panel's marks, those outside of it left out. */
-function drawn({ rect, x_axis, y_axis }: Panel, { points = [], lines = [] }: Marks): string {
+/** SVG path of marks in a panel, those outside of it left out. */
+export function pathOf(
+  { rect, x_axis, y_axis }: Pick<Panel, "rect" | "x_axis" | "y_axis">,
+  { points = [], lines = [] }: Pick<Marks, "points" | "lines">,
+): string {
   const sx = rect.width / (x_axis.end - x_axis.start);
   const sy = rect.height / (y_axis.end - y_axis.start);
   const [x0, y0] = [rect.x - x_axis.start * sx, rect.y - y_axis.start * sy];
