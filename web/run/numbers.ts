@@ -1,0 +1,21 @@
+/** Numbers that a reader's code passes, in any nesting. */
+
+import { inspect } from "./inspect.js";
+
+/** Numbers of an array, of pairs, or of a typed array, one after the other. */
+export function numbers(name: string, value: unknown): number[] {
+  const isList = Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
+  if (!isList) throw new TypeError(`${name} must be an array of numbers, but is ${inspect(value)}`);
+  return Array.from(value as ArrayLike<unknown>).flatMap((part) =>
+    typeof part === "number" ? [part] : numbers(name, part),
+  );
+}
+
+/** Numbers in groups of `size`; none if not given. */
+export function groups(name: string, value: unknown, size: number): number[] {
+  const flat = value === undefined ? [] : numbers(name, value);
+  if (flat.length % size !== 0) {
+    throw new TypeError(`${name} must be ${size} numbers each, but there are ${flat.length} in all`);
+  }
+  return flat;
+}
