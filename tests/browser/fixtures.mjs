@@ -94,19 +94,19 @@ const axe = readFileSync(join(here, "node_modules/axe-core/axe.min.js"), "utf8")
 const COLOR_RULES = ["color-contrast", "link-in-text-block"];
 
 /** Runs in the page: what axe finds wrong, `[rule, markup of the elements]`. */
-async function violations(rules) {
+async function violations([rules, within]) {
   // Besides violations, axe would describe every element that passes, which takes longer.
   const options = { resultTypes: ["violations"], ...(rules && { runOnly: { type: "rule", values: rules } }) };
-  const { violations } = await window.axe.run(document, options);
+  const { violations } = await window.axe.run(within ?? document, options);
   return violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
 }
 
-/** Expects no violations from axe; with `colors`, checks only the rules about colors. */
-export async function expectAccessible(page, { colors = false } = {}) {
+/** Expects no violations from axe; with `colors`, checks only the rules about colors, and only `within` a selector. */
+export async function expectAccessible(page, { colors = false, within } = {}) {
   for (const frame of page.frames()) {
     if (!(await frame.evaluate(() => "axe" in window))) await frame.evaluate(axe);
   }
-  expect(await page.evaluate(violations, colors ? COLOR_RULES : undefined)).toEqual([]);
+  expect(await page.evaluate(violations, [colors ? COLOR_RULES : undefined, within])).toEqual([]);
 }
 
 /** Collects console errors and exceptions of a page. */

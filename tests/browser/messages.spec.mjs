@@ -162,7 +162,7 @@ test("what the reader reaches is reported: at each goal, at rest, when asked", a
   expect((await heard(page, "SPLICE.sendEvent")).map(({ name, data }) => [name, data])).toEqual([["ready", { figure: "ransac-race" }]]);
   const goals = await figure.evaluate((element) => element.goals.length);
 
-  await figure.evaluate((element) => (element.outliers = 0));
+  await figure.getByRole("slider", { name: "Outlier ratio" }).press("Home");
   await expect.poll(async () => (await heard(page, "SPLICE.reportScoreAndState")).length).toBe(1);
   const [report] = await heard(page, "SPLICE.reportScoreAndState");
   expect(report.activity_id).toBe(`${inner.origin}/`);
@@ -197,7 +197,7 @@ test("what the reader reaches is reported: at each goal, at rest, when asked", a
 test("what has not been reported is, when the page goes", async ({ page, site }) => {
   const inner = await inside(site);
   const { figure, close } = await course(page, inner.origin);
-  await figure.evaluate((element) => (element.outliers = 0));
+  await figure.getByRole("slider", { name: "Outlier ratio" }).press("Home");
   await expect.poll(async () => (await heard(page, "SPLICE.reportScoreAndState")).length).toBe(1);
   await figure.evaluate((element) => (element.points = 24, element.flush()));
   await page.evaluate(() => (document.querySelector("iframe").src = "about:blank"));
@@ -216,7 +216,7 @@ test("an exercise page hears once that everything is solved", async ({ page, sit
   expect(await passed()).toEqual([]);
   const before = await figure.evaluate((element) => element.goals.filter(({ solved }) => !solved).map(({ id }) => id));
   expect(before).toHaveLength(1);
-  await figure.evaluate((element) => (element.outliers = 0));
+  await figure.getByRole("slider", { name: "Outlier ratio" }).press("Home");
   await expect.poll(async () => (await passed()).length).toBe(1);
   expect(typeof (await passed())[0].text).toBe("string");
   await figure.evaluate((element) => (element.reset(), element.flush(), (element.outliers = 0), element.flush()));

@@ -210,17 +210,21 @@ for (const { name } of figures) {
       }
     });
 
-    test("each goal is shown how to reach", async ({ page, open }) => {
+    test("each goal is shown how to reach, without moving what is below the figure", async ({ page, open }) => {
       await page.emulateMedia({ reducedMotion: "reduce" });
       const figure = await open(page, [`${name} goals=all`]);
       const goals = await figure.locator("[data-challenge]").all();
       expect(goals.length).toBeGreaterThan(0);
+      const height = async () => (await figure.boundingBox()).height;
       for (const goal of goals) {
         // The current goal is above the list.
         if (await goal.isVisible()) await goal.getByRole("button").click();
+        const before = await height();
         await figure.getByRole("button", { name: "Show how" }).click();
-        await expect(goal).toHaveAttribute("data-solved", "");
+        await expect(figure.locator(".goal-line .mark").first()).toHaveText(/^Shown: /);
+        await expect(goal).not.toHaveAttribute("data-solved", "");
         await expect(figure.getByRole("button", { name: "Show how" })).toBeVisible();
+        expect(Math.abs((await height()) - before)).toBeLessThan(1);
       }
     });
   });

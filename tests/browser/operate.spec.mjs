@@ -2,7 +2,7 @@
 // pages.
 
 import { readdirSync } from "node:fs";
-import { expect, ready, test } from "./fixtures.mjs";
+import { expect, expectAccessible, ready, test } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 
 const chapters = book ? readdirSync(book).filter((name) => name.endsWith(".html") && name !== "404.html") : [];
@@ -32,28 +32,114 @@ test("words in a sentence take a figure where they say, by mouse and by key, and
   await expect(live).toHaveText("60.0 px");
 });
 
-for (const name of chapters) {
-  test(`every button of ${name} takes its figure exactly where it says`, async ({ page, library }) => {
-    await page.emulateMedia({ reducedMotion: "reduce" });
-    await page.goto(`${library}/${name}`);
-    for (const words of await page.locator(".do").all()) {
-      const figure = await figureOf(page, words);
-      await expect(figure).toHaveCount(1);
-      const wanted = JSON.parse(await words.getAttribute("data-parameters"));
-      await words.click();
-      await ready(figure);
-      // Displayed values of the controls: numbers with units, switches, options by label.
-      const asked = Object.entries(wanted).filter(([, value]) => value === "true" || value === "false" || !Number.isNaN(Number(value)));
-      const expected = asked.map(([, value]) => (value === "true" ? "on" : value === "false" ? "off" : Number(value)));
-      const says = () =>
-        figure.evaluate((element, keys) => keys.map((key) => element.controlText(key)), asked.map(([key]) => key));
-      const read = (text) => (/^(on|off)$/.test(text) ? text : parseFloat(text?.replace("−", "-")));
-      await expect
-        .poll(async () => (await says()).map(read), { message: `${name}: ${await words.textContent()}` })
-        .toEqual(expected);
-    }
-  });
+/** Screens on which a sentence and the picture that it moves are seen together. */
+const SCREENS = [{ width: 1280, height: 720 }, { width: 390, height: 844 }];
+
+/** Whether all of the words are on the screen and uncovered, and so is the picture. Runs in the page. */
+function together(words) {
+  const figure = document.getElementById(words.dataset.figure);
+  const picture = figure.querySelector("epipole-figure").shadowRoot.querySelector(".sheet").getBoundingClientRect();
+  const isIn = ({ top, bottom, left, right }) => top >= -1 && left >= -1 && bottom <= innerHeight + 1 && right <= innerWidth + 1;
+  const line = words.getClientRects()[0];
+  const hit = document.elementFromPoint(line.left + 2, line.top + line.height / 2);
+  return {
+    picture: isIn(picture) && picture.height > 60,
+    words: isIn(words.getBoundingClientRect()) && words.contains(hit),
+  };
 }
+
+for (const name of chapters) {
+  for (const viewport of SCREENS) {
+    test(`every button of ${name} takes its figure exactly where it says, both in sight at ${viewport.width} px`, async ({ page, library }) => {
+      test.setTimeout(120_000);
+      await page.setViewportSize(viewport);
+      await page.emulateMedia({ reducedMotion: "reduce" });
+      await page.goto(`${library}/${name}`);
+      for (const words of await page.locator(".do").all()) {
+        const figure = await figureOf(page, words);
+        await expect(figure).toHaveCount(1);
+        const wanted = JSON.parse(await words.getAttribute("data-parameters"));
+        await words.evaluate((element) => element.scrollIntoView({ block: "center" }));
+        await words.click();
+        await expect(figure).toHaveAttribute("data-ready", "");
+        // Displayed values of the controls: numbers with units, switches, options by label.
+        const asked = Object.entries(wanted).filter(([, value]) => value === "true" || value === "false" || !Number.isNaN(Number(value)));
+        const expected = asked.map(([, value]) => (value === "true" ? "on" : value === "false" ? "off" : Number(value)));
+        const says = () =>
+          figure.evaluate((element, keys) => keys.map((key) => element.controlText(key)), asked.map(([key]) => key));
+        const read = (text) => (/^(on|off)$/.test(text) ? text : parseFloat(text?.replace("−", "-")));
+        const message = `${name}: ${await words.textContent()}`;
+        await expect.poll(async () => (await says()).map(read), { message }).toEqual(expected);
+        await expect.poll(() => words.evaluate(together), { message }).toMatchObject({ picture: true, words: true });
+      }
+    });
+  }
+}
+
+test("a docked figure goes home when closed, reached or left behind, and moves no text", async ({ page, library }) => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.goto(`${library}/epipolar.html`);
+  const words = page.locator(".do", { hasText: "Take p up to the wall" });
+  const figure = await figureOf(page, words);
+  const box = page.locator(`#${await words.getAttribute("data-figure")}`);
+  const scroll = () => page.evaluate(() => scrollY);
+  const dock = async () => {
+    await words.evaluate((element) => element.scrollIntoView({ block: "center" }));
+    const [at, height] = [await scroll(), await page.evaluate(() => document.documentElement.scrollHeight)];
+    await words.click();
+    await expect(box).toHaveClass(/docked/);
+    await expect(figure).toHaveAttribute("data-ready", "");
+    expect(await scroll()).toBe(at);
+    expect(await page.evaluate(() => document.documentElement.scrollHeight)).toBe(height);
+  };
+  await dock();
+  await page.keyboard.press("Escape");
+  await expect(box).not.toHaveClass(/docked/);
+  await expect(words).toBeFocused();
+  await dock();
+  await page.getByRole("button", { name: "Put back" }).click();
+  await expect(box).not.toHaveClass(/docked/);
+  expect(await figure.evaluate((element) => element.compact)).toBe(false);
+  await dock();
+  // A little way on the figure stays, and leads back to its sentence.
+  await page.mouse.wheel(0, 600);
+  await page.getByRole("button", { name: "Back to the text" }).click();
+  await expect(words).toBeInViewport();
+  await expect(box).toHaveClass(/docked/);
+  await page.mouse.move(640, 600);
+  await page.mouse.wheel(0, 3000);
+  await expect(box).not.toHaveClass(/docked/);
+  await dock();
+  await box.locator(".dock-bar .figure-number").click();
+  await expect(box).not.toHaveClass(/docked/);
+  await expect(figure).toBeInViewport();
+  await page.getByRole("button", { name: "Back to the text" }).click();
+  await expect(words).toBeInViewport();
+  await expect(words).toBeFocused();
+  await expect(page.getByRole("button", { name: "Back to the text" })).toHaveCount(0);
+});
+
+test.describe("docked", () => {
+  // axe copies elements with styles of their own, which the policy of the book forbids.
+  test.use({ bypassCSP: true });
+
+  test("a docked figure is accessible, and is not printed as such", async ({ page, library }) => {
+    await page.setViewportSize(SCREENS[0]);
+    await page.goto(`${library}/epipolar.html`);
+    const words = page.locator(".do", { hasText: "Take p up to the wall" });
+    await words.evaluate((element) => element.scrollIntoView({ block: "center" }));
+    await words.click();
+    const box = page.locator(".docked");
+    await ready(box.locator("epipole-figure"));
+    for (const colorScheme of ["light", "dark"]) {
+      await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+      await expectAccessible(page, { within: ".docked" });
+    }
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    await expect(box).toHaveCount(0);
+  });
+});
 
 test("without a script sentences read as plain words", async ({ browser, library }) => {
   const context = await browser.newContext({ javaScriptEnabled: false });

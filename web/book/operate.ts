@@ -2,7 +2,7 @@
 // readouts. Until this script runs, both are plain text. A figure may load later or never.
 
 interface Figure extends HTMLElement {
-  glide?: (parameters: Record<string, string>) => Promise<void>;
+  glide?: (parameters: Record<string, string>, options: { scroll: boolean }) => Promise<void>;
   readoutText?: (id: string) => string | undefined;
   controlText?: (id: string) => string | undefined;
 }
@@ -25,7 +25,9 @@ function startButton(words: HTMLElement): void {
   if (number) words.title = `Shows it in ${number}`;
   const act = async () => {
     await customElements.whenDefined("epipole-figure");
-    await figure.glide?.(parametersOf(words));
+    const dock = await import("./dock").catch(() => undefined);
+    dock?.bringTogether(figure.closest("figure") ?? figure, words);
+    await figure.glide?.(parametersOf(words), { scroll: !dock });
   };
   words.addEventListener("click", () => void act());
   words.addEventListener("keydown", (event) => {

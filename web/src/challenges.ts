@@ -12,6 +12,7 @@ export interface Goal {
   solved: boolean;
 }
 
+const SOLVED = "Solved: ";
 const CHECK = "M4.5 10.5l3.5 3.5 7.5-8.5";
 
 export class Challenges {
@@ -27,9 +28,11 @@ export class Challenges {
   readonly #next = make("button", { type: "button", "aria-label": "Next goal" }, icon("M7.5 4.5L13 10l-5.5 5.5"));
   readonly #count = make("button", { type: "button", class: "count", "aria-expanded": "false" });
   readonly #list = make("ol", { hidden: true });
+  /** Invisible copies of all goals with their longest notes, whose height is that of any goal shown. */
+  readonly #room = make("div", { class: "goal-room", "aria-hidden": "true" });
   #rows: { row: HTMLElement; mark: HTMLElement }[] = [];
   readonly #solved = new Set<string>();
-  /** Goals met since the figure started, which the reader has not earned. */
+  /** Goals met by the page or by a shown solution, which the reader has not reached. */
   readonly #given = new Set<string>();
   #known: Challenge[] = [];
   #goals: Choice["goals"] = "one";
@@ -37,10 +40,13 @@ export class Challenges {
   #hinted = false;
   #opened = false;
   #playing: string | undefined;
+  /** The goal whose solution has been played last. */
+  #shown: string | undefined;
 
   /** `show` plays the solution of a goal, or stops it. */
   constructor(show: (id: string) => void) {
-    const words = make("div", { class: "words" }, make("p", { class: "goal" }, this.#mark, this.#goal), this.#note);
+    const shown = make("div", {}, make("p", { class: "goal" }, this.#mark, this.#goal), this.#note);
+    const words = make("div", { class: "words" }, shown, this.#room);
     const acts = make("div", { class: "acts" }, this.#hint, this.#show, this.#back, this.#count, this.#next);
     this.#line.append(make("span", { class: "box" }, icon(CHECK)), words, acts);
     this.element.append(this.#line, this.#list);
@@ -58,21 +64,23 @@ export class Challenges {
   }
 
   /**
-   * Shows the goals and returns those reached for the first time. They count only if the reader has
-   * `touched` the figure; while it is `waiting` for a computation, goals may not be evaluated yet.
+   * Shows the goals and returns those reached for the first time. They count only if the last change was the reader's
+   * `own`; while the figure is `waiting` for a computation, goals may not be evaluated yet.
    */
   update(
     { challenges, waiting }: Snapshot,
-    { goals, touched }: { goals: Choice["goals"]; touched: boolean },
+    { goals, own }: { goals: Choice["goals"]; own: boolean },
   ): Challenge[] {
+    const given = [...this.#given].join();
     for (const { id, solved } of challenges) {
-      if (solved && !touched) this.#given.add(id);
+      if (solved && !own && !this.#solved.has(id)) this.#given.add(id);
       else if (!solved && waiting === null) this.#given.delete(id);
     }
     const news = challenges.filter(({ id, solved }) => solved && !this.#given.has(id) && !this.#solved.has(id));
     for (const { id } of news) this.#solved.add(id);
     if (this.#known.length !== challenges.length) this.#listAll(challenges);
-    const same = goals === this.#goals && news.length === 0 && this.#known.length > 0;
+    const unchanged = news.length === 0 && given === [...this.#given].join();
+    const same = goals === this.#goals && unchanged && this.#known.length > 0;
     this.#known = challenges;
     this.#goals = goals;
     if (!same) this.#refresh();
@@ -93,6 +101,7 @@ export class Challenges {
   /** The goal whose solution is playing; its button stops it. */
   set playing(id: string | undefined) {
     this.#playing = id;
+    this.#shown = id ?? this.#shown;
     this.#refresh();
   }
 
@@ -120,6 +129,12 @@ export class Challenges {
       return { row: make("li", { "data-challenge": id }, box, button), mark };
     });
     this.#list.replaceChildren(...this.#rows.map(({ row }) => row));
+    this.#room.replaceChildren(
+      ...challenges.map(({ goal, hint, why }) =>
+        make("div", {}, make("p", { class: "goal" }, make("span", { class: "mark" }, SOLVED), goal),
+          make("p", { class: "note" }, hint.length > why.length ? hint : why)),
+      ),
+    );
   }
 
   #refresh(): void {
@@ -128,9 +143,11 @@ export class Challenges {
     if (!now) return;
     const solved = this.#solved.has(now.id);
     setAttribute(this.#line, "data-solved", solved);
-    setText(this.#mark, solved ? "Solved: " : "");
+    const shown = !solved && this.#given.has(now.id) && this.#shown === now.id;
+    setText(this.#mark, solved ? SOLVED : shown ? "Shown: " : "");
     setText(this.#goal, now.goal);
-    setText(this.#note, this.#hinted ? now.hint : solved ? now.why : "");
+    setText(this.#note, solved || shown ? now.why : this.#hinted ? now.hint : "");
+    this.#hint.hidden = solved || shown;
     setAttribute(this.#hint, "aria-expanded", String(this.#hinted));
     setText(this.#show, this.#playing === now.id ? "Stop" : "Show how");
     const total = this.#known.length;
@@ -148,7 +165,7 @@ export class Challenges {
       setAttribute(row, "data-solved", this.#solved.has(id));
       // The current goal is shown above the list.
       row.hidden = index === this.#at;
-      setText(mark, this.#solved.has(id) ? "Solved: " : "");
+      setText(mark, this.#solved.has(id) ? SOLVED : "");
     });
   }
 }

@@ -38,7 +38,10 @@ export class FigureController {
       snapshot: () => this.#snapshot,
       shell: () => this.shell,
       answered: () => this.answered(),
-      toggleSolution: (challenge: string) => void this.#motion.toggleSolution(challenge),
+      toggleSolution: (challenge: string) => {
+        this.dispatch({ type: "touch", own: false });
+        void this.#motion.toggleSolution(challenge);
+      },
     };
     this.#view = new View(host, (isCurrent) =>
       actsOn({ ...parts, renderer: () => (isCurrent() ? this.#renderer : undefined) }),
@@ -53,7 +56,7 @@ export class FigureController {
     listenToReader(host, this.#view.root, {
       interest: () => this.dispatch({ type: "interest" }),
       takeOver: (byReader) => {
-        this.dispatch({ type: "touch" });
+        this.dispatch({ type: "touch", own: byReader });
         if (byReader) this.stopMotion();
       },
     });
@@ -121,7 +124,7 @@ export class FigureController {
   choose(): void {
     this.#view.choose();
     if (!this.#renderer || !this.#snapshot) return;
-    this.shell.update(this.#snapshot, this.#state.touched);
+    this.shell.update(this.#snapshot, this.#state);
     this.#size.fit();
     this.shell.speaker.warn([]);
     this.shell.speaker.complain(this.shell.misnamed(this.#snapshot));
@@ -147,10 +150,10 @@ export class FigureController {
     this.shell.speaker.complain(problems.map(({ message }) => message));
   }
 
-  /** Glides to parameters, after opening the figure and bringing it into view. */
-  glide(parameters: Parameters, duration: number): Promise<Refused[]> {
+  /** Glides to parameters, after opening the figure and, if `scroll`, bringing it into view. */
+  glide(parameters: Parameters, duration: number, scroll: boolean): Promise<Refused[]> {
     this.dispatch({ type: "wanted" });
-    return this.#motion.glide(parameters, duration, this.#comeIntoView());
+    return this.#motion.glide(parameters, duration, scroll ? this.#comeIntoView() : this.#running());
   }
 
   /** Ends glides and solutions that play. */
@@ -233,7 +236,7 @@ export class FigureController {
     shell.speaker.complain([...problems.map(({ message }) => message), ...shell.misnamed(first)]);
     // The room of a compact picture depends on the buttons and numbers in the bar.
     if (host.compact) {
-      shell.update(first, this.#state.touched);
+      shell.update(first, this.#state);
       this.#size.fit();
     } else this.#size.resize();
   }
@@ -245,7 +248,7 @@ export class FigureController {
       const before = this.#snapshot;
       this.#snapshot = snapshot;
       const { touched } = this.#state;
-      const solved = shell.update(snapshot, touched);
+      const solved = shell.update(snapshot, this.#state);
       this.dispatch({ type: "snapshot", waiting: snapshot.waiting !== null });
       if (this.#state.ready) {
         this.#announcer.changed(shell, { before, now: snapshot, solved, state: this.#askState(), touched });

@@ -186,23 +186,23 @@ export class EpipoleFigure extends Base {
 
   /** Takes parameters, as attributes do. */
   apply(parameters: Record<string, string | number | boolean>): void {
-    this.#controller.dispatch({ type: "touch" });
+    this.#controller.dispatch({ type: "touch", own: false });
     this.#controller.stopMotion();
     this.#controller.warn(this.#controller.renderer?.apply(textOf(parameters)) ?? []);
   }
 
   /**
-   * Moves sliders and points to parameters so that it can be watched, after bringing the figure into
-   * view where that is needed. Choices and toggles change at once, and everything does for a reader
-   * who wants no motion. Opens the figure if that has not been done. A second glide takes the first
-   * one's goal over; a reader who takes hold of the figure ends it.
+   * Moves sliders and points to parameters so that it can be watched, after bringing the figure into view where that is
+   * needed and `scroll` is not false. Choices and toggles change at once, and everything does for a reader who wants no
+   * motion. Opens the figure if that has not been done. A second glide takes the first one's goal over; a reader who
+   * takes hold of the figure ends it.
    */
   async glide(
     parameters: Record<string, string | number | boolean>,
-    { duration = GLIDE_MS }: { duration?: number } = {},
+    { duration = GLIDE_MS, scroll = true }: { duration?: number; scroll?: boolean } = {},
   ): Promise<void> {
-    this.#controller.dispatch({ type: "touch" });
-    this.#controller.warn(await this.#controller.glide(textOf(parameters), duration));
+    this.#controller.dispatch({ type: "touch", own: false });
+    this.#controller.warn(await this.#controller.glide(textOf(parameters), duration, scroll));
   }
 
   /**
@@ -218,7 +218,7 @@ export class EpipoleFigure extends Base {
 
   /** Presses a button of the figure. */
   press(id: string): void {
-    this.#controller.dispatch({ type: "touch" });
+    this.#controller.dispatch({ type: "touch", own: false });
     this.#controller.stopMotion();
     this.#controller.renderer?.act((engine) => engine.update({ type: "press", id }));
   }

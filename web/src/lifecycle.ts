@@ -46,6 +46,8 @@ export interface State {
   interested: boolean;
   /** Reader or page have changed something; changes before that are not announced. */
   touched: boolean;
+  /** The last change is the reader's: goals that the page or a shown solution reach do not count. */
+  own: boolean;
   /** Address and poster of the page belong to another figure. */
   renamed: boolean;
 
@@ -76,7 +78,7 @@ export type LifecycleEvent =
   | { type: "interest" }
   /** The page animates the figure, in view or not. */
   | { type: "wanted" }
-  | { type: "touch" }
+  | { type: "touch"; own: boolean }
   /** The canvas has to show what the poster cannot. */
   | { type: "reveal" }
   /** The page or its address ask for the figure, near or not. */
@@ -117,6 +119,7 @@ export const INITIAL: State = {
   visible: false,
   interested: false,
   touched: false,
+  own: false,
   renamed: false,
   linked: false,
   poster: false,
@@ -144,7 +147,7 @@ export function reduce(state: State, event: LifecycleEvent): Next {
     case "wanted":
       return begin({ ...state, near: true, interested: true });
     case "touch":
-      return stay({ ...state, touched: true });
+      return stay({ ...state, touched: true, own: event.own });
     case "reveal":
       return showLive(state);
     case "open":

@@ -41,7 +41,7 @@ export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wan
   );
   shell.introduce(title, help);
   shell.role = "group";
-  shell.update({ ...snapshot, handles: [], waiting: null }, false);
+  shell.update({ ...snapshot, handles: [], waiting: null }, { touched: false, own: false });
   shell.reveal();
   const { root } = shell;
   for (const dead of root.querySelectorAll(ALIVE)) dead.remove();

@@ -174,7 +174,7 @@ export class Shell {
   }
 
   /** Updates all parts. Returns the goals reached for the first time. */
-  update(snapshot: Snapshot, touched: boolean): Challenge[] {
+  update(snapshot: Snapshot, { touched, own }: { touched: boolean; own: boolean }): Challenge[] {
     if (touched || snapshot.waiting === null) this.#borrowed = undefined;
     setAttribute(this.root, "data-aspect", snapshot.aspect);
     this.#controls.update(snapshot.controls, this.#choice.controls);
@@ -188,7 +188,7 @@ export class Shell {
     this.#waiting = snapshot.waiting !== null;
     this.#tellBusy();
     setText(this.#description, snapshot.description);
-    const solved = this.#challenges.update(snapshot, { goals: this.#choice.goals, touched });
+    const solved = this.#challenges.update(snapshot, { goals: this.#choice.goals, own });
     this.#under.hidden = this.#controls.buttons.hidden;
     return solved;
   }

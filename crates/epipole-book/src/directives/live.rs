@@ -54,8 +54,9 @@ impl Directive for Live {
     }
 
     fn render(Quoted { id, shows, text }: Quoted, _: &mut Writer) -> Insert {
+        // The word joiner keeps a comma on the line of the number, which is a box of its own.
         let html = format!(
-            "<span class=\"live\" data-figure=\"{}\" data-shows=\"{}\">{}</span>",
+            "<span class=\"live\" data-figure=\"{}\" data-shows=\"{}\">{}</span>\u{2060}",
             escape(&id),
             escape(&shows),
             escape(&text)
