@@ -31,8 +31,54 @@ struct Plane {
 }
 
 impl Plane {
+    /// The plane through a point with this normal, or its opposite.
+    fn facing(normal: Vector3<f64>, point: &Point3<f64>) -> Self {
+        let towards = -normal.dot(&point.coords);
+        Self {
+            normal: normal * towards.signum(),
+            distance: towards.abs(),
+        }
+    }
+
     fn side(&self, in_eye: &Point3<f64>) -> f64 {
         self.normal.dot(&in_eye.coords) + self.distance
+    }
+}
+
+/// A flat face in front of the eye, which hides what is behind it.
+pub(crate) struct Screen {
+    plane: Plane,
+    corners: Vec<Place>,
+    sides: Vec<Side>,
+}
+
+impl Screen {
+    /// Creates a convex face from its corners in the eye's frame and on the page; `None` if it has
+    /// no area.
+    pub(crate) fn new(in_eye: &[Point3<f64>], corners: Vec<Place>) -> Option<Self> {
+        let [first, second, .., last] = in_eye else {
+            return None;
+        };
+        let normal = (second - first)
+            .cross(&(last - first))
+            .try_normalize(1e-12)?;
+        let plane = Plane::facing(normal, first);
+        let sides = (0..corners.len()).map(|index| Side::of(&corners, index));
+        Some(Self {
+            plane,
+            sides: sides.collect(),
+            corners,
+        })
+    }
+
+    /// Corners on the page, in order.
+    pub(crate) fn corners(&self) -> &[Place] {
+        &self.corners
+    }
+
+    /// Returns whether the face hides a point, given in the eye's frame and on the page.
+    pub(crate) fn hides(&self, in_eye: &Point3<f64>, place: &[Place; 1]) -> bool {
+        self.plane.side(in_eye) < 0.0 && !self.sides.iter().any(|side| side.has_beyond(place))
     }
 }
 
@@ -62,11 +108,7 @@ impl<'a> Standing<'a> {
         let middle = in_eye(right / 2.0, bottom / 2.0);
         let across = (corners[1] - corners[0]).cross(&(corners[3] - corners[0]));
         let normal = across.try_normalize(1e-12)?;
-        let towards = -normal.dot(&middle.coords);
-        let plane = Plane {
-            normal: normal * towards.signum(),
-            distance: towards.abs(),
-        };
+        let plane = Plane::facing(normal, &middle);
         if plane.distance < EDGE_ON * middle.coords.norm() {
             return None;
         }

@@ -1,4 +1,5 @@
-//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near.
+//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near. Points hide
+//! lines, which are dashed there.
 //!
 //! Coordinates are as in the chapters and in camera 1: x right, y **down**, z forward.
 
@@ -9,25 +10,21 @@ use crate::kit::labels::Labels;
 use crate::kit::lens::Lens;
 pub(crate) use crate::kit::lens::Subject;
 use crate::kit::orbit::Orbit;
-use crate::kit::standing::{Standing, half};
+use crate::kit::standing::{Screen, Standing, half};
 use crate::theme::{Rgb, Role};
 use epipole::camera::PosedCamera;
 use image::RgbImage;
 use nalgebra::{Point2, Point3, Vector3};
 
+mod depths;
+mod order;
+
+use self::order::{Mark, Placed, arrange};
+
 /// Minimum panel width with a handle for panning, CSS pixels.
 const SMALLEST: f64 = 300.0;
 /// Size of labels, CSS pixels.
 const TEXT: f64 = 13.0;
-
-enum Mark {
-    Dot(Place, f64, Rgb),
-    Speck(Place, f64, Rgb),
-    Marker(Place, f64, Shape, Role),
-    Line(Place, Place, Stroke),
-    Facet([Place; 4], Rgb, Stroke),
-    Face(Vec<Place>, Role, f64),
-}
 
 /// A scene in the reader's view, collected mark by mark and then drawn.
 pub(crate) struct Space<'a> {
@@ -36,8 +33,7 @@ pub(crate) struct Space<'a> {
     ground: Vec<(Place, Place, Stroke)>,
     /// Far to near.
     photographs: Vec<Standing<'a>>,
-    /// Number of photographs drawn before the mark, its depth, and the mark.
-    marks: Vec<(usize, f64, Mark)>,
+    marks: Vec<Placed>,
     labels: Vec<(Place, &'static str, Role)>,
 }
 
@@ -74,7 +70,11 @@ impl<'a> Space<'a> {
     fn push(&mut self, in_eye: &Point3<f64>, places: &[Place], mark: Mark) {
         let behind = (self.photographs.iter()).position(|photo| photo.hides(in_eye, places));
         let layer = behind.unwrap_or(self.photographs.len());
-        self.marks.push((layer, in_eye.z, mark));
+        self.marks.push(Placed {
+            layer,
+            in_eye: *in_eye,
+            mark,
+        });
     }
 
     fn in_eye(&self, point: &Point3<f64>) -> Point3<f64> {
@@ -146,9 +146,10 @@ impl<'a> Space<'a> {
         let at = |share: f64| a + (b - a) * share;
         let ends = [0.0].into_iter().chain(cuts.iter().copied());
         for (start, end) in ends.zip(cuts.iter().copied().chain([1.0])) {
-            if let Some((from, to)) = self.places(&[at(start), at(end)]) {
+            let ends = [at(start), at(end)];
+            if let Some((from, to)) = self.places(&ends) {
                 let middle = at(0.5 * (start + end));
-                self.push(&middle, &[from, to], Mark::Line(from, to, stroke));
+                self.push(&middle, &[from, to], Mark::Line(ends, [from, to], stroke));
             }
         }
     }
@@ -175,7 +176,9 @@ impl<'a> Space<'a> {
                 .iter()
                 .fold(Vector3::zeros(), |sum, corner| sum + corner.coords);
             let middle = Point3::from(sum / piece.len() as f64);
-            self.push(&middle, &places.clone(), Mark::Face(places, role, opacity));
+            if let Some(screen) = Screen::new(piece, places.clone()) {
+                self.push(&middle, &places, Mark::Face(screen, role, opacity));
+            }
         }
     }
 
@@ -278,13 +281,7 @@ impl<'a> Space<'a> {
 
     /// Draws everything, far to near.
     pub(crate) fn draw(self, canvas: &mut Canvas, panel: &Panel) {
-        // Sort keys instead of marks, which are ten times as large. Equally deep marks keep their
-        // order.
-        let keys = self.marks.iter().enumerate();
-        let mut order: Vec<(usize, u64, u32)> = keys
-            .map(|(index, (layer, depth, _))| (*layer, far_first(*depth), index as u32))
-            .collect();
-        order.sort_unstable();
+        let marks = arrange(self.marks, &self.photographs, panel.rect);
         canvas.clipped(panel.rect.inset(1.0), |canvas| {
             for (from, to, stroke) in self.ground {
                 canvas.line(from, to, stroke);
@@ -293,22 +290,24 @@ impl<'a> Space<'a> {
             let put_up = |canvas: &mut Canvas, photo: &Standing<'_>| {
                 canvas.warped_photograph(&photo.corners, &photo.photo_from_page, photo.image);
             };
-            for (layer, _, index) in order {
+            for Placed { layer, mark, .. } in marks {
                 while let Some((_, photo)) = photographs.next_if(|(index, _)| *index < layer) {
                     put_up(canvas, photo);
                 }
-                match &self.marks[index as usize].2 {
-                    Mark::Face(places, role, opacity) => canvas.polygon(places, *role, *opacity),
-                    Mark::Dot(place, radius, color) => canvas.dot(*place, *radius, *color),
-                    Mark::Speck(place, side, color) => canvas.speck(*place, *side, *color),
-                    Mark::Marker(place, radius, shape, role) => {
-                        canvas.marker(*place, *radius, *shape, *role, true);
+                match mark {
+                    Mark::Face(screen, role, opacity) => {
+                        canvas.polygon(screen.corners(), role, opacity);
                     }
-                    Mark::Line(from, to, stroke) => canvas.line(*from, *to, *stroke),
+                    Mark::Dot(place, radius, color) => canvas.dot(place, radius, color),
+                    Mark::Speck(place, side, color) => canvas.speck(place, side, color),
+                    Mark::Marker(place, radius, shape, role) => {
+                        canvas.marker(place, radius, shape, role, true);
+                    }
+                    Mark::Line(_, [from, to], stroke) => canvas.line(from, to, stroke),
                     Mark::Facet(places, color, outline) => {
-                        canvas.polygon_color(places, *color);
-                        let [corner, next, _, last] = *places;
-                        canvas.polyline(&[last, corner, next], *outline);
+                        canvas.polygon_color(&places, color);
+                        let [corner, next, _, last] = places;
+                        canvas.polyline(&[last, corner, next], outline);
                     }
                 }
             }
@@ -330,15 +329,6 @@ impl<'a> Space<'a> {
             }
         }
     }
-}
-
-/// Maps a depth to an integer that decreases with it, in the order of `f64::total_cmp`.
-fn far_first(depth: f64) -> u64 {
-    let bits = depth.to_bits();
-    // The bits of negative numbers increase with their magnitude.
-    let is_negative = bits >> 63 == 1;
-    let rising = if is_negative { !bits } else { bits | 1 << 63 };
-    !rising
 }
 
 /// Draws the two handles of a space: a grip to turn it, and a small cross at its center to move it.
