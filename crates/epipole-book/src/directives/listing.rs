@@ -151,9 +151,9 @@ impl Opened {
             false => String::new(),
         };
         Ok(format!(
-            "{words}<div class=\"listing\" id=\"listing-{name}\" role=\"group\" aria-labelledby=\"listing-{name}-title\">\n\
+            "<div class=\"listing\" id=\"listing-{name}\" role=\"group\" aria-labelledby=\"listing-{name}-title\">\n\
              <div class=\"listing-bar\"><p class=\"listing-title\" id=\"listing-{name}-title\">{title}</p>{run}{COPY}{chooser}</div>\n\
-             {parts}{result}</div>\n",
+             <div class=\"listing-words\">{words}</div>{parts}{result}</div>\n",
             words = words.html,
             title = self.heading.html,
             chooser = chooser(name, &tabs),

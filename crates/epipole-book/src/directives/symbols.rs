@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_list_names_each_letter() {
         let html = list(&["P".to_owned(), "ℓ'".to_owned()]).unwrap();
-        assert!(html.contains("a point of the world") && html.contains("data-role=\"line\""));
+        assert!(html.contains("a point in the world") && html.contains("data-role=\"line\""));
         let pixel = list(&["x".to_owned()]).unwrap();
         assert!(
             pixel.contains("data-symbol=\"p\" data-letter=\"x\""),

@@ -25,8 +25,8 @@ const RING: &str =
     "<circle cx=\"8\" cy=\"8\" r=\"5.5\" fill=\"none\"/><circle cx=\"8\" cy=\"8\" r=\"1\"/>";
 
 pub(crate) const SYMBOLS: [Symbol; 10] = [
-    symbol("P", "P", "point", "a point of the world", DIAMOND),
-    symbol("X", "X", "point", "a point of the world", DIAMOND),
+    symbol("P", "P", "point", "a point in the world", DIAMOND),
+    symbol("X", "X", "point", "a point in the world", DIAMOND),
     symbol("p", "p", "pixel", "its pixel in image 1", DISK),
     symbol(
         "p'",

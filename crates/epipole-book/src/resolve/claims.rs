@@ -3,7 +3,7 @@
 //! A claim is one or more comparisons, separated by semicolons:
 //! `samples > 100; verdict has corner`. The left side is the name of a readout, of a control, or
 //! `goal.name`; the right side is a number, another name, or words. `name#2` is the second number
-//! of a readout that holds several ("0.2 % (start: 9.2)").
+//! of a readout that holds several ("0.2% (start: 9.2)").
 
 use super::facts::{Facts, Shown};
 

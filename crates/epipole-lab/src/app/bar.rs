@@ -63,7 +63,7 @@ impl<H: Host> App<H> {
                     send(Event::Pause(true));
                 }
                 ui.weak(match share > 0.0 {
-                    true => format!("{words} ({:.0} %)", 100.0 * share),
+                    true => format!("{words} ({:.0}%)", 100.0 * share),
                     false => words,
                 });
             } else if paused {

@@ -151,7 +151,7 @@ impl Panel for Measuring {
                 (measure.length_m, project.length_in_meters(index))
             {
                 let off = 100.0 * (found.value / known - 1.0);
-                ui.weak(format!("{off:+.2} % from what you typed"));
+                ui.weak(format!("{off:+.2}% from what you typed"));
             }
         }
         ui.separator();

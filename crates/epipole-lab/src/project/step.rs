@@ -63,34 +63,34 @@ impl Step {
             Self::Photographs => (
                 "same-picture",
                 "rays.html",
-                "One photo gives directions, not distances: the pinhole camera",
+                "The pinhole camera: one photo gives directions, not distances",
             ),
             Self::Calibrate => (
                 "epipolar-plane",
                 "rays.html",
-                "One photo gives directions, not distances: the pinhole camera",
+                "The pinhole camera: one photo gives directions, not distances",
             ),
             Self::Features => (
                 "sift-descriptor",
                 "matching.html",
-                "A fingerprint for each corner: descriptors and matching",
+                "Descriptors and matching: a fingerprint for each corner",
             ),
             Self::Matches => (
                 "ratio-test",
                 "matching.html",
-                "A fingerprint for each corner: descriptors and matching",
+                "Descriptors and matching: a fingerprint for each corner",
             ),
             Self::TwoViews => (
                 "epipolar-click",
                 "epipolar.html",
-                "One point, one line: epipolar geometry",
+                "Epipolar geometry: one point, one line",
             ),
             Self::Reconstruction => ("bundle-adjustment", "sfm.html", "Structure from motion"),
-            Self::Depth => ("disparity-map", "stereo.html", "Two eyes in a row: stereo"),
+            Self::Depth => ("disparity-map", "stereo.html", "Stereo: two eyes in a row"),
             Self::Measure => (
                 "scale-ambiguity",
                 "triangulation.html",
-                "Cash in: triangulation",
+                "Triangulation: cash in your matches",
             ),
             Self::Export => (
                 "two-view-sfm",

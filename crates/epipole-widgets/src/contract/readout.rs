@@ -115,10 +115,10 @@ impl Readout {
     }
 }
 
-/// Appends the unit: a degree sign directly, other units after a space.
+/// Appends the unit: degree and percent signs directly, other units after a space.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
     match unit {
-        "" | "°" => format!("{number}{unit}"),
+        "" | "°" | "%" => format!("{number}{unit}"),
         _ => format!("{number} {unit}"),
     }
 }

@@ -107,7 +107,7 @@ impl Orbit {
         let share = |value: f64, half: f64| format_number(50.0 * (1.0 + value / half), 0);
         let (across, down) = self.panned;
         let [across, down] = [share(across, HALF_TURN_DEG), share(down, HALF_RISE_DEG)];
-        let place = format!("{across} % across, {down} % down");
+        let place = format!("{across}% across, {down}% down");
         let (view, center) = ("Viewpoint", "Scene center");
         [
             handle(SPACE.orbit, view, self.words(), self.turned, HIGHEST_DEG),
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(orbit.update(&Event::moved("orbit", 90.0, 0.0)), Ok(true));
         assert_eq!(orbit.words(), "90° to the left, level");
         assert_eq!(orbit.update(&Event::moved("pan", 18.0, -9.0)), Ok(true));
-        assert_eq!(orbit.handles()[1].value_text, "55 % across, 45 % down");
+        assert_eq!(orbit.handles()[1].value_text, "55% across, 45% down");
         assert_eq!(orbit.update(&Event::moved("probe", 1.0, 1.0)), Ok(false));
         assert_eq!(orbit.update(&Event::set(&ZOOM, 3.0)), Ok(true));
         assert!(orbit.update(&Event::set(&ZOOM, 100.0)).is_err());

@@ -154,7 +154,9 @@ pub(crate) fn draw_epipole(
                 return;
             };
             canvas.arrow(from, to, stroke);
-            let distance = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
+            let across = place.0 - place.0.clamp(rect.x, rect.right());
+            let down = place.1 - place.1.clamp(rect.y, rect.bottom());
+            let distance = libm::hypot(across, down) / panel.scale_x();
             let text = format!("epipole {name}, {} px away", format_number(distance, 0));
             labels.draw(canvas, &beside_arrow(from, to), &text, style);
         }

@@ -188,13 +188,13 @@ impl Drawn {
     /// Returns a sentence on the number of samples needed.
     pub(crate) fn outlook(&self) -> String {
         match self.budget {
-            _ if self.is_confident() => "That is enough for 99 % confidence.".to_owned(),
+            _ if self.is_confident() => "That is enough for 99% confidence.".to_owned(),
             _ if self.is_finished() => {
-                "99 % confidence takes more, but the figure stops here.".to_owned()
+                "99% confidence takes more, but the figure stops here.".to_owned()
             }
-            Some(1) => "99 % confidence takes 1 sample.".to_owned(),
-            Some(budget) => format!("99 % confidence takes {budget} samples."),
-            None => "99 % confidence takes more than a million.".to_owned(),
+            Some(1) => "99% confidence takes 1 sample.".to_owned(),
+            Some(budget) => format!("99% confidence takes {budget} samples."),
+            None => "99% confidence takes more than a million.".to_owned(),
         }
     }
 

@@ -17,7 +17,8 @@ pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
 
 /// Formats a pixel without decimals, such as "(320, 240)".
 pub(crate) fn whole_pixel(pixel: &Point2<f64>) -> String {
-    let [u, v] = [pixel.x, pixel.y].map(|x| format_number(x, 0));
+    // Halves are rounded alike, whatever noise they carry.
+    let [u, v] = [pixel.x, pixel.y].map(|x| format_number((x * 1e6).round() / 1e6, 0));
     format!("({u}, {v})")
 }
 

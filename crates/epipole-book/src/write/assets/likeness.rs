@@ -1,6 +1,6 @@
 //! Reorders the functions of a WebAssembly module so that similar ones are adjacent. A compressor
-//! finds repetitions only nearby (gzip looks back 32 KB), so the download is smaller, by some 6 %
-//! as gzip and 3 % as Brotli; the behavior is the same.
+//! finds repetitions only nearby (gzip looks back 32 KB), so the download is smaller, by some 6%
+//! as gzip and 3% as Brotli; the behavior is the same.
 
 use anyhow::{Context, Result, anyhow, ensure};
 use std::collections::{HashMap, VecDeque};

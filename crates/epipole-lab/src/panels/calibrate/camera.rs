@@ -130,7 +130,7 @@ fn camera(screen: &mut Screen<'_>, found: &Calibration, all_marks: &mut bool, ui
     controls::row(
         ui,
         "coverage",
-        format!("{:.0} % of the image", 100.0 * found.coverage),
+        format!("{:.0}% of the image", 100.0 * found.coverage),
     );
     ui.checkbox(all_marks, "Show marks of all photographs");
     for warning in project.calibration_warnings() {

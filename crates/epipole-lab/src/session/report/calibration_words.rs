@@ -90,7 +90,7 @@ impl Project {
         let [fu, fv, ..] = found.camera.k;
         let [su, sv, ..] = found.std_dev_k;
         let mut words = format!(
-            " Focal lengths {fu:.1} ± {su:.1} and {fv:.1} ± {sv:.1} px, error {:.2} px; the boards cover {:.0} % of the \
+            " Focal lengths {fu:.1} ± {su:.1} and {fv:.1} ± {sv:.1} px, error {:.2} px; the boards cover {:.0}% of the \
              image.",
             found.rms_px,
             100.0 * found.coverage

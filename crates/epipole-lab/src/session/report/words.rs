@@ -204,7 +204,7 @@ impl Project {
             return format!("{names}: computing the depth of every pixel.");
         };
         let mut words = format!(
-            "{names}: {:.0} % of {} pixels have a depth",
+            "{names}: {:.0}% of {} pixels have a depth",
             100.0 * found.density,
             found.num_shown
         );

@@ -228,8 +228,8 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
         id: "liar",
         goal: "Drag the marked feature 60 px away, and keep the house within half a percent.",
         hint: "Which loss lets one bad feature pull harder than all the others?",
-        why: "Huber's loss grows only linearly beyond 2 px, so one wrong feature pulls no harder than \
-              any other.",
+        why: "Huber's loss grows only linearly beyond 2 px, so a wrong feature pulls no harder than one \
+              that is off by 2 px.",
         check: |model| {
             let states = model.states();
             model.mark_off_px() >= 60.0
@@ -245,7 +245,7 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
     },
     Challenge {
         id: "too-many",
-        goal: "Find out how many wrong features Huber's loss cannot bear: the house off by 5 %.",
+        goal: "Find out how many wrong features it takes to push the house off by 5% despite Huber's loss.",
         hint: "Each still pulls with a constant force, wherever it is.",
         why: "Huber's loss weakens wrong features but never drops them; enough of them still bend the \
               house. That is why RANSAC comes first.",

@@ -27,7 +27,7 @@ fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
     let ([start, now], answer) = (model.states()?, model.asked.answer()?);
     let num_unknowns = 6 * NUM_CAMERAS + 3 * answer.features.len();
     let pixels = |value: f64| format!("{} px", magnitude(value, 1e3));
-    let width = |share: f64| format!("{} %", percent(share));
+    let width = |share: f64| format!("{}%", percent(share));
     let loss = match model.is_robust() {
         true => "Huber's loss",
         false => "squares",
@@ -69,7 +69,7 @@ impl Words for BundleAdjustment {
         if taken == 0 {
             return format!(
                 "{NUM_CAMERAS} cameras and a house of {} points, all disturbed: the points are shown \
-                 {} px from their features (RMS), and the house is off by {} % of its width.",
+                 {} px from their features (RMS), and the house is off by {}% of its width.",
                 answer.features.len(),
                 pixels(now.rms_px),
                 percent(now.off)
@@ -85,7 +85,7 @@ impl Words for BundleAdjustment {
         };
         format!(
             "After {taken} of {num_steps} {plural} the reprojection error is {} px (RMS) instead of {} px, \
-             and the house, which was off by {} % of its width, is off by {} %.{end}",
+             and the house, which was off by {}% of its width, is off by {}%.{end}",
             pixels(now.rms_px),
             pixels(start.rms_px),
             percent(start.off),

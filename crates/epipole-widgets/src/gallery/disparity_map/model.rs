@@ -131,7 +131,7 @@ impl Model for DisparityMap {
 const CHALLENGES: &[Challenge<DisparityMap>] = &[
     Challenge {
         id: "too-near",
-        goal: "Make the nearest things too near for the search.",
+        goal: "Make the nearest objects too near for the search.",
         hint: "Their disparity must be larger than all that are looked for.",
         why: "The search range sets the nearest depth that can be found at all: Z = f B / d.",
         check: |model| model.is_answered(|question, answer| !question.reaches_nearest(answer)),
@@ -139,7 +139,7 @@ const CHALLENGES: &[Challenge<DisparityMap>] = &[
     },
     Challenge {
         id: "sharp",
-        goal: "With block matching, get under 1.3 % bad answers.",
+        goal: "With block matching, get under 1.3% bad answers.",
         hint: "Which windows reach across fewer edges?",
         why: "A small window smears less across the outlines of things, and pays with fewer answers.",
         check: |model| {
@@ -151,7 +151,7 @@ const CHALLENGES: &[Challenge<DisparityMap>] = &[
     },
     Challenge {
         id: "wide",
-        goal: "With a baseline of 0.20 m, answer for 99 % of what both cameras see.",
+        goal: "With a baseline of 0.20 m, answer for 99% of what both cameras see.",
         hint: "Twice the baseline, twice the disparity.",
         why: "A longer baseline stretches all disparities, so the search must reach farther, and views \
               that differ more need a method that looks beyond its window.",

@@ -64,7 +64,7 @@ impl Words for DisparityMap {
             false => " The nearest things lie beyond the range of the search.",
         };
         format!(
-            "{method} answers for {} % of what both cameras see; {} % of the answers are more than \
+            "{method} answers for {}% of what both cameras see; {}% of the answers are more than \
              2 px off. At the probe {at}, and {} px is true.{range}",
             format_number(100.0 * answer.scores.coverage, 1),
             format_number(100.0 * answer.scores.bad, 1),

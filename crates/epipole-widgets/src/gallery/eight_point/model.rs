@@ -210,7 +210,7 @@ const CHALLENGES: &[Challenge<EightPoint>] = &[
         id: "raw",
         goal: "With 60 matches, push held-out points beyond 5 px.",
         hint: "More matches do not help pixels as they are.",
-        why: "In raw pixels the entries of a row run from 1 to 400 000, least squares serves the large \
+        why: "In raw pixels the entries of a row run from 1 to 400,000, least squares serves the large \
               ones, and no number of matches averages that away.",
         check: |model| {
             let is_far = |estimate: &Estimate| estimate.held_out_px > 5.0;

@@ -5,7 +5,7 @@ mod space;
 mod style;
 
 use self::space::{cloud, draw_space};
-use self::style::{LIT, stroke};
+use self::style::{LINE, LIT};
 use super::model::{EpipolarPlane, Lit, SPACE_ASPECT};
 use super::scenery::Scenery;
 use super::words::{NO_BASELINE, ON_BASELINE};
@@ -14,7 +14,7 @@ use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, GAP, Grid, SMALL, TEXT, TITLE};
 use crate::kit::labels::Labels;
 use crate::kit::orbit::Orbit;
-use crate::kit::pair::{Photos, border_arrow, draw_epipole, draw_line};
+use crate::kit::pair::{CAMERAS, Photos, border_arrow, draw_epipole, draw_line};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, in_picture};
 use crate::theme::{Rgb, Role};
 use nalgebra::{Point2, Point3};
@@ -131,7 +131,7 @@ fn draw_pencil(
             _ => geometry.line2(&pixel),
         };
         if let Some(line) = line {
-            draw_line(canvas, panel, &line, Stroke::solid(LIT, 1.0).cased());
+            draw_line(canvas, panel, &line, Stroke::solid(LINE, 1.0).cased());
         }
     }
 }
@@ -142,7 +142,7 @@ fn draw_first(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: &
     let mut labels = Labels::new(panel.rect);
     if let Some(line) = &scenery.lines()[0] {
         let is_lit = matches!(lit, Lit::Line | Lit::Plane);
-        let (from, to) = draw_line(canvas, panel, line, stroke(is_lit).cased());
+        let (from, to) = draw_line(canvas, panel, line, line_stroke(is_lit).cased());
         labels.keep_line_free(from, to);
     }
     let Some(pixel) = scenery.pixels[0] else {
@@ -163,7 +163,7 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
     let mut labels = Labels::new(panel.rect);
     if let Some(line) = &scenery.lines()[1] {
         let is_lit = matches!(lit, Lit::Line | Lit::Plane);
-        let (from, to) = draw_line(canvas, panel, line, stroke(is_lit).cased());
+        let (from, to) = draw_line(canvas, panel, line, line_stroke(is_lit).cased());
         labels.keep_line_free(from, to);
     }
     let off_surface = scenery.before_surface_m() != Some(0.0);
@@ -180,12 +180,12 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
     match image {
         Some(place) if panel.rect.contains(place) => {
             let radius = if lit == Lit::Point { 6.5 } else { 5.0 };
-            canvas.marker(place, radius, Shape::Disk, LIT, true);
+            canvas.marker(place, radius, CAMERAS[1].1, CAMERAS[1].0, true);
             labels.keep_free(place, 8.0);
         }
         Some(place) => {
             if let Some((from, to)) = border_arrow(panel.rect, place) {
-                canvas.arrow(from, to, Stroke::solid(LIT, 2.5).cased());
+                canvas.arrow(from, to, Stroke::solid(CAMERAS[1].0, 2.5).cased());
             }
         }
         None => grid::notice(canvas, panel.rect, "P is behind camera 2."),
@@ -201,8 +201,17 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
     }
     // On a phone there is no room for words.
     if let Some(place) = ring.filter(|_| panel.rect.width > 200.0) {
-        labels.name(canvas, (place, 9.0), "what p shows", (Role::Ink, SMALL));
+        labels.name(
+            canvas,
+            (place, 9.0),
+            "surface that p sees",
+            (Role::Ink, SMALL),
+        );
     }
+}
+
+fn line_stroke(is_lit: bool) -> Stroke {
+    Stroke::solid(LINE, if is_lit { 3.0 } else { 1.5 })
 }
 
 fn draw_name(canvas: &mut Canvas, labels: &mut Labels, place: Place, name: &str, is_lit: bool) {

@@ -134,7 +134,7 @@ const CHALLENGES: &[Challenge<FourPoses>] = &[
     Challenge {
         id: "nothing",
         goal: "Turn camera 2 until nothing is left to decide by.",
-        hint: "It must not see the house any more.",
+        hint: "It must no longer see the house.",
         why: "Only points that both cameras see can vote on which pose is the true one.",
         check: |model| model.num_matches() == 0,
         solution: || vec![Event::set(&TURN, -45.0)],

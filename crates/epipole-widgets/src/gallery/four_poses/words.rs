@@ -35,9 +35,12 @@ impl Words for FourPoses {
             return "Camera 2 looks past the house, so there is no match to decide by.".to_owned();
         }
         format!(
-            "Four poses explain {} matches equally well. The first puts {first} of them in front of \
+            "Four poses explain {} equally well. The first puts {first} of them in front of \
              both cameras, the others {}. Camera 2 stands {}, turned by {}°.",
-            self.num_matches(),
+            match self.num_matches() {
+                1 => "1 match".to_owned(),
+                several => format!("{several} matches"),
+            },
             others.join(", "),
             self.camera2.text(),
             format_number(self.turn_deg(), 0)

@@ -221,7 +221,7 @@ const CHALLENGES: &[Challenge<Harris>] = &[
         id: "hundred",
         goal: "Find a hundred corners or more in the still life.",
         hint: "Lower the bar.",
-        why: "The threshold is a share of the strongest response, and one very strong corner had \
+        why: "The threshold is a fraction of the strongest response, and one very strong corner had \
               hidden all the weaker ones.",
         check: |model| model.settings.chosen(&SOURCE) == 1 && model.corners().len() >= 100,
         solution: || {

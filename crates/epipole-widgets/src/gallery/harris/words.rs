@@ -44,7 +44,7 @@ impl Words for Harris {
         let corners = self.corners().len();
         let (u, v) = self.probe.place();
         format!(
-            "{corners} {} above {} % of the strongest response. The probe at column {u}, row {v} is \
+            "{corners} {} above {}% of the strongest response. The probe at column {u}, row {v} is \
              on {what}: λ₁ is {}, λ₂ is {}, R is {} million.",
             if corners == 1 { "corner" } else { "corners" },
             format_number(self.threshold_percent(), 0),

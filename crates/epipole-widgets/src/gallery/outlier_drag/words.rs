@@ -14,7 +14,7 @@ impl Words for OutlierDrag {
         });
         vec![
             Readout::number("away", "Moved by", self.away_px(), 0, "px").main(),
-            px("mean", "True mean", 1, |state| state.fit.mean_px).main(),
+            px("mean", "True mean", 2, |state| state.fit.mean_px).main(),
             px("worst", "True worst", 1, |state| state.fit.worst_px).main(),
             px("without", "Without it", 2, |state| state.without.mean_px).main(),
             px("own", "Wrong match", 1, |state| state.fit.wrong_px),

@@ -44,7 +44,7 @@ impl RansacBudget {
         let (place, ranges) = ((self.inlier_ratio, 0.0), [RATIOS, [0.0; 2]]);
         let percent = format_number(100.0 * self.inlier_ratio, 0);
         Handle::new("share", "plot", "Inlier ratio w", place, ranges)
-            .told(format!("{percent} % inliers"))
+            .told(format!("{percent}% inliers"))
             .step([0.01, 0.0], 2)
     }
 }
@@ -93,9 +93,9 @@ const CHALLENGES: &[Challenge<RansacBudget>] = &[
     },
     Challenge {
         id: "sure",
-        goal: "At an inlier ratio of 50 %, get along with fewer than 600 samples of 8.",
+        goal: "At an inlier ratio of 50%, make fewer than 600 samples of 8 enough.",
         hint: "How sure do you have to be?",
-        why: "From 90 % to 99 % confidence the number only doubles: being sure is cheap, being without \
+        why: "From 90% to 99% confidence the number only doubles: being sure is cheap, being without \
               inliers is not.",
         check: |model| model.inlier_ratio == 0.5 && model.now(8) < 600,
         solution: || vec![Event::set(&CONFIDENCE, 0.9)],
@@ -104,7 +104,7 @@ const CHALLENGES: &[Challenge<RansacBudget>] = &[
         id: "cheap",
         goal: "With p = 0.99, find the lowest inlier ratio where 20 samples of 8 are enough.",
         hint: "One percent less, and 20 are not enough.",
-        why: "At 83 % inliers a sample of eight is still spoiled three times in four, and 20 of them are \
+        why: "At 83% inliers a sample of eight is still spoiled three times in four, and 20 of them are \
               enough all the same.",
         check: |model| {
             let less = model.trials(8, model.inlier_ratio - 0.01);

@@ -21,7 +21,7 @@ const NUM_STEPS: u32 = 890;
 pub struct RansacBudgetView;
 
 fn rulers() -> [Ruler; 2] {
-    let ratio = Ruler::linear(0.08, 1.0).shown(100.0, " %");
+    let ratio = Ruler::linear(0.08, 1.0).shown(100.0, "%");
     [ratio.named("inlier ratio w"), Ruler::decades(-0.2, 6.2)]
 }
 

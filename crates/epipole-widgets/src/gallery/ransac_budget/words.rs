@@ -25,7 +25,7 @@ impl Words for RansacBudget {
 
     fn describe(&self) -> String {
         format!(
-            "With an inlier ratio of {} % and a confidence of {} %, a line takes {} samples of 2, a \
+            "With an inlier ratio of {}% and a confidence of {}%, a line takes {} samples of 2, a \
              homography {} of 4, E {} of 5, and F {} of 7 or {} of 8.",
             format_number(100.0 * self.inlier_ratio, 0),
             format_number(100.0 * self.confidence(), 1),

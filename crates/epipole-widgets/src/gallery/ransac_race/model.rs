@@ -179,7 +179,7 @@ const CHALLENGES: &[Challenge<RansacRace>] = &[
     Challenge {
         id: "agree",
         goal: "Make least squares and RANSAC agree within 1°.",
-        hint: "What can only one of the two bear?",
+        hint: "Which data mislead only one of the two?",
         why: "Without outliers both see the same good points, and a vote has nothing to throw out.",
         check: |model| {
             let between = model.fits.angles_deg().between;

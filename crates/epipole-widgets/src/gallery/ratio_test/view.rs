@@ -41,7 +41,7 @@ pub(crate) struct RatioTestView {
 }
 
 fn rulers() -> [Ruler; 2] {
-    let percent = |ruler: Ruler| ruler.shown(100.0, " %");
+    let percent = |ruler: Ruler| ruler.shown(100.0, "%");
     [
         percent(Ruler::linear(0.2, 0.6)).named("recall"),
         percent(Ruler::linear(0.2, 1.0)),

@@ -56,17 +56,16 @@ impl Words for RatioTest {
             return self.asked.sentence();
         };
         let rules = self.rules();
-        let test = match rules.max_ratio {
-            1.0 => "Without the ratio test".to_owned(),
-            ratio => format!("With τ = {}", format_number(f64::from(ratio), 2)),
-        };
-        let mutual = match rules.is_mutual {
-            true => " and the mutual check",
-            false => "",
+        let ratio = format_number(f64::from(rules.max_ratio), 2);
+        let rule = match (rules.max_ratio == 1.0, rules.is_mutual) {
+            (true, false) => "Without the ratio test".to_owned(),
+            (true, true) => "Without the ratio test, but with the mutual check".to_owned(),
+            (false, false) => format!("With τ = {ratio}"),
+            (false, true) => format!("With τ = {ratio} and the mutual check"),
         };
         let verdict = kept_or_not(rules.keep(found));
         format!(
-            "{test}{mutual}, {} matches are kept and {} of them are right: precision {} %, recall {} %. \
+            "{rule}, {} matches are kept and {} of them are right: precision {}%, recall {}%. \
              The feature at the probe has its two nearest at the distances {} and {}, a ratio of {}: \
              {verdict}.",
             tally.num_kept,

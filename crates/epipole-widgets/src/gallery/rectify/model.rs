@@ -245,9 +245,9 @@ const CHALLENGES: &[Challenge<Rectify>] = &[
         id: "enough",
         goal: "Leave camera 2 turned by 6° or more, do not follow the baseline, and place the camera so that \
                making both parallel brings every match within 1 px of its row.",
-        hint: "Half-way between the two headings must be square to the baseline.",
+        hint: "Halfway between the two headings must be square to the baseline.",
         why: "If the mean heading is already square to the baseline, there is nothing left to turn together: \
-              two eyes that converge on a thing straight ahead stand like that.",
+              two eyes that converge on an object straight ahead stand like that.",
         check: |model| {
             let worst_px = model.state().map_or(f64::INFINITY, State::worst_px);
             model.way().along == 0.0 && model.settings.number(&TURN) >= 6.0 && worst_px <= 1.0

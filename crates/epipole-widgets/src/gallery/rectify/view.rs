@@ -17,6 +17,8 @@ use nalgebra::{Matrix3, Point2};
 const MARKER: f64 = 4.5;
 /// Color of the selected match.
 const LIT: Role = Role::Series(3);
+/// The line of the chosen match.
+const LINE: Role = Role::Series(2);
 /// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.42;
 
@@ -151,15 +153,17 @@ fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canva
         });
         let Some(line) = line else { continue };
         let stroke = match chosen == Some(number) {
-            true => Stroke::solid(LIT, 2.5).cased(),
+            true => Stroke::solid(LINE, 2.5).cased(),
             false => Stroke::solid(CAMERAS[index].0, 1.25).cased(),
         };
         draw_line(canvas, panel, &line, stroke);
     }
     for (number, shown) in state.matches.iter().enumerate() {
-        let (place, is_chosen) = (at(&shown.pixels[index]), chosen == Some(number));
-        let role = if is_chosen { LIT } else { CAMERAS[index].0 };
-        let size = if is_chosen { MARKER + 1.5 } else { MARKER };
+        let (place, role) = (at(&shown.pixels[index]), CAMERAS[index].0);
+        let size = match chosen == Some(number) {
+            true => MARKER + 2.5,
+            false => MARKER,
+        };
         match index == 0 || shown.is_seen {
             true => canvas.marker(place, size, CAMERAS[index].1, role, true),
             false => canvas.hollow_marker(place, size, CAMERAS[index].1, role, true),

@@ -34,7 +34,7 @@ impl Words for Rectify {
         let mut words = match (self.is_rectified(), apart < 0.05) {
             (true, _) => format!(
                 "The pair is rectified: both cameras look the same way, square to the baseline, and every \
-                 match is in one row. The photographs fill {} % of the smaller frame.",
+                 match is in one row. The photographs fill {}% of the smaller frame.",
                 format_number(100.0 * state.turned.valid_share(), 0)
             ),
             (false, true) => format!(

@@ -16,7 +16,7 @@ fn times(scale: f64) -> String {
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     format!(
-        "{} %",
+        "{}%",
         format_number(value, if value < 9.95 { 1 } else { 0 })
     )
 }
@@ -77,7 +77,7 @@ impl Words for ScaleDrift {
         let who = match self.is_metric() {
             true => "A stereo rig".to_owned(),
             false => format!(
-                "One camera, whose scale drifts by {} % a step,",
+                "One camera, whose scale drifts by {}% a step,",
                 format_number(self.drift_percent(), 1)
             ),
         };

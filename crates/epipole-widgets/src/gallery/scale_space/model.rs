@@ -130,7 +130,7 @@ impl Model for ScaleSpace {
 const CHALLENGES: &[Challenge<ScaleSpace>] = &[
     Challenge {
         id: "peak",
-        goal: "Set σ to the size of what is under the probe, within 5 %.",
+        goal: "Set σ to the size of what is under the probe, within 5%.",
         hint: "Where is the curve farthest from zero?",
         why: "The difference is strongest where the blur has the size of the thing, so the photograph itself \
               says how large the window must be.",

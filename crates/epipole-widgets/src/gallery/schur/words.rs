@@ -21,8 +21,8 @@ impl Words for Schur {
         let blocks = &self.blocks;
         let [cameras, points] = blocks.unknowns();
         format!(
-            "{} cameras and {} points, each seen by {}: {} unknowns, and {} % of their matrix is not zero. With the \
-             points eliminated {} unknowns are left, which takes {} times less work; {} % of the blocks among cameras \
+            "{} cameras and {} points, each seen by {}: {} unknowns, and {}% of their matrix is not zero. With the \
+             points eliminated {} unknowns are left, which takes {} times less work; {}% of the blocks among cameras \
              are not zero.",
             blocks.num_cameras,
             blocks.num_points(),

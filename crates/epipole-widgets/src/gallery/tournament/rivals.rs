@@ -37,7 +37,7 @@ const MATCH_SIGMA_PX: f64 = 0.5;
 const NUM_POINTS: usize = 60;
 /// Maximum number of samples per rival.
 const MAX_SAMPLES: usize = 500;
-/// Tuning constant of Huber's loss, in standard deviations, for 95 % efficiency.
+/// Tuning constant of Huber's loss, in standard deviations, for 95% efficiency.
 const HUBER: f64 = 1.345;
 
 /// Success of each rival.
@@ -160,7 +160,7 @@ mod tests {
                 *count += usize::from(success);
             }
         }
-        // Least squares fails; every voting rival succeeds in at least 95 % of the runs.
+        // Least squares fails; every voting rival succeeds in at least 95% of the runs.
         assert!(wins[0] < 50, "{wins:?}");
         assert!(wins[3..].iter().all(|&count| count >= 950), "{wins:?}");
     }

@@ -20,8 +20,8 @@ const HEIGHT: f64 = 380.0;
 pub(crate) struct TournamentView;
 
 fn rulers() -> [Ruler; 2] {
-    let ratio = Ruler::linear(-0.02, 0.82).shown(100.0, " %");
-    let share = Ruler::linear(-0.03, 1.03).shown(100.0, " %");
+    let ratio = Ruler::linear(-0.02, 0.82).shown(100.0, "%");
+    let share = Ruler::linear(-0.03, 1.03).shown(100.0, "%");
     [ratio.named("outliers among the data"), share]
 }
 

@@ -35,7 +35,7 @@ impl Words for Tournament {
         }
         let share = |rival: usize| {
             let share = 100.0 * self.share(rival, index).unwrap_or(0.0);
-            format!("{} {} %", RIVALS[rival].1, format_number(share, 0))
+            format!("{} {}%", RIVALS[rival].1, format_number(share, 0))
         };
         let shares: Vec<String> = (0..NUM_RIVALS).map(share).collect();
         let thing = match self.subject() {

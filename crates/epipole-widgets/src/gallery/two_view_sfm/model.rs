@@ -277,11 +277,12 @@ impl Model for TwoViewSfm {
     }
 
     fn file(&self) -> Option<FileOffer> {
-        (self.stage() >= Stage::Cloud).then(|| FileOffer {
+        // Offered from the start: a button that comes later would move the toolbar.
+        Some(FileOffer {
             label: "Save points",
             hint: "Save the points in color as a PLY file, which MeshLab, CloudCompare and Blender open",
             extension: "ply",
-            is_ready: self.cloud().is_some(),
+            is_ready: self.stage() >= Stage::Cloud && self.cloud().is_some(),
         })
     }
 
@@ -337,7 +338,7 @@ const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
     },
     Challenge {
         id: "purer",
-        goal: "Make 95 % of the matches inliers, and leave ε as it is.",
+        goal: "Make 95% of the matches inliers, and leave ε as it is.",
         hint: "Accept fewer matches, and only clear ones.",
         why: "The ratio test drops features that look like several others, and those are where the \
               wrong matches come from.",

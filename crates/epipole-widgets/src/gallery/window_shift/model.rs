@@ -161,7 +161,7 @@ const CHALLENGES: &[Challenge<WindowShift>] = &[
     Challenge {
         id: "misled",
         goal: "On the corner, find a shift where Taylor is off by a factor of four.",
-        hint: "The estimate is a bowl that never ends. Does the picture go on for ever?",
+        hint: "The estimate is a bowl that never ends. Does the picture go on forever?",
         why: "The structure tensor knows slopes at one place only, so its estimate holds for small \
               shifts and fails for large ones.",
         check: |model| {

@@ -177,8 +177,8 @@ mod tests {
             texts(&Ruler::linear(-0.3, 0.3), 3.0),
             ["−0.2", "0.0", "0.2"]
         );
-        let shares = Ruler::linear(0.1, 0.9).shown(100.0, " %");
-        assert_eq!(texts(&shares, 5.0), ["20 %", "40 %", "60 %", "80 %"]);
+        let shares = Ruler::linear(0.1, 0.9).shown(100.0, "%");
+        assert_eq!(texts(&shares, 5.0), ["20%", "40%", "60%", "80%"]);
     }
 
     #[test]

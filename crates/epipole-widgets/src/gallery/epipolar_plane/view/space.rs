@@ -1,10 +1,11 @@
 //! The space view: cameras with their photographs, the still life as a cloud, and the plane.
 
-use super::style::{LIT, stroke};
+use super::style::{LINE, LIT, stroke};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Model, Panel};
 use crate::gallery::epipolar_plane::model::{EpipolarPlane, Lit, SUBJECT};
 use crate::gallery::epipolar_plane::scenery::{Plane, Scenery};
+use crate::kit::pair::CAMERAS;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, in_picture, still_life};
 use crate::kit::space::{Space, draw_handles};
 use crate::theme::{Rgb, Role};
@@ -28,10 +29,6 @@ const CLOUD: (u32, u32) = (84, 63);
 const CLOUD_SEEN: [[f64; 3]; 3] = [[0.0, -0.95, -1.1], [0.03, -0.12, 0.0], [0.0, -1.0, 0.0]];
 /// Maximum z of the cloud, meters, which leaves out the walls.
 const CLOUD_END_Z_M: f64 = 0.62;
-const CAMERAS: [(Role, Shape); 2] = [
-    (Role::Series(0), Shape::Disk),
-    (Role::Series(2), Shape::Square),
-];
 
 /// Returns the still life as colored points, seen from above to avoid occlusions.
 pub(super) fn cloud() -> Vec<(Point3<f64>, Rgb)> {
@@ -95,7 +92,7 @@ pub(super) fn draw_space(
                 &scenery.point,
                 Stroke::solid(role, if is_lit { 2.5 } else { 1.5 }),
             );
-            space.marker(&image, if is_lit { 5.5 } else { 4.0 }, Shape::Disk, LIT);
+            space.marker(&image, if is_lit { 5.5 } else { 4.0 }, shape, role);
             space.label(&image, ["p", "p′"][index], Role::Ink);
         }
         if let Some([from, to]) = scenery.lines()[index].and_then(|line| across(&line)) {
@@ -104,7 +101,7 @@ pub(super) fn draw_space(
             space.line(
                 &ends[0],
                 &ends[1],
-                Stroke::solid(LIT, if is_lit { 3.0 } else { 1.5 }),
+                Stroke::solid(LINE, if is_lit { 3.0 } else { 1.5 }),
             );
         }
     }

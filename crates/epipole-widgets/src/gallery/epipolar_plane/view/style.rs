@@ -3,6 +3,9 @@
 use crate::canvas::Stroke;
 use crate::theme::Role;
 
+/// Color of epipolar lines.
+pub(super) const LINE: Role = Role::Series(2);
+
 /// Color of what is lit up.
 pub(super) const LIT: Role = Role::Series(3);
 
