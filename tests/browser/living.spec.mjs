@@ -65,6 +65,15 @@ test.describe("choosing", () => {
     await expectAccessible(page);
   });
 
+  test("choosing photographs of one's own opens their inputs", async ({ page, open }) => {
+    const figure = await open(page, ["harris"]);
+    const inputs = figure.locator("#photos");
+    await expect(inputs).toBeHidden();
+    await figure.getByText("Your photograph", { exact: true }).first().click();
+    await expect(inputs).toBeVisible();
+    await expect(figure.getByRole("button", { name: "Photographs" })).toHaveAttribute("aria-expanded", "true");
+  });
+
   test("unknown names are told, in the figure and on the console, and the known ones shown", async ({ page, open }) => {
     const warnings = [];
     page.on("console", (message) => message.type() === "warning" && warnings.push(message.text()));

@@ -5,6 +5,10 @@
  */
 export type Snapshot = { layout: Layout, aspect: Aspect, controls: Array<Control>, handles: Array<Handle>, spaces: Array<Space>, symbols: Array<PlacedSymbol>, readouts: Array<Readout>, challenges: Array<Challenge>, description: string, running: boolean, photos: Array<PhotoSlot>, 
 /**
+ * Photographs of the reader's own have still to be chosen.
+ */
+wants_photos: boolean, 
+/**
  * File that can be saved besides the picture.
  */
 file: FileOffer | null, 

@@ -60,6 +60,8 @@ export class Shell {
   #marked: ReturnType<typeof setTimeout> | undefined;
   /** Whether the figure waits for a computation. */
   #waiting = false;
+  /** The figure is to show photographs that have still to be chosen. */
+  #wantsPhotos = false;
 
   constructor(acts: Acts, choice: Choice) {
     this.#choice = choice;
@@ -183,6 +185,8 @@ export class Shell {
     this.picture.update(snapshot);
     this.photos.update(snapshot.photos);
     if (this.photos.offered) this.#toolbar.offerPhotos(this.photos.element);
+    if (snapshot.wants_photos && !this.#wantsPhotos) this.#toolbar.openPhotos(this.photos.element, true);
+    this.#wantsPhotos = snapshot.wants_photos;
     this.#toolbar.offerFile(snapshot.file);
     this.jobs.follow(snapshot.waiting);
     this.#waiting = snapshot.waiting !== null;

@@ -23,6 +23,8 @@ pub struct Snapshot {
     description: String,
     running: bool,
     photos: &'static [PhotoSlot],
+    /// Photographs of the reader's own have still to be chosen.
+    wants_photos: bool,
     /// File that can be saved besides the picture.
     file: Option<FileOffer>,
     /// Status while the figure waits for a long computation.
@@ -62,6 +64,7 @@ impl Snapshot {
             description: figure.describe(),
             running: figure.is_running(),
             photos: figure.photo_slots(),
+            wants_photos: figure.wants_photos(),
             file: figure.file(),
             waiting: figure.job().map(|job| job.label()),
             layout,

@@ -78,6 +78,11 @@ pub trait Model {
         }
     }
 
+    /// Returns whether it is to show photographs of the reader's own that have still to be chosen.
+    fn wants_photos(&self) -> bool {
+        false
+    }
+
     /// Takes the reader's own photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of
     /// the permalink.
     ///

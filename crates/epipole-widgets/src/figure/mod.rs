@@ -179,6 +179,11 @@ impl Figure {
         self.stage.photo_slots()
     }
 
+    /// Returns whether photographs of the reader's own have still to be chosen.
+    pub fn wants_photos(&self) -> bool {
+        self.stage.model().wants_photos()
+    }
+
     /// Puts the reader's own photograph into a slot.
     ///
     /// # Errors

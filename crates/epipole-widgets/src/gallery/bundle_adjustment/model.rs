@@ -234,6 +234,7 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
             let states = model.states();
             model.mark_off_px() >= 60.0
                 && model.is_finished()
+                && !model.asked.is_waiting()
                 && states.is_some_and(|[_, now]| now.off < 0.005)
         },
         solution: || {
@@ -253,6 +254,7 @@ const CHALLENGES: &[Challenge<BundleAdjustment>] = &[
             let states = model.states();
             model.is_robust()
                 && model.is_finished()
+                && !model.asked.is_waiting()
                 && model.mark_off_px() < 60.0
                 && model.settings.number(&DISTURBANCE) <= DISTURBANCE.default
                 && states.is_some_and(|[_, now]| now.off >= 0.05)

@@ -196,6 +196,10 @@ impl Model for Harris {
         Some(&mut self.asked)
     }
 
+    fn wants_photos(&self) -> bool {
+        self.settings.chosen(&SOURCE) == OWN && self.own.get(0).is_none()
+    }
+
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         self.settings.choose(&SOURCE, OWN);

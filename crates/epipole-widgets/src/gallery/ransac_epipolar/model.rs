@@ -323,6 +323,10 @@ impl Model for RansacEpipolar {
         }
     }
 
+    fn wants_photos(&self) -> bool {
+        self.settings.chosen(&SOURCE) == OWN && self.own.all().is_none()
+    }
+
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         self.settings.choose(&SOURCE, OWN);

@@ -32,8 +32,10 @@ const KNOBS: &[Knob] = knobs![
     OUTLIERS, EPSILON, MSAC, LOCAL, COUNT, SEED, ITERATIONS, PHASE
 ];
 
-/// Pace of the animation, slow enough to follow the votes.
+/// Pace of the animation: slow enough to follow the votes at first, then faster with each sample.
 const SAMPLES_PER_SECOND: f64 = 0.7;
+const FASTER: f64 = 1.25;
+const MOST_PER_SECOND: f64 = 15.0;
 
 /// The model of `ransac-line`.
 pub(crate) struct RansacLine {
@@ -42,6 +44,8 @@ pub(crate) struct RansacLine {
     tally: Result<Tally, String>,
     pub(super) asked: Asked<Question>,
     running: Running,
+    /// Samples drawn when it last began to run.
+    run_from: usize,
 }
 
 impl RansacLine {
@@ -72,6 +76,20 @@ impl RansacLine {
     pub(super) fn error_deg(&self) -> Option<f64> {
         let best = self.tally.as_ref().ok()?.best.as_ref()?;
         Some(angle_between_deg(&best.line, &self.scattered.truth))
+    }
+
+    /// Returns whether the loop has ended and its last sample has been shown.
+    pub(super) fn is_decided(&self) -> bool {
+        self.drawn().1 && self.phase() >= 1.0
+    }
+
+    fn samples_per_second(&self) -> f64 {
+        let since = self.drawn().0.saturating_sub(self.run_from + 1);
+        let pace = (0..since).try_fold(SAMPLES_PER_SECOND, |pace, _| {
+            let pace = pace * FASTER;
+            (pace < MOST_PER_SECOND).then_some(pace)
+        });
+        pace.unwrap_or(MOST_PER_SECOND)
     }
 
     fn drawn(&self) -> (usize, bool) {
@@ -125,6 +143,7 @@ impl Declared for RansacLine {
             tally: Err(String::new()),
             asked: Asked::default(),
             running: Running::at(SAMPLES_PER_SECOND),
+            run_from: 0,
         };
         model.compute();
         model
@@ -149,7 +168,7 @@ impl Model for RansacLine {
         let (drawn, is_finished) = self.drawn();
         match event {
             Event::Tick { dt_s } => {
-                let phase = (self.phase() + dt_s * SAMPLES_PER_SECOND).min(1.0);
+                let phase = (self.phase() + dt_s * self.samples_per_second()).min(1.0);
                 if phase < 1.0 {
                     self.settings.slide(&PHASE, phase);
                 } else if self.running.is_running() && !is_finished {
@@ -164,7 +183,10 @@ impl Model for RansacLine {
                 let from = next.unwrap_or(drawn);
                 match self.running.is_running() && !was_running {
                     // The first sample starts at once.
-                    true => self.run_to(from + 1, 0.0),
+                    true => {
+                        self.run_from = from;
+                        self.run_to(from + 1, 0.0);
+                    }
                     // Stepping and stopping show the sample complete, without its animation.
                     false => self.run_to(from, 1.0),
                 }
@@ -292,5 +314,21 @@ mod tests {
         assert_eq!((model.drawn().0, model.phase()), (drawn + 3, 1.0));
         model.update(&Event::press("restart")).unwrap();
         assert_eq!((model.drawn().0, model.is_running()), (0, false));
+    }
+
+    #[test]
+    fn a_long_run_ends_in_less_than_twenty_seconds() {
+        let mut model = RansacLine::new();
+        model.update(&Event::set(&OUTLIERS, 0.8)).unwrap();
+        model.update(&Event::press("restart")).unwrap();
+        model.update(&Event::press("run")).unwrap();
+        let mut seconds = 0.0;
+        while model.is_running() {
+            assert!(!model.is_decided());
+            model.update(&Event::Tick { dt_s: 0.05 }).unwrap();
+            seconds += 0.05;
+        }
+        assert!(model.is_decided() && model.drawn().0 > 60);
+        assert!(seconds > 5.0 && seconds < 20.0, "{seconds} s");
     }
 }

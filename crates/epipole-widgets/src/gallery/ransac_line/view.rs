@@ -90,10 +90,16 @@ impl View for RansacLineView {
 
     fn draw(&mut self, model: &RansacLine, layout: &Layout, canvas: &mut Canvas) {
         let plane = layout.panel("plane");
-        let titles = [
-            "Two points, the band around their line, and who is in it",
-            "Two points, a band, votes",
-        ];
+        let titles = match model.is_decided() {
+            true => [
+                "The best line, its band, and who is in it",
+                "The best line, its voters",
+            ],
+            false => [
+                "Two points, the band around their line, and who is in it",
+                "Two points, a band, votes",
+            ],
+        };
         grid::open(canvas, plane, &titles);
         let votes = ["Votes for each sample", "Votes"];
         let tally = plot::open(canvas, layout, "tally", &votes, &tally_rulers(model));
@@ -146,7 +152,12 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
         let text = format!("{num_in_region} of {} outliers", scattered.num_outliers);
         canvas.label((region_rect.x, row), &text, style);
     }
-    let candidate = tally.candidate.as_ref();
+    // At the end the winner and its voters are shown, not the last sample.
+    let is_decided = model.is_decided();
+    let candidate = match is_decided {
+        true => tally.best.as_ref(),
+        false => tally.candidate.as_ref(),
+    };
     if let Some(candidate) = candidate {
         let width_px = model.epsilon_px() * eased(phase, 0.1, BANDED);
         if width_px > 0.0 {
@@ -154,7 +165,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
         }
     }
     draw_line(canvas, panel, &scattered.truth, TRUTH);
-    if let Some(candidate) = candidate {
+    if let Some(candidate) = candidate.filter(|_| !is_decided) {
         draw_line(canvas, panel, &candidate.line, CANDIDATE);
     }
     // The best so far is known once the votes are counted.
@@ -171,7 +182,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
             radius,
             banded.map(|line| line.is_inlier[index]),
         );
-        if tally.sample().contains(&index) {
+        if !is_decided && tally.sample().contains(&index) {
             canvas.circle(place, radius + 5.0, Stroke::solid(Role::Candidate, 3.0));
         }
     }

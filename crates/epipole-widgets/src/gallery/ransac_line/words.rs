@@ -51,6 +51,17 @@ impl Words for RansacLine {
         let runs = near.map_or_else(String::new, |near| {
             format!(" Of {NUM_RUNS} runs on other points, {near} end within 1°.")
         });
+        if self.is_decided() {
+            return format!(
+                "After {} samples the best line has the votes of {} of {count} points, which lie within {} px \
+                 of it, and is {}° from the hidden one. {}{runs}",
+                tally.samples.count(),
+                best.num_votes(),
+                format_number(self.epsilon_px(), 0),
+                format_number(self.error_deg().unwrap_or(0.0), 1),
+                tally.samples.drawn().outlook(),
+            );
+        }
         format!(
             "Sample {}: {} of {count} points lie within {} px of its line and vote for it. The best line so \
              far has {} votes and is {}° from the hidden one. {}{runs}",

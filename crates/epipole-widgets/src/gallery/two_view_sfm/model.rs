@@ -291,11 +291,16 @@ impl Model for TwoViewSfm {
             .map_or_else(Vec::new, |cloud| write_ply(&cloud))
     }
 
+    fn wants_photos(&self) -> bool {
+        self.is_own() && self.own.all().is_none()
+    }
+
     fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         self.own.take(slot, photo)?;
         if !self.is_own() {
             // The focal length of rendered photographs is known; that of others is only guessed.
             self.settings.slide(&FOCAL, USUAL_FOCAL);
+            self.settings.slide(&KNOCK, 0.0);
             self.focal_from = FocalFrom::Guess;
             self.settings.choose(&PAIR, OWN);
         }
@@ -318,7 +323,8 @@ const CHALLENGES: &[Challenge<TwoViewSfm>] = &[
         why: "Two photographs taken side by side hold the plan of the table, which neither of them \
               shows.",
         check: |model| {
-            let has_cloud = model.answer().is_some_and(|answer| answer.motion.is_some());
+            let has_cloud =
+                !model.is_own() && model.answer().is_some_and(|answer| answer.motion.is_some());
             has_cloud && model.stage() >= Stage::Cloud && model.orbit.rise_deg() > 60.0
         },
         solution: || vec![Event::moved(SPACE.orbit, 0.0, 75.0)],
