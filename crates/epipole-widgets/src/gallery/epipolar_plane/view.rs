@@ -17,6 +17,7 @@ use crate::kit::orbit::Orbit;
 use crate::kit::pair::{CAMERAS, Photos, border_arrow, draw_epipole, draw_line};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, in_picture};
 use crate::theme::{Rgb, Role};
+use epipole::math::Line2;
 use nalgebra::{Point2, Point3};
 
 /// Rows of photograph 1 whose lines are drawn to show that all pass through the epipole.
@@ -136,11 +137,19 @@ fn draw_pencil(
     }
 }
 
+/// The epipolar lines; none where only the images of P are explained.
+fn lines(scenery: &Scenery, lit: Lit) -> [Option<Line2>; 2] {
+    match lit {
+        Lit::Point => [None, None],
+        _ => scenery.lines(),
+    }
+}
+
 fn draw_first(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: &mut Canvas) {
     let lit = model.lit();
     draw_pencil(model, scenery, 0, panel, canvas);
     let mut labels = Labels::new(panel.rect);
-    if let Some(line) = &scenery.lines()[0] {
+    if let Some(line) = &lines(scenery, lit)[0] {
         let is_lit = matches!(lit, Lit::Line | Lit::Plane);
         let (from, to) = draw_line(canvas, panel, line, line_stroke(is_lit).cased());
         labels.keep_line_free(from, to);
@@ -161,7 +170,7 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
     let lit = model.lit();
     draw_pencil(model, scenery, 1, panel, canvas);
     let mut labels = Labels::new(panel.rect);
-    if let Some(line) = &scenery.lines()[1] {
+    if let Some(line) = &lines(scenery, lit)[1] {
         let is_lit = matches!(lit, Lit::Line | Lit::Plane);
         let (from, to) = draw_line(canvas, panel, line, line_stroke(is_lit).cased());
         labels.keep_line_free(from, to);

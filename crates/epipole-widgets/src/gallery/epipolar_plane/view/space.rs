@@ -1,5 +1,6 @@
 //! The space view: cameras with their photographs, the still life as a cloud, and the plane.
 
+use super::lines;
 use super::style::{LINE, LIT, stroke};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Model, Panel};
@@ -75,7 +76,7 @@ pub(super) fn draw_space(
         space.dot(point, 2.4, *color);
     }
     let [one, two] = scenery.cameras.map(|camera| camera.center_in_world());
-    if let Some(plane) = &scenery.plane {
+    if let Some(plane) = scenery.plane.as_ref().filter(|_| lit != Lit::Point) {
         draw_plane(&mut space, scenery, plane, lit == Lit::Plane);
     }
     space.line(&one, &two, stroke(lit == Lit::Baseline));
@@ -95,7 +96,7 @@ pub(super) fn draw_space(
             space.marker(&image, if is_lit { 5.5 } else { 4.0 }, shape, role);
             space.label(&image, ["p", "p′"][index], Role::Ink);
         }
-        if let Some([from, to]) = scenery.lines()[index].and_then(|line| across(&line)) {
+        if let Some([from, to]) = lines(scenery, lit)[index].and_then(|line| across(&line)) {
             let ends = [from, to].map(|pixel| space.on_picture(camera, &pixel, PICTURE_M));
             let is_lit = matches!(lit, Lit::Line | Lit::Plane);
             space.line(
