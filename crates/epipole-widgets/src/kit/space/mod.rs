@@ -81,6 +81,11 @@ impl<'a> Space<'a> {
         self.lens.eye.cam_from_world * point
     }
 
+    /// Returns the CSS pixels per scene unit, across the view at the center of the scene.
+    pub(crate) fn scale(&self) -> f64 {
+        self.lens.eye.camera.intrinsics.fu_px() / self.lens.distance
+    }
+
     /// Projects a point; returns its position and depth, `None` behind the reader.
     pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(Place, f64)> {
         self.lens.shown(&self.in_eye(point))

@@ -1,8 +1,8 @@
 //! Beside the region: where the estimates appear in the photographs, or how the uncertainty grows.
 
-use super::style::{METHOD_ROLE, REGION, SHAPES};
+use super::style::{METHOD_ROLE, REGION, SHAPES, draw_bar};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
-use crate::contract::{Layout, Panel, Rect, format_number};
+use crate::contract::{Layout, Panel, Rect};
 use crate::gallery::triangulate::estimates::{Estimates, METHODS};
 use crate::gallery::triangulate::model::{Show, Triangulate};
 use crate::gallery::triangulate::uncertainty::{ANGLES_DEG, DISTANCES};
@@ -53,8 +53,11 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     } else {
         grid::stack(cell, [1.0; 2])
     };
+    // One scale for both, since their distances are compared.
+    let half_px = estimates.map_or(LEAST_PX, |estimates| {
+        half_px(estimates, 0).max(half_px(estimates, 1))
+    });
     let patch = |(camera, rect): (usize, Rect)| {
-        let half_px = estimates.map_or(LEAST_PX, |estimates| half_px(estimates, camera));
         let per_px = 0.5 * rect.width.min(rect.height) / half_px;
         let around = |length: f64| [-0.5 * length / per_px, 0.5 * length / per_px];
         Panel::new(
@@ -159,34 +162,8 @@ fn draw_patch(estimates: &Estimates, camera: usize, panel: &Panel, canvas: &mut 
             labels.draw(canvas, &places, RAYS[1 - camera], style);
         }
     });
-    draw_scale(panel, foot.is_some_and(|foot| foot.y > 0.0), canvas);
-}
-
-/// A bar of a round number of pixels, above or below.
-fn draw_scale(panel: &Panel, is_above: bool, canvas: &mut Canvas) {
-    let wanted = 0.5 * panel.x_axis.end;
-    let power = libm::exp10(libm::floor(libm::log10(wanted)));
-    let round = [5.0, 2.0, 1.0].into_iter().find(|n| n * power <= wanted);
-    let px = round.unwrap_or(1.0) * power;
-    let digits = if px < 1.0 { 1 } else { 0 };
-    let y = if is_above {
-        panel.rect.y + 23.0
-    } else {
-        panel.rect.bottom() - 8.0
-    };
-    let place = (panel.rect.x + 8.0, y);
-    let end = (place.0 + px * panel.scale_x(), place.1);
-    canvas.line(place, end, Stroke::solid(Role::Ink, 2.0));
-    let style = TextStyle::new(Role::Ink, SMALL).cased();
-    let style = TextStyle {
-        align: Align::Start,
-        ..style
-    };
-    canvas.label(
-        (place.0, place.1 - 11.0),
-        &format!("{} px", format_number(px, digits)),
-        style,
-    );
+    let is_above = foot.is_some_and(|foot| foot.y > 0.0);
+    draw_bar(canvas, panel.rect, (panel.scale_x(), "px"), is_above);
 }
 
 /// Draws the growth of the uncertainty, and the current position.

@@ -1,6 +1,6 @@
 //! The surroundings of the point, enlarged: both rays, all estimates, and the repeated estimates.
 
-use super::style::{METHOD_ROLE, REGION, SHAPES};
+use super::style::{METHOD_ROLE, REGION, SHAPES, draw_bar};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::Panel;
 use crate::gallery::triangulate::estimates::Estimates;
@@ -43,7 +43,9 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
             space.marker(point, 5.0, shape, METHOD_ROLE);
         }
     }
+    let per_cm = 0.01 * space.scale();
     space.draw(canvas, panel);
+    draw_bar(canvas, panel.rect, (per_cm, "cm"), false);
     draw_handles(canvas, panel, &model.orbit);
 }
 
