@@ -43,7 +43,7 @@ pub struct Options {
     pub notebooks: Option<PathBuf>,
     /// Folder with the manual of the Python package, which becomes a part of the site.
     pub manual: Option<PathBuf>,
-    /// For `serve`: pages reload themselves, and files are compressed fast rather than well.
+    /// For `serve`: pages reload themselves, and files are not compressed.
     pub live: bool,
 }
 
@@ -160,7 +160,9 @@ fn build_beside(
         };
         book.add(options, &assets, &mut files)
     })?;
-    phases.run("compress", 0, |_| compress::add(&mut files, options.live))?;
+    if !options.live {
+        phases.run("compress", 0, |_| compress::add(&mut files))?;
+    }
     let report = Outcome::Built {
         pages: pages.len(),
         files: files.len(),

@@ -3,8 +3,10 @@
 //! `web/prerender.mjs`; all figures of the book are rendered in one run.
 
 use super::page::PanelRequest;
-use crate::tools::Tools;
+use crate::hash::fnv;
+use crate::tools::{Tools, newest};
 use anyhow::{Context, Result, bail};
+use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -13,6 +15,15 @@ use std::process::{Command, Stdio};
 pub(crate) const STYLES: &str = "{{figure.css}}";
 
 const SCRIPT: &str = "web/prerender.mjs";
+/// The elements' code, which decides the answer as the requests do.
+const SOURCES: [&str; 3] = [SCRIPT, "web/src", "web/package-lock.json"];
+
+/// The last answer of the script, with a hash of all that it depends on.
+#[derive(Serialize, Deserialize)]
+struct Panels {
+    key: u64,
+    panels: Vec<String>,
+}
 
 /// Whether the project can make panels.
 pub(crate) fn are_made(project: &Path) -> bool {
@@ -28,6 +39,25 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
         return Ok(Vec::new());
     }
     let tools = Tools::find(project)?;
+    let asked = serde_json::to_vec(requests)?;
+    let sources = SOURCES.map(|source| newest(&project.join(source)));
+    let sources = sources.into_iter().collect::<Result<Vec<_>>>()?;
+    let key = fnv(&[&asked[..], format!("{sources:?}").as_bytes()].concat());
+    let cached = tools.work.join("panels.json");
+    let kept = std::fs::read(&cached).ok();
+    let kept: Option<Panels> = kept.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    if let Some(Panels { panels, .. }) = kept.filter(|kept| kept.key == key) {
+        return Ok(panels);
+    }
+    let panels = ask(&tools, asked, requests.len())?;
+    let answer = Panels { key, panels };
+    std::fs::write(&cached, serde_json::to_vec(&answer)?)
+        .with_context(|| format!("cannot write {}", cached.display()))?;
+    Ok(answer.panels)
+}
+
+/// Has the script render the panels of `count` requests.
+fn ask(tools: &Tools, asked: Vec<u8>, count: usize) -> Result<Vec<String>> {
     let mut child = Command::new("node")
         .arg(SCRIPT)
         .current_dir(&tools.project)
@@ -36,7 +66,6 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
         .stderr(Stdio::piped())
         .spawn()
         .context("node cannot be started: is it installed?")?;
-    let asked = serde_json::to_vec(requests)?;
     let input = child.stdin.take();
     let writer = std::thread::spawn(move || input.map(|mut input| input.write_all(&asked)));
     let output = child.wait_with_output()?;
@@ -50,12 +79,8 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
     }
     let panels: Vec<String> = serde_json::from_slice(&output.stdout)
         .with_context(|| format!("{SCRIPT} answered something else than a list of texts"))?;
-    if panels.len() != requests.len() {
-        bail!(
-            "{SCRIPT} answered {} of {} figures",
-            panels.len(),
-            requests.len()
-        );
+    if panels.len() != count {
+        bail!("{SCRIPT} answered {} of {count} figures", panels.len());
     }
     Ok(panels)
 }

@@ -19,19 +19,19 @@ const TEXTUAL: &[&str] = &[
     "xml",
 ];
 
-/// Adds the compressed copies. `fast` trades size for time.
+/// Adds the compressed copies.
 ///
 /// # Errors
 /// Only if the compressors fail, which they do not on memory.
-pub fn add(files: &mut BTreeMap<String, Vec<u8>>, fast: bool) -> Result<()> {
+pub fn add(files: &mut BTreeMap<String, Vec<u8>>) -> Result<()> {
     let compressed: Vec<(String, Vec<u8>)> = files
         .par_iter()
         .filter(|(path, bytes)| {
             bytes.len() > 256 && TEXTUAL.iter().any(|end| path.ends_with(&format!(".{end}")))
         })
         .map(|(path, bytes)| {
-            let brotli = (format!("{path}.br"), brotli(bytes, fast)?);
-            let gzip = (format!("{path}.gz"), gzip(bytes, fast)?);
+            let brotli = (format!("{path}.br"), brotli(bytes)?);
+            let gzip = (format!("{path}.gz"), gzip(bytes)?);
             Ok([brotli, gzip])
         })
         .collect::<Result<Vec<_>>>()?
@@ -46,10 +46,9 @@ pub fn add(files: &mut BTreeMap<String, Vec<u8>>, fast: bool) -> Result<()> {
 ///
 /// # Errors
 /// As [`add`].
-pub fn brotli(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
+pub fn brotli(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut compressed = Vec::new();
-    let quality = if fast { 4 } else { 11 };
-    let mut writer = brotli::CompressorWriter::new(&mut compressed, 1 << 16, quality, 22);
+    let mut writer = brotli::CompressorWriter::new(&mut compressed, 1 << 16, 11, 22);
     writer.write_all(bytes)?;
     drop(writer);
     Ok(compressed)
@@ -59,13 +58,8 @@ pub fn brotli(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// As [`add`].
-pub fn gzip(bytes: &[u8], fast: bool) -> Result<Vec<u8>> {
-    let level = if fast {
-        flate2::Compression::fast()
-    } else {
-        flate2::Compression::best()
-    };
-    let mut writer = flate2::write::GzEncoder::new(Vec::new(), level);
+pub fn gzip(bytes: &[u8]) -> Result<Vec<u8>> {
+    let mut writer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     writer.write_all(bytes)?;
     Ok(writer.finish()?)
 }

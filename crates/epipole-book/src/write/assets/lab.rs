@@ -20,7 +20,7 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let vision = wasm::build(&tools, "epipole-lab", "vision-worker")?;
     let files = wasm::build(&tools, "epipole-lab", "files-worker")?;
     let mut assets = Assets::default();
-    let sample = compress::gzip(&solved(&tools)?, false)?;
+    let sample = compress::gzip(&solved(&tools)?)?;
     let sample = add_hashed(&mut assets.files, "sample", "bin", sample);
     let (css, script) = scripts::add_lab(&tools, [&page, &vision, &files], &sample, &mut assets)?;
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
@@ -33,7 +33,7 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     assets
         .files
         .insert("index.html".to_owned(), html.into_bytes());
-    compress::add(&mut assets.files, false)?;
+    compress::add(&mut assets.files)?;
     let folder = site.join(LAB_FOLDER);
     let next = site.join("lab.next");
     for old in [&next, &folder] {

@@ -29,52 +29,91 @@ pub(crate) struct Modules {
     pub(super) parts: PathBuf,
 }
 
+/// Features of `epipole-web`: the figures, and their computations.
+const FIGURES: [&str; 2] = ["figures", "jobs"];
+/// Features of `epipole-js`: the parts of the npm package of the core, a module each.
+const PARTS: [&str; 4] = ["homography", "geometry", "images", "all"];
+
+/// Everything that every module is made from, below the project.
+const SOURCES: [&str; 5] = [
+    ".cargo",
+    "Cargo.lock",
+    "Cargo.toml",
+    "crates/epipole",
+    "crates/epipole-book/src/write/assets",
+];
+/// Crates of the figures' modules besides.
+const OF_FIGURES: [&str; 4] = [
+    "crates/epipole-canvas",
+    "crates/epipole-scenes",
+    "crates/epipole-web",
+    "crates/epipole-widgets",
+];
+/// Crates of the package's modules besides.
+const OF_PARTS: [&str; 2] = ["crates/epipole-js", "crates/epipole-schema"];
+
 /// Builds the modules of the book.
 pub(super) fn make(tools: &Tools) -> Result<Modules> {
+    make_all(tools, "epipole-web", &FIGURES, &OF_FIGURES)?;
+    let [figures, jobs] = FIGURES.map(|feature| load(tools, "epipole-web", feature));
     Ok(Modules {
-        figures: build(tools, "epipole-web", "figures")?,
-        jobs: build(tools, "epipole-web", "jobs")?,
+        figures: figures?,
+        jobs: jobs?,
         parts: make_parts(&tools.project)?,
     })
 }
 
-/// Features of `epipole-js`: the parts of the npm package of the core, a module each.
-const PARTS: &[&str] = &["homography", "geometry", "images", "all"];
-
-/// Everything that the modules of the npm package are made from, below the project.
-const SOURCES_OF_PARTS: &[&str] = &[
-    "Cargo.lock",
-    "Cargo.toml",
-    "crates/epipole",
-    "crates/epipole-js",
-    "crates/epipole-schema",
-    "crates/epipole-book/src/write/assets",
-];
-
-/// Builds the modules of the npm package of the core, unless they are newer than their sources:
-/// cargo links a part anew after each of the others. Returns their folder.
+/// Builds the modules of the npm package of the core. Returns their folder.
 ///
 /// # Errors
 /// A tool that is missing or fails, named with the remedy.
 pub fn make_parts(project: &Path) -> Result<PathBuf> {
     let tools = Tools::find(project)?;
-    let folder = bindings(&tools);
-    let made = PARTS.iter().map(|part| {
-        let module = folder.join(format!("epipole_js_{part}_bg.wasm"));
-        std::fs::metadata(module)?.modified()
-    });
+    make_all(&tools, "epipole-js", &PARTS, &OF_PARTS)?;
+    Ok(bindings(&tools))
+}
+
+/// Builds the modules of a package, unless all are newer than their sources: cargo takes seconds to
+/// find that out, and links a module anew after another one of the same package.
+fn make_all(tools: &Tools, package: &str, features: &[&str], crates: &[&str]) -> Result<()> {
+    let made = features
+        .iter()
+        .map(|feature| std::fs::metadata(path(tools, package, feature))?.modified());
     let oldest = made.collect::<std::io::Result<Vec<_>>>().ok();
     let oldest = oldest.and_then(|times| times.into_iter().min());
-    let newest = SOURCES_OF_PARTS
-        .iter()
-        .map(|source| newest(&project.join(source)))
+    let sources = SOURCES.iter().chain(crates);
+    let newest = sources
+        .map(|source| newest(&tools.project.join(source)))
         .collect::<Result<Vec<_>>>()?;
     if oldest < newest.into_iter().max() {
-        for part in PARTS {
-            build(&tools, "epipole-js", part)?;
+        for feature in features {
+            build(tools, package, feature)?;
         }
     }
-    Ok(folder)
+    Ok(())
+}
+
+/// Path of a finished module.
+fn path(tools: &Tools, package: &str, feature: &str) -> PathBuf {
+    let name = name(package, feature);
+    bindings(tools).join(format!("{name}_bg.wasm"))
+}
+
+/// Name of a module and its script.
+fn name(package: &str, feature: &str) -> String {
+    match package {
+        "epipole-web" => format!("epipole_{feature}"),
+        other => format!("{other}_{feature}").replace('-', "_"),
+    }
+}
+
+/// Reads a finished module.
+fn load(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
+    let glue = bindings(tools).join(format!("{}.js", name(package, feature)));
+    Ok(Module {
+        wasm: read(&path(tools, package, feature))?,
+        glue,
+    })
 }
 
 /// Folder of the finished modules and their scripts.
@@ -192,27 +231,19 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         package.replace('-', "_")
     );
     let built = target.join(file);
-    let folder = bindings(tools);
-    let name = match package {
-        "epipole-web" => format!("epipole_{feature}"),
-        other => format!("{other}_{feature}").replace('-', "_"),
-    };
     Bindgen::new()
         .input_path(&built)
-        .out_name(&name)
+        .out_name(&name(package, feature))
         .web(true)?
         .omit_default_module_path(true)
         .remove_name_section(true)
         .remove_producers_section(true)
-        .generate(&folder)
+        .generate(bindings(tools))
         .context("wasm-bindgen failed")?;
-    let path = folder.join(format!("{name}_bg.wasm"));
+    let path = path(tools, package, feature);
     let wasm = likeness::ordered(&read(&path)?)?;
     std::fs::write(&path, &wasm).with_context(|| format!("cannot write {}", path.display()))?;
-    Ok(Module {
-        wasm,
-        glue: folder.join(format!("{name}.js")),
-    })
+    load(tools, package, feature)
 }
 
 #[cfg(test)]
