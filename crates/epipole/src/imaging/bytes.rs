@@ -63,58 +63,90 @@ fn filter(image: &GrayImage, kernel: &[i32], border: Border) -> GrayImage {
     if width == 0 || height == 0 {
         return image.clone();
     }
-    let radius = kernel.len() / 2;
-    let outside = f64::from(border.constant()).round().clamp(0.0, 255.0) as i32;
-    let mut padded = vec![0i32; width + 2 * radius];
-    let mut ring = vec![0i32; kernel.len() * width];
-    let mut sums = vec![0i32; width];
-    let mut values = Vec::with_capacity(image.as_raw().len());
-    for y in 0..height as isize {
-        let newest = y + radius as isize;
+    let size = kernel.len();
+    let radius = size / 2;
+    let outside = f64::from(border.constant()).round().clamp(0.0, 255.0) as u8;
+    let mut padded = vec![0u8; width + 2 * radius];
+    let mut ring = vec![0i32; size * width];
+    let mut values = vec![0u8; width * height];
+    for (y, out) in values.chunks_exact_mut(width).enumerate() {
+        let newest = (y + radius) as isize;
         let first = if y == 0 { -(radius as isize) } else { newest };
         for row in first..=newest {
             match border.index(row, height) {
                 None => padded.fill(outside),
                 Some(m) => {
                     let source = &image.as_raw()[m * width..(m + 1) * width];
-                    for (x, value) in padded.iter_mut().enumerate().take(radius) {
-                        let index = border.index(x as isize - radius as isize, width);
-                        *value = index.map_or(outside, |x| i32::from(source[x]));
-                    }
-                    for (value, &byte) in padded[radius..].iter_mut().zip(source) {
-                        *value = i32::from(byte);
-                    }
+                    let beyond = |x: isize| border.index(x, width).map_or(outside, |x| source[x]);
                     for x in 0..radius {
-                        let index = border.index((width + x) as isize, width);
-                        padded[radius + width + x] =
-                            index.map_or(outside, |x| i32::from(source[x]));
+                        padded[x] = beyond(x as isize - radius as isize);
+                        padded[radius + width + x] = beyond((width + x) as isize);
                     }
+                    padded[radius..radius + width].copy_from_slice(source);
                 }
             }
-            let slot = (row + radius as isize) as usize % kernel.len();
-            let out = &mut ring[slot * width..(slot + 1) * width];
-            out.fill(0);
-            for (k, &w) in kernel.iter().enumerate().filter(|(_, w)| **w != 0) {
-                add(w, &padded[k..k + width], out);
-            }
+            let slot = (row + radius as isize) as usize % size;
+            along(kernel, &padded, &mut ring[slot * width..(slot + 1) * width]);
         }
-        sums.fill(0);
-        for (k, &w) in kernel.iter().enumerate().filter(|(_, w)| **w != 0) {
-            let slot = (y as usize + k) % kernel.len();
-            add(w, &ring[slot * width..(slot + 1) * width], &mut sums);
-        }
-        values.extend((sums.iter()).map(|sum| ((sum + (1 << 15)) >> 16).min(255) as u8));
+        across(kernel, &ring, y % size, out);
     }
     GrayImage::from_raw(image.width(), image.height(), values)
         .expect("one value was computed for each pixel")
 }
 
+/// Pixels whose sums are computed at once, in registers.
+const LANES: usize = 16;
+
 dispatched! {
-    fn add(weight: i32, values: &[i32], sums: &mut [i32]) {
-        for (sum, value) in sums.iter_mut().zip(values) {
-            *sum += weight * value;
+    fn along(kernel: &[i32], padded: &[u8], sums: &mut [i32]) {
+        let mut x = 0;
+        while x + LANES <= sums.len() {
+            let values = weighted::<LANES, _>(kernel, |k| &padded[x + k..], i32::from);
+            sums[x..x + LANES].copy_from_slice(&values);
+            x += LANES;
+        }
+        for x in x..sums.len() {
+            sums[x] = weighted::<1, _>(kernel, |k| &padded[x + k..], i32::from)[0];
         }
     }
+}
+
+dispatched! {
+    /// `oldest`: the row of the ring that the first weight belongs to.
+    fn across(kernel: &[i32], ring: &[i32], oldest: usize, out: &mut [u8]) {
+        let (width, size) = (out.len(), kernel.len());
+        let row = |k: usize| {
+            let slot = oldest + k - if oldest + k < size { 0 } else { size };
+            &ring[slot * width..(slot + 1) * width]
+        };
+        let byte = |sum: i32| ((sum + (1 << 15)) >> 16).min(255) as u8;
+        let mut x = 0;
+        while x + LANES <= width {
+            let values = weighted::<LANES, _>(kernel, |k| &row(k)[x..], |sum| sum);
+            out[x..x + LANES].copy_from_slice(&values.map(byte));
+            x += LANES;
+        }
+        for x in x..width {
+            out[x] = byte(weighted::<1, _>(kernel, |k| &row(k)[x..], |sum| sum)[0]);
+        }
+    }
+}
+
+/// Weighted sums of the first values of as many slices as there are weights.
+#[inline(always)]
+fn weighted<'a, const L: usize, T: Copy + 'a>(
+    kernel: &[i32],
+    values: impl Fn(usize) -> &'a [T],
+    number: impl Fn(T) -> i32,
+) -> [i32; L] {
+    let mut sums = [0; L];
+    for (k, &weight) in kernel.iter().enumerate() {
+        let values = &values(k)[..L];
+        for i in 0..L {
+            sums[i] += weight * number(values[i]);
+        }
+    }
+    sums
 }
 
 #[cfg(test)]

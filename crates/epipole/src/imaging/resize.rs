@@ -52,25 +52,46 @@ pub fn resize(image: &GrayImage32, width: u32, height: u32) -> Result<GrayImage3
     // Rows are combined first: they are contiguous, so that loop runs in vectors.
     let mut row = vec![0.0f32; w];
     for (first, weights) in &rows {
-        row.fill(0.0);
-        for (k, weight) in weights.iter().enumerate() {
-            let source = &image.as_raw()[(first + k) * w..(first + k + 1) * w];
-            add(*weight, source, &mut row);
-        }
+        combine(weights, &image.as_raw()[first * w..], &mut row);
         values.extend(columns.iter().map(|(first, weights)| {
             let covered = &row[*first..first + weights.len()];
-            weights.iter().zip(covered).map(|(w, v)| w * v).sum::<f32>()
+            match (weights.as_slice(), covered) {
+                ([a, b, c], [u, v, w]) => a * u + b * v + c * w,
+                _ => weights.iter().zip(covered).map(|(w, v)| w * v).sum::<f32>(),
+            }
         }));
     }
     Ok(from_vec(width, height, values))
 }
 
+/// Columns whose sums are computed at once, in registers.
+const LANES: usize = 32;
+
 dispatched! {
-    fn add(weight: f32, values: &[f32], sums: &mut [f32]) {
-        for (sum, value) in sums.iter_mut().zip(values) {
-            *sum += weight * value;
+    /// The weighted sum of as many rows as there are weights.
+    fn combine(weights: &[f32], rows: &[f32], sums: &mut [f32]) {
+        let width = sums.len();
+        let mut x = 0;
+        while x + LANES <= width {
+            sums[x..x + LANES].copy_from_slice(&weighted::<LANES>(weights, &rows[x..], width));
+            x += LANES;
+        }
+        for x in x..width {
+            sums[x] = weighted::<1>(weights, &rows[x..], width)[0];
         }
     }
+}
+
+#[inline(always)]
+fn weighted<const L: usize>(weights: &[f32], rows: &[f32], width: usize) -> [f32; L] {
+    let mut sums = [0.0; L];
+    for (k, weight) in weights.iter().enumerate() {
+        let values = &rows[k * width..k * width + L];
+        for i in 0..L {
+            sums[i] += weight * values[i];
+        }
+    }
+    sums
 }
 
 /// For each new sample, the first old one that it uses and the weights of that and the next ones.

@@ -1,6 +1,7 @@
 //! FAST corners: nine neighbors in a row on a circle, all brighter or all darker.
 
 use crate::feature::Keypoint;
+use crate::feature::nms::strongest_first;
 use crate::math::simd::dispatched;
 use image::GrayImage;
 use std::cmp::Ordering;
@@ -41,15 +42,53 @@ const CIRCLE_AT: [(usize, usize); 16] = {
 /// Neighbors in a row that make a corner.
 const ARC: usize = 9;
 
-/// Corners at least `margin` (≥ 5) pixels inside, the strongest of each 3×3 pixels, with the Harris
-/// measure as their response.
-pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Keypoint> {
+/// The `limit` (≥ 1) strongest corners at least `margin` (≥ 5) pixels inside, in order, each the
+/// best of its 3×3 pixels, with the Harris measure as their response.
+pub(super) fn corners(
+    image: &GrayImage,
+    threshold: u8,
+    margin: usize,
+    limit: usize,
+) -> Vec<Keypoint> {
+    let mut found = whole_corners(image, threshold, margin);
+    if found.len() > limit {
+        // Those as strong as the last stay until their places, which order them, are refined.
+        let strength = |a: &Corner, b: &Corner| b.response.total_cmp(&a.response);
+        let last = found.select_nth_unstable_by(limit - 1, strength).1.response;
+        found.retain(|corner| corner.response.total_cmp(&last).is_ge());
+    }
+    let mut found: Vec<Keypoint> = found.iter().map(|corner| refined(image, corner)).collect();
+    strongest_first(&mut found);
+    found.truncate(limit);
+    found
+}
+
+/// A corner at a whole pixel.
+struct Corner {
+    x: usize,
+    y: usize,
+    response: f32,
+}
+
+/// The corner at the peak of its and its neighbors' scores.
+fn refined(image: &GrayImage, corner: &Corner) -> Keypoint {
+    let width = image.width() as isize;
+    let offsets = CIRCLE.map(|(x, y)| y * width + x);
+    let center = corner.y as isize * width + corner.x as isize;
+    let at = |offset: isize| f64::from(score(image.as_raw(), (center + offset) as usize, &offsets));
+    let here = at(0);
+    let u = corner.x as f64 + vertex(at(-1), here, at(1));
+    let v = corner.y as f64 + vertex(at(-width), here, at(width));
+    Keypoint::at(u, v, corner.response)
+}
+
+/// The corners in reading order.
+fn whole_corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Corner> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width <= 2 * margin || height <= 2 * margin {
         return Vec::new();
     }
     let values = image.as_raw();
-    let offsets = CIRCLE.map(|(x, y)| y * width as isize + x);
     // Scores of three rows; 0 is no corner.
     let mut scores = [vec![0u8; width], vec![0u8; width], vec![0u8; width]];
     let mut found = Vec::new();
@@ -62,39 +101,34 @@ pub(super) fn corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Ke
         }
         let y = y - 1;
         let rows = [&scores[(y + 2) % 3], &scores[y % 3], &scores[(y + 1) % 3]];
-        for x in margin..width - margin {
-            let here = rows[1][x];
-            if here == 0 {
+        for (block, scores) in rows[1][margin..width - margin].chunks(LANES).enumerate() {
+            if scores.iter().fold(0, |any, score| any | score) == 0 {
                 continue;
             }
-            let others = || {
-                (0..9)
-                    .filter(|&k| k != 4)
-                    .map(|k| (k, rows[k / 3][x + k % 3 - 1]))
-            };
-            // Equal scores are common: Harris' measure decides, then reading order.
-            let strength = |k: usize| harris(values, width, x + k % 3 - 1, y + k / 3 - 1);
-            let first = |k: usize| match strength(k).total_cmp(&strength(4)) {
-                Ordering::Greater => true,
-                Ordering::Equal => k < 4,
-                Ordering::Less => false,
-            };
-            let beaten = others().any(|(_, other)| other > here)
-                || others().any(|(k, other)| other == here && first(k));
-            if !beaten {
-                let at = |dx: isize, dy: isize| {
-                    let known = rows[(1 + dy) as usize][(x as isize + dx) as usize];
-                    if known > 0 {
-                        return f64::from(known);
+            for (i, &here) in scores.iter().enumerate().filter(|(_, score)| **score > 0) {
+                let x = margin + block * LANES + i;
+                // Equal scores are common: Harris' measure decides, then reading order.
+                let (mut beaten, mut equal) = (false, [false; 9]);
+                for k in (0..9).filter(|&k| k != 4) {
+                    let other = rows[k / 3][x + k % 3 - 1];
+                    beaten |= other > here;
+                    equal[k] = other == here;
+                }
+                if beaten {
+                    continue;
+                }
+                let response = harris(values, width, x, y);
+                let first = |k: usize| {
+                    let other = harris(values, width, x + k % 3 - 1, y + k / 3 - 1);
+                    match other.total_cmp(&response) {
+                        Ordering::Greater => true,
+                        Ordering::Equal => k < 4,
+                        Ordering::Less => false,
                     }
-                    let center = (y as isize + dy) * width as isize + x as isize + dx;
-                    f64::from(score(values, center as usize, &offsets))
                 };
-                let (left, right) = (at(-1, 0), at(1, 0));
-                let (above, below) = (at(0, -1), at(0, 1));
-                let u = x as f64 + vertex(left, f64::from(here), right);
-                let v = y as f64 + vertex(above, f64::from(here), below);
-                found.push(Keypoint::at(u, v, harris(values, width, x, y)));
+                if !(0..9).any(|k| equal[k] && first(k)) {
+                    found.push(Corner { x, y, response });
+                }
             }
         }
     }
@@ -225,30 +259,34 @@ fn score(values: &[u8], center: usize, offsets: &[isize; 16]) -> i16 {
     bright.max(dark)
 }
 
-/// Harris' measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
-fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
-    // Each product is at most 1020², and 49 of them do not overflow.
-    let (mut a, mut b, mut c) = (0i32, 0i32, 0i32);
-    for row in y - 3..=y + 3 {
-        let nine = |row: usize| -> [i32; 9] {
-            let values = pixels::<9>(values, row * width + x - 4);
-            values.map(i32::from)
-        };
-        let (above, here, below) = (nine(row - 1), nine(row), nine(row + 1));
-        let smooth: [i32; 9] = std::array::from_fn(|k| above[k] + 2 * here[k] + below[k]);
-        let slope: [i32; 9] = std::array::from_fn(|k| below[k] - above[k]);
-        for k in 1..8 {
-            let du = smooth[k + 1] - smooth[k - 1];
-            let dv = slope[k - 1] + 2 * slope[k] + slope[k + 1];
-            a += du * du;
-            b += du * dv;
-            c += dv * dv;
+dispatched! {
+    /// Harris' measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
+    fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
+        // Sums by column, of which the eighth is left out at the end: vectors have eight numbers.
+        // Each product is at most 1020², and 49 of them do not overflow.
+        let (mut a, mut b, mut c) = ([0i32; 8], [0i32; 8], [0i32; 8]);
+        let ten = |row: usize| pixels::<10>(values, row * width + x - 4).map(i16::from);
+        let mut nine_rows = [[0i16; 10]; 9];
+        for (k, row) in nine_rows.iter_mut().enumerate() {
+            *row = ten(y + k - 4);
         }
+        for three in nine_rows.windows(3) {
+            let (above, here, below) = (&three[0], &three[1], &three[2]);
+            for k in 0..8 {
+                let smooth = |k: usize| above[k] + 2 * here[k] + below[k];
+                let slope = |k: usize| below[k] - above[k];
+                let du = i32::from(smooth(k + 2) - smooth(k));
+                let dv = i32::from(slope(k) + 2 * slope(k + 1) + slope(k + 2));
+                a[k] += du * du;
+                b[k] += du * dv;
+                c[k] += dv * dv;
+            }
+        }
+        // Sobel's gain of 8 and the 49 pixels are divided out.
+        let scale = 1.0 / (255.0 * 255.0 * 64.0 * 49.0);
+        let [a, b, c] = [a, b, c].map(|sums| f64::from(sums[..7].iter().sum::<i32>()) * scale);
+        (a * c - b * b - 0.04 * (a + c) * (a + c)) as f32
     }
-    // Sobel's gain of 8 and the 49 pixels are divided out.
-    let scale = 1.0 / (255.0 * 255.0 * 64.0 * 49.0);
-    let [a, b, c] = [a, b, c].map(|sum| f64::from(sum) * scale);
-    (a * c - b * b - 0.04 * (a + c) * (a + c)) as f32
 }
 
 #[cfg(test)]
@@ -280,7 +318,7 @@ mod tests {
         }
         assert_eq!(all, list("fast_all.npy"));
         // OpenCV drops both of two equal neighbors, we keep one.
-        let ours: Vec<(usize, usize)> = corners(&image, 15, 5)
+        let ours: Vec<(usize, usize)> = corners(&image, 15, 5, usize::MAX)
             .iter()
             .map(|k| (k.u.round() as usize, k.v.round() as usize))
             .collect();

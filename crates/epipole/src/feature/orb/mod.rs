@@ -4,7 +4,6 @@ mod fast;
 mod pattern;
 
 use super::keypoint::Keypoint;
-use super::nms::strongest_first;
 use super::{Descriptors, Features};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
 use crate::math::parallel;
@@ -140,9 +139,7 @@ fn describe_level(
         gray_to_u8(&resize(image, width, height)?)
     };
     let threshold = (options.fast_threshold * 255.0).round() as u8;
-    let mut corners = fast::corners(&pixels, threshold, MARGIN as usize);
-    strongest_first(&mut corners);
-    corners.truncate(quota);
+    let corners = fast::corners(&pixels, threshold, MARGIN as usize, quota);
     let blurred = gaussian_blur_u8(&pixels, Some(7), 2.0, Border::Reflect101)?;
     let (step_u, step_v) = (
         f64::from(image.width()) / f64::from(width),

@@ -73,17 +73,32 @@ dispatched! {
     }
 }
 
-/// `f32::round` of a small number: the nearest whole one, halves away from zero.
+/// Added to a float of small size, it leaves the nearest whole number in the lowest bits.
+const WHOLE: f32 = 12_582_912.0;
+
+/// `f32::round` of a small number: the nearest whole one, halves away from zero. Unlike `as`, which
+/// saturates, it runs in vectors.
 #[inline(always)]
 fn nearest(x: f32) -> i32 {
-    let whole = x as i32;
-    let rest = x - whole as f32;
-    whole + i32::from(rest >= 0.5) - i32::from(rest <= -0.5)
+    let shifted = x + WHOLE;
+    let whole = shifted.to_bits() as i32 - WHOLE.to_bits() as i32;
+    let rest = x - (shifted - WHOLE);
+    whole + i32::from((rest >= 0.5) & (x > 0.0)) - i32::from((rest <= -0.5) & (x < 0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn halves_round_away_from_zero() {
+        for k in -3000..=3000 {
+            let x = k as f32 / 128.0;
+            for x in [x, x.next_up(), x.next_down()] {
+                assert_eq!(nearest(x), x.round() as i32, "{x}");
+            }
+        }
+    }
 
     #[test]
     fn the_pattern_is_pinned() {
