@@ -101,7 +101,10 @@ async function violations([rules, within]) {
   return violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
 }
 
-/** Expects no violations from axe; with `colors`, checks only the rules about colors, and only `within` a selector. */
+/**
+ * Expects no violations from axe, `within` a selector or anywhere; with `colors`, checks only the
+ * rules about colors.
+ */
 export async function expectAccessible(page, { colors = false, within } = {}) {
   for (const frame of page.frames()) {
     if (!(await frame.evaluate(() => "axe" in window))) await frame.evaluate(axe);

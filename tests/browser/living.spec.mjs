@@ -209,7 +209,7 @@ test.describe("gliding", () => {
     const solved = () => figure.evaluate((element) => element.goals.filter(({ solved }) => solved).map(({ id }) => id));
     expect(await solved()).toEqual([]);
     await expect(figure.locator(".goal-line")).not.toHaveAttribute("data-solved", "");
-    // Where the page takes it is not reached either.
+    // Goals that the page reaches do not count, either.
     for (const brighter of [50, 0, 60, 0]) {
       await figure.evaluate((element, value) => element.apply({ brighter: value }), brighter);
       await settled(figure);

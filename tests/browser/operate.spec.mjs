@@ -35,7 +35,7 @@ test("words in a sentence take a figure where they say, by mouse and by key, and
 /** Screens on which a sentence and the picture that it moves are seen together. */
 const SCREENS = [{ width: 1280, height: 720 }, { width: 390, height: 844 }];
 
-/** Whether all of the words are on the screen and uncovered, and so is the picture. Runs in the page. */
+/** Whether words and picture are on the screen, and the words uncovered. Runs in the page. */
 function together(words) {
   const figure = document.getElementById(words.dataset.figure);
   const picture = figure.querySelector("epipole-figure").shadowRoot.querySelector(".sheet").getBoundingClientRect();

@@ -76,7 +76,7 @@ mod tests {
             ("a.html".to_owned(), text.clone()),
             ("a.webp".to_owned(), text.clone()),
         ]);
-        add(&mut files, false).unwrap();
+        add(&mut files).unwrap();
         assert_eq!(
             files.keys().collect::<Vec<_>>(),
             ["a.html", "a.html.br", "a.html.gz", "a.webp"]

@@ -5,7 +5,7 @@ mod space;
 mod style;
 
 use self::space::{cloud, draw_space};
-use self::style::{LINE, LIT};
+use self::style::{LINE, LIT, lines};
 use super::model::{EpipolarPlane, Lit, SPACE_ASPECT};
 use super::scenery::Scenery;
 use super::words::{NO_BASELINE, ON_BASELINE};
@@ -17,7 +17,6 @@ use crate::kit::orbit::Orbit;
 use crate::kit::pair::{CAMERAS, Photos, border_arrow, draw_epipole, draw_line};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, in_picture};
 use crate::theme::{Rgb, Role};
-use epipole::math::Line2;
 use nalgebra::{Point2, Point3};
 
 /// Rows of photograph 1 whose lines are drawn to show that all pass through the epipole.
@@ -134,14 +133,6 @@ fn draw_pencil(
         if let Some(line) = line {
             draw_line(canvas, panel, &line, Stroke::solid(LINE, 1.0).cased());
         }
-    }
-}
-
-/// The epipolar lines; none where only the images of P are explained.
-fn lines(scenery: &Scenery, lit: Lit) -> [Option<Line2>; 2] {
-    match lit {
-        Lit::Point => [None, None],
-        _ => scenery.lines(),
     }
 }
 

@@ -1,5 +1,5 @@
-//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near. Points hide
-//! lines, which are dashed there.
+//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near. Points
+//! hide lines, which are dashed there.
 //!
 //! Coordinates are as in the chapters and in camera 1: x right, y **down**, z forward.
 

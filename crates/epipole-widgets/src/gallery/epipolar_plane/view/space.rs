@@ -1,7 +1,6 @@
 //! The space view: cameras with their photographs, the still life as a cloud, and the plane.
 
-use super::lines;
-use super::style::{LINE, LIT, stroke};
+use super::style::{LINE, LIT, lines, stroke};
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Model, Panel};
 use crate::gallery::epipolar_plane::model::{EpipolarPlane, Lit, SUBJECT};

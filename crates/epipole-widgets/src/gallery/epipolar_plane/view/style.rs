@@ -1,7 +1,10 @@
-//! Color and lines of what is lit up.
+//! Colors and lines of what is lit up.
 
 use crate::canvas::Stroke;
+use crate::gallery::epipolar_plane::model::Lit;
+use crate::gallery::epipolar_plane::scenery::Scenery;
 use crate::theme::Role;
+use epipole::math::Line2;
 
 /// Color of epipolar lines.
 pub(super) const LINE: Role = Role::Series(2);
@@ -15,5 +18,13 @@ pub(super) fn stroke(is_lit: bool) -> Stroke {
         Stroke::solid(LIT, 3.0)
     } else {
         Stroke::solid(Role::Ink, 1.5)
+    }
+}
+
+/// The epipolar lines; none where only the images of P are explained.
+pub(super) fn lines(scenery: &Scenery, lit: Lit) -> [Option<Line2>; 2] {
+    match lit {
+        Lit::Point => [None, None],
+        _ => scenery.lines(),
     }
 }
