@@ -15,17 +15,20 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// Reads a folder as a model; a file as a model, cameras or a trajectory, whichever fits first.
+    /// Reads a folder as a model, and a file, or standard input for `-`, as the first that fits of a
+/// model, cameras and a trajectory.
     ///
     /// # Errors
     /// A sentence that names the path and why it is none of them.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let of_model = match model::read(path) {
+        if path.is_dir() {
+            return model::read(path).map(Self::Model);
+        }
+        let bytes = files::read_bytes(path)?;
+        let of_model = match model::of_file(path, &bytes) {
             Ok(read) => return Ok(Self::Model(read)),
-            Err(failure) if path.is_dir() || failure.kind == "read" => return Err(failure),
             Err(failure) => failure,
         };
-        let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
         let of_cameras = match read_cameras(&bytes, None) {
             Ok((format, cameras)) => return Ok(Self::Cameras(format, cameras)),
             Err(error) => error,

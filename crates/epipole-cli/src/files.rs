@@ -10,9 +10,22 @@ use std::path::Path;
 /// # Errors
 /// If standard output is closed.
 pub(crate) fn print(text: &str) -> io::Result<()> {
+    print_bytes(format!("{text}\n").as_bytes())
+}
+
+/// Prints the content of a file on standard output.
+///
+/// # Errors
+/// If standard output is closed.
+pub(crate) fn print_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    writeln!(out, "{text}")?;
+    out.write_all(bytes)?;
     out.flush()
+}
+
+/// Whether a path is `-`: standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 /// Writes a file aside and then renames it, so that a reader never sees half of it. A link stays
@@ -41,15 +54,14 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         })
 }
 
-/// Reads a file of text, without the byte order mark that some editors put at its start.
+/// Reads a file of text, or standard input where the path is `-`, without the byte order mark that
+/// some editors put at its start.
 ///
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
-        io::ErrorKind::InvalidData => Failure::new("read", "this is not a text file").about(path),
-        _ => unreadable(path, &error),
-    })?;
+    let text = String::from_utf8(read_bytes(path)?)
+        .map_err(|_| Failure::new("read", "this is not a text file").about(path))?;
     Ok(match text.strip_prefix('\u{feff}') {
         Some(rest) => rest.to_owned(),
         None => text,
@@ -61,7 +73,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    if path == Path::new("-") {
+    if is_standard(path) {
         let mut bytes = Vec::new();
         let read = io::stdin().lock().read_to_end(&mut bytes);
         return match read {

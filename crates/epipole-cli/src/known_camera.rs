@@ -25,7 +25,7 @@ const MOST_UNSEEN: f64 = 0.75;
 pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
     let share = lens::unseen_share(camera);
     let sentence = format!(
-        "the lens of --camera bends no ray to {:.0} % of its photographs: its model folds before it reaches there",
+        "the lens of --camera bends no ray to {:.0}% of its photographs: its model folds before it reaches there",
         100.0 * share
     );
     if share > MOST_UNSEEN {

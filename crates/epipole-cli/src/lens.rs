@@ -125,7 +125,7 @@ fn no_right(path: &Path) -> Failure {
 }
 
 fn read_all(path: &Path, size: Option<(u32, u32)>) -> Result<Cameras, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
+    let bytes = files::read_bytes(path)?;
     let read = read_cameras(&bytes, size);
     let (_, cameras) = read.map_err(|error| Failure::from(error).about(path))?;
     Ok(cameras)

@@ -123,13 +123,19 @@ fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
     pool.map_err(|error| Failure::new("threads", format!("the threads cannot be started: {error}")))
 }
 
-fn print_report(report: Report, time_ms: f64, json: bool) -> ExitCode {
-    let text = if json {
-        report.into_json(time_ms)
-    } else {
-        report.into_table(time_ms)
+fn print_report(mut report: Report, time_ms: f64, json: bool) -> ExitCode {
+    let printed = match (report.take_output(), json) {
+        (None, true) => files::print(&report.into_json(time_ms)),
+        (None, false) => files::print(&report.into_table(time_ms)),
+        (Some(output), false) => files::print_bytes(&output),
+        (Some(_), true) => {
+            let message = "--json and an output - are both for standard output: give one of them";
+            let failure = Failure::usage(message);
+            print_failure(&failure, true);
+            return failure.exit_code();
+        }
     };
-    match files::print(&text) {
+    match printed {
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::FAILURE,
     }

@@ -37,21 +37,17 @@ pub(crate) fn points_with_pixels(path: &Path) -> Result<PixelsAndPoints, Failure
     read(path, read_points_with_pixels)
 }
 
-/// Writes matches, with the distance of their descriptors and its ratio to the second nearest; with
-/// commas if the name ends in `.csv`.
-///
-/// # Errors
-/// A sentence that names the file.
-pub(crate) fn write(
+/// Text of matches, with the distance of their descriptors and its ratio to the second nearest.
+/// Columns have commas between them if the name of its file ends in `.csv`.
+pub(crate) fn text(
     path: &Path,
     pixels: [&[Point2<f64>]; 2],
     distances_and_ratios: &[[f32; 2]],
-) -> Result<(), Failure> {
+) -> String {
     let is_csv = (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let layout = match is_csv {
         true => MatchLayout::Csv,
         false => MatchLayout::Text,
     };
-    let text = write_matches(layout, pixels, distances_and_ratios);
-    files::write(path, text.as_bytes())
+    write_matches(layout, pixels, distances_and_ratios)
 }

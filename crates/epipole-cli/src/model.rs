@@ -22,19 +22,27 @@ fn beside(folder: &Path, name: &str) -> Option<Vec<u8>> {
 /// # Errors
 /// A sentence that names the path, if there is no model or it is wrong.
 pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
-    let about = |error: epipole_io::Error| Failure::from(error).about(path);
-    if path.is_dir() {
-        for folder in FOLDERS {
-            let folder = path.join(folder);
-            let found = read_model_folder(&|name| beside(&folder, name)).map_err(about)?;
-            if let Some(read) = found {
-                return Ok(read);
-            }
-        }
-        let message = "there is no model in this folder: neither cameras.txt, cameras.bin, \
-                       transforms.json, sfm_data.json, bundle.out nor points.ply";
-        return Err(Failure::new("read", message).about(path));
+    if !path.is_dir() {
+        return of_file(path, &files::read_bytes(path)?);
     }
+    for folder in FOLDERS {
+        let folder = path.join(folder);
+        let found = read_model_folder(&|name| beside(&folder, name));
+        if let Some(read) = found.map_err(|error| Failure::from(error).about(path))? {
+            return Ok(read);
+        }
+    }
+    let message = "there is no model in this folder: neither cameras.txt, cameras.bin, \
+                   transforms.json, sfm_data.json, bundle.out nor points.ply";
+    Err(Failure::new("read", message).about(path))
+}
+
+/// Reads the model of a file and of those that it names.
+///
+/// # Errors
+/// A sentence that names the path.
+pub(crate) fn of_file(path: &Path, bytes: &[u8]) -> Result<ReadModel, Failure> {
+    let about = |error: epipole_io::Error| Failure::from(error).about(path);
     let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     if let Some((stem, ending @ ("txt" | "bin"))) = name.rsplit_once('.')
@@ -48,6 +56,5 @@ pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
             return Ok(read);
         }
     }
-    let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
-    read_model_file(&name, &bytes, &|name| beside(&folder, name)).map_err(about)
+    read_model_file(&name, bytes, &|name| beside(&folder, name)).map_err(about)
 }

@@ -17,7 +17,7 @@ impl Progress {
         if context.quiet {
             return Self(ProgressBar::hidden());
         }
-        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent} %");
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}%");
         let bar = ProgressBar::new(STEPS).with_message(label.to_owned());
         // The template is a constant; a bar without it is still a bar.
         if let Ok(style) = style {

@@ -1,13 +1,18 @@
 //! Result of a command: fields for scripts, a table for people.
 
+use crate::failure::Failure;
+use crate::files;
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::path::Path;
 
 /// The result of a command.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     fields: Map<String, Value>,
     rows: Vec<(String, String)>,
+    /// Content of an output `-`.
+    output: Option<Vec<u8>>,
 }
 
 impl Report {
@@ -23,6 +28,23 @@ impl Report {
     pub(crate) fn row(mut self, label: &str, value: impl ToString) -> Self {
         self.rows.push((label.to_owned(), value.to_string()));
         self
+    }
+
+    /// Writes an output file. An output `-` is printed in place of the table.
+    ///
+    /// # Errors
+    /// As [`files::write`].
+    pub(crate) fn file(mut self, path: &Path, bytes: Vec<u8>) -> Result<Self, Failure> {
+        match files::is_standard(path) {
+            true => self.output = Some(bytes),
+            false => files::write(path, &bytes)?,
+        }
+        Ok(self)
+    }
+
+    /// Content of an output `-`.
+    pub(crate) fn take_output(&mut self) -> Option<Vec<u8>> {
+        self.output.take()
     }
 
     /// One JSON object.

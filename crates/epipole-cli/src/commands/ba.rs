@@ -63,10 +63,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
         Err(error) => return Err(cannot_begin(error, &arguments.problem)),
     };
+    let mut report = Report::default();
     if let Some(path) = &arguments.output {
-        files::write(path, write_bal(&problem).as_bytes())?;
+        report = report.file(path, write_bal(&problem).into_bytes())?;
     }
-    Ok(Report::default()
+    Ok(report
         .field("initial_cost", outcome.initial_cost)
         .field("final_cost", outcome.final_cost)
         .field("iterations", outcome.iterations)

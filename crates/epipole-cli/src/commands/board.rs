@@ -23,7 +23,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole board --kind charuco --size 7x5 --square-mm 30 --marker-mm 22 -o board.pdf\n\n\
-    Print at 100 %, without \"fit to page\": the ruler below the board must be 100 mm long. Glue the sheet to\n\
+    Print at 100%, without \"fit to page\": the ruler below the board must be 100 mm long. Glue the sheet to\n\
     something flat. The caption names the options with which `epipole calibrate` reads the board.\n\n\
     ChArUco boards are those of OpenCV from 4.6 on: the upper left square is black (no legacyPattern), and\n\
     markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is the lower left one, and borders have\n\
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
     let caption = [
         sizes(arguments, pattern),
         format!("epipole calibrate PHOTOS {options}"),
-        "Print at 100 %, and measure the ruler.".to_owned(),
+        "Print at 100%, and measure the ruler.".to_owned(),
     ];
     let page = Page::new(&board, arguments.paper, &caption)?;
     let extension = arguments.output.extension().and_then(|e| e.to_str());

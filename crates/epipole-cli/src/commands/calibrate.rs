@@ -5,7 +5,6 @@ mod search;
 use self::search::{Photographs, search};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::files;
 use crate::lens::Model;
 use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
@@ -17,9 +16,9 @@ use clap::Args;
 use epipole::calibration::{
     Board, Calibration, CalibrationOptions, RigCalibration, calibrate, calibrate_rig,
 };
-use epipole_io::camera::camera_fields;
+use epipole_io::camera::{CameraFormat, Cameras, camera_fields, write_cameras};
 use serde_json::{Map, Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Calibrate a camera, or a stereo rig, from photographs of a board.
 #[derive(Debug, Args)]
@@ -60,7 +59,7 @@ pub(crate) struct Arguments {
     /// Steps of refinement at most.
     #[arg(long, default_value_t = CalibrationOptions::default().max_iterations, value_name = "N")]
     max_iterations: usize,
-    /// A file for the result, which `epipole undistort` reads.
+    /// Camera file: .json, or .yml for OpenCV; - for JSON on standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -77,6 +76,7 @@ const MUCH_WORSE: f64 = 4.0;
 const LEAST_ERROR_PX: f64 = 0.2;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let format = arguments.output.as_deref().map(format_of).transpose()?;
     let (columns, rows) = arguments.board;
     let pattern = arguments
         .pattern
@@ -99,16 +99,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut fields = left.fields();
     let mut report = left.rows(Report::default());
     let mut warnings = left.warnings("");
+    let mut cameras = Cameras::of(left.found.camera);
     if !right_photos.is_empty() {
         let right = Side::new(&right_photos, arguments, &board, &options, context)?;
-        let cameras = [left.found.camera, right.found.camera];
+        let both = [left.found.camera, right.found.camera];
         let rig = calibrate_rig(
             &board,
-            &cameras,
+            &both,
             &left.photographs.views,
             &right.photographs.views,
             &mut (),
         )?;
+        cameras = Cameras::of_rig(both, rig.right_from_left);
         warnings.extend(right.warnings("right camera: "));
         let alone_px = left.found.rms_px.max(right.found.rms_px);
         if rig.rms_px > MUCH_WORSE * alone_px.max(LEAST_ERROR_PX) {
@@ -129,15 +131,34 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     for warning in &warnings {
         context.warn(warning);
     }
-    if let Some(path) = &arguments.output {
-        let text = format!("{:#}\n", Value::Object(fields.clone()));
-        files::write(path, text.as_bytes())?;
+    if let (Some(path), Some(format)) = (&arguments.output, format) {
+        let text = match format {
+            CameraFormat::OpenCv => write_cameras(format, &cameras)?,
+            _ => format!("{:#}\n", Value::Object(fields.clone())),
+        };
+        report = report.file(path, text.into_bytes())?;
         report = report.row("written", path.display());
     }
     for (name, value) in fields {
         report = report.field(&name, value);
     }
     Ok(report)
+}
+
+/// Format of the result, by the ending of its file.
+///
+/// # Errors
+/// A sentence, for the ending of another format.
+fn format_of(path: &Path) -> Result<CameraFormat, Failure> {
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match ending.to_str() {
+        Some("yml" | "yaml") => Ok(CameraFormat::OpenCv),
+        Some("json" | "") => Ok(CameraFormat::Epipole),
+        _ => Err(Failure::usage(format!(
+            "{} must be a .json or .yml file; epipole convert makes others of it",
+            path.display()
+        ))),
+    }
 }
 
 /// One camera with its photographs.
@@ -238,7 +259,7 @@ impl Side {
             .row("distortion", lens.join(", "))
             .row(
                 "reached by boards",
-                format!("{:.0} %", 100.0 * found.coverage),
+                format!("{:.0}%", 100.0 * found.coverage),
             )
     }
 

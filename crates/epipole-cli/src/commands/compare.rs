@@ -2,9 +2,11 @@
 
 mod associate;
 mod errors;
+mod plot;
 
 use self::associate::{Association, associate};
 use self::errors::{PoseErrors, Statistics, absolute_errors, relative_errors};
+use self::plot::Plot;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::matrices::{Motion, positive};
@@ -32,7 +34,7 @@ enum Align {
 /// Compare an estimated trajectory with the true one.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole compare groundtruth.txt estimate.txt --align sim3\n\n\
+    after_help = "Example: epipole compare groundtruth.txt estimate.txt --align sim3 --plot errors.svg\n\n\
     Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), by their content. A pose\n\
     of the trajectory with fewer poses is compared with the nearest in time of the other; without times, poses of\n\
     equal number. Errors are those of evo: APE after the alignment, RPE over all pairs that are --step poses apart.\n\n\
@@ -57,6 +59,9 @@ pub(crate) struct Arguments {
     /// Step of the RPE, poses.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     step: u32,
+    /// Plot both paths from above, and the error along time.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -96,7 +101,27 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         needed: step.saturating_add(1),
         got: pairs.len(),
     })?;
-    let report = Report::default()
+    let mut report = Report::default();
+    if let Some(path) = &arguments.plot {
+        let stamps: Option<Vec<i64>> = (truth.stamps_ns.as_ref())
+            .map(|stamps| pairs.iter().map(|&(i, _)| stamps[i]).collect());
+        let at: Vec<f64> = match &stamps {
+            Some(stamps) => (stamps.iter())
+                .map(|&stamp| (i128::from(stamp) - i128::from(stamps[0])) as f64 / 1e9)
+                .collect(),
+            None => (0..pairs.len()).map(|n| n as f64).collect(),
+        };
+        let plot = Plot {
+            names: paths.map(|path| listing::file_name(path)),
+            truth: &centers(&truths),
+            estimate: &centers(&aligned),
+            at: &at,
+            at_label: if stamps.is_some() { "time (s)" } else { "pose" },
+            rmse_m: ape.translation_m.rmse,
+        };
+        report = report.file(path, plot.svg().into_bytes())?;
+    }
+    report = report
         .field("ate_rmse_m", ape.translation_m.rmse)
         .field("rpe_rmse", rpe.translation_m.rmse)
         .field("scale", alignment.scaling())
@@ -138,10 +163,14 @@ fn rows(report: Report, name: &str, errors: &PoseErrors) -> Report {
 }
 
 fn read(path: &Path) -> Result<(&'static str, Trajectory), Failure> {
-    let bytes = std::fs::read(path).map_err(|error| files::unreadable(path, &error))?;
+    let bytes = files::read_bytes(path)?;
     let read = read_trajectory(&bytes);
     let (format, trajectory) = read.map_err(|error| Failure::from(error).about(path))?;
     Ok((format.name(), trajectory))
+}
+
+fn centers(poses: &[RigidTransform]) -> Vec<Point3<f64>> {
+    (poses.iter().map(|pose| pose.translation.vector.into())).collect()
 }
 
 /// `truth_from_estimate`.
@@ -154,12 +183,6 @@ fn align(
         Align::Se3 => AlignmentKind::Rigid,
         Align::Sim3 => AlignmentKind::Similarity,
         Align::None => return Ok(Similarity3::identity()),
-    };
-    let centers = |poses: &[RigidTransform]| -> Vec<Point3<f64>> {
-        poses
-            .iter()
-            .map(|pose| pose.translation.vector.into())
-            .collect()
     };
     align_points(&centers(estimates), &centers(truths), kind).map_err(|error| {
         let failure = Failure::from(error);

@@ -12,7 +12,7 @@ use crate::files;
 use crate::report::Report;
 use clap::Args;
 use epipole_io::camera::{Cameras, NamedCamera, write_cameras};
-use epipole_io::model::ModelFormat;
+use epipole_io::model::{ModelFile, ModelFormat};
 use epipole_io::trajectory::{Trajectory, write_trajectory};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -54,25 +54,37 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let read = content.format();
     let counts = counts(&content);
     let mut notes = Vec::new();
+    let mut report = Report::default();
+    let mut write_text = |text: String| {
+        let path = &arguments.output;
+        files::make_folder_of(path)?;
+        report = std::mem::take(&mut report).file(path, text.into_bytes())?;
+        Ok::<_, Failure>(vec![path.display().to_string()])
+    };
     let (kind, written) = match (target, content) {
         (Target::Model(format), Content::Model(read)) => {
             notes = read.notes;
             notes.extend(format.losses(&read.model));
-            let files = read.model.to_files(format)?;
+            let model_files = read.model.to_files(format)?;
             let is_folder = matches!(format, ModelFormat::ColmapText | ModelFormat::ColmapBinary);
-            let written = match by_name.is_some() && !is_folder {
-                true => write_file(&arguments.output, files)?,
-                false => write_folder(&arguments.output, format, files)?,
+            let written = if files::is_standard(&arguments.output) {
+                let file = only(model_files, format)?;
+                report = report.file(&arguments.output, file.bytes)?;
+                vec!["-".to_owned()]
+            } else if by_name.is_some() && !is_folder {
+                write_file(&arguments.output, model_files)?
+            } else {
+                write_folder(&arguments.output, format, model_files)?
             };
             (format.name(), written)
         }
         (Target::Cameras(format), content) => {
             let text = write_cameras(format, &cameras_of(content)?)?;
-            (format.name(), write_text(arguments, text)?)
+            (format.name(), write_text(text)?)
         }
         (Target::Trajectory(format), content) => {
             let text = write_trajectory(format, &trajectory_of(content)?)?;
-            (format.name(), write_text(arguments, text)?)
+            (format.name(), write_text(text)?)
         }
         (Target::Model(format), content) => {
             return Err(Failure::usage(format!(
@@ -85,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     for note in &notes {
         context.warn(note);
     }
-    let mut report = Report::default()
+    report = report
         .field("read", &read)
         .field("kind", kind)
         .field("written", &written)
@@ -98,16 +110,16 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report.row("written", format!("{kind}: {}", written.join(", "))))
 }
 
-fn write_text(arguments: &Arguments, text: String) -> Result<Vec<String>, Failure> {
-    let path = &arguments.output;
-    if let Some(folder) = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-    {
-        files::make_folder(folder)?;
-    }
-    files::write(path, text.as_bytes())?;
-    Ok(vec![path.display().to_string()])
+/// The file of a format that has one, for standard output.
+fn only(files: Vec<ModelFile>, format: ModelFormat) -> Result<ModelFile, Failure> {
+    let [file] = <[ModelFile; 1]>::try_from(files).map_err(|files| {
+        let name = format.name();
+        let count = files.len();
+        Failure::usage(format!(
+            "{name} is {count} files: give a folder, not standard output"
+        ))
+    })?;
+    Ok(file)
 }
 
 fn counts(content: &Content) -> Value {

@@ -15,7 +15,8 @@ use std::path::PathBuf;
 /// Match the features of two photographs.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: epipole match left.jpg right.jpg -o matches.txt --png matches.png\n\n\
+    after_help = "Example: epipole match left.jpg right.jpg -o matches.txt --png matches.png\n\
+    Piped: epipole match a.jpg b.jpg -o - | epipole fit --model fundamental -\n\n\
     The file of matches has one a line, the least ambiguous first: u1 v1 u2 v2 distance ratio. epipole fit, two-view\n\
     and triangulate read it.\n\n\
     JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad,\n\
@@ -28,7 +29,7 @@ pub(crate) struct Arguments {
     first: PathBuf,
     /// The second photograph.
     second: PathBuf,
-    /// Write the matches; with commas if the name ends in .csv.
+    /// Write the matches; with commas if the name ends in .csv; -: standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Draw the matches (both photographs, with lines between them).
@@ -50,12 +51,14 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let found1 = arguments.features.detect(&photos[0], context)?;
     let found2 = arguments.features.detect(&photos[1], context)?;
     let matches = arguments.matching.run(&found1, &found2)?;
+    let mut report = Report::default();
     if let Some(path) = &arguments.output {
         let mut sorted = matches.clone();
         sorted.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
         let [pixels1, pixels2] = matched_pixels(&sorted, &found1, &found2);
         let tests: Vec<[f32; 2]> = sorted.iter().map(|m| [m.distance, m.ratio]).collect();
-        match_file::write(path, [&pixels1, &pixels2], &tests)?;
+        let text = match_file::text(path, [&pixels1, &pixels2], &tests);
+        report = report.file(path, text.into_bytes())?;
     }
     if let Some(path) = &arguments.png {
         let mut both = picture::side_by_side(&photos[0].color, &photos[1].color);
@@ -75,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .map(|m| (m.index1, m.index2, m.distance, m.ratio))
         .collect();
     let nums_keypoints = format!("{} and {}", found1.keypoints.len(), found2.keypoints.len());
-    let mut report = Report::default().row("keypoints", nums_keypoints);
+    report = report.row("keypoints", nums_keypoints);
     if arguments.camera.is_given() {
         let cameras = CameraArguments::default();
         let mut nums_seen = Vec::new();

@@ -60,11 +60,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Err(error) => return Err(error.into()),
     };
     let final_chi2 = graph.chi2();
+    let mut result = Report::default();
     if let Some(path) = &arguments.output {
-        files::write(path, write_g2o(&graph).as_bytes())?;
+        result = result.file(path, write_g2o(&graph).into_bytes())?;
     }
     let (vertices, edges) = graph.size();
-    Ok(Report::default()
+    Ok(result
         .field("initial_chi2", initial_chi2)
         .field("final_chi2", final_chi2)
         .field("iterations", iterations)

@@ -182,7 +182,7 @@ fn report(disparity: &DisparityImage, arguments: &Arguments) -> Report {
         .row("size", format!("{width} × {height}"))
         .row(
             "pixels with a value",
-            format!("{:.1} %", 100.0 * disparity.density()),
+            format!("{:.1}%", 100.0 * disparity.density()),
         )
         .row("disparities", words)
         .row("written", arguments.output.display())

@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// Names of the two images (of those of the model; without, the two that it has).
     #[arg(long, value_name = "NAME1,NAME2")]
     images: Option<String>,
-    /// Write the points (.ply, or .csv with the columns of the JSON).
+    /// Write the points (.ply, or .csv with the columns of the JSON; -: CSV on standard output).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -66,11 +66,12 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     judge::tell(&summary, &cameras, &pixels, context);
     let points: Vec<Option<Point>> = found.into_iter().map(Result::ok).collect();
     let mut files = Vec::new();
+    let mut report = Report::default();
     if let (Some(path), Some(writer)) = (&arguments.output, writer) {
-        writer(path, &points)?;
+        report = report.file(path, writer(&points))?;
         files.push(path.display().to_string());
     }
-    let mut report = Report::default()
+    report = report
         .row(
             "points",
             format!("{} of {} matches", summary.num_points, points.len()),

@@ -170,6 +170,23 @@ fn errors_are_those_of_evo() {
 }
 
 #[test]
+fn the_plot_shows_both_paths_and_the_error() {
+    let folder = Folder::new("compare-plot");
+    let truth = folder.write("a & b.txt", TRUTH);
+    let estimate = folder.write("estimate.txt", ESTIMATE);
+    let plot = folder.file("plot.svg");
+    let with = ["--align", "sim3", "--plot", path(&plot)];
+    json(&[&["compare", path(&truth), path(&estimate)], &with[..]].concat());
+    let svg = std::fs::read_to_string(&plot).unwrap();
+    assert!(svg.contains("true: a &amp; b.txt") && svg.contains("mean square, 0.072265 m"));
+    // Both paths, the mean and the error; the line of the mean has two ends.
+    let lines: Vec<usize> = (svg.split("points=\"").skip(1))
+        .map(|line| line.split('"').next().unwrap().split(' ').count())
+        .collect();
+    assert_eq!(lines, [11, 11, 2, 11]);
+}
+
+#[test]
 fn formats_mix_and_causes_are_named() {
     let folder = Folder::new("compare-formats");
     let line = |i: i32| format!("1 0 0 {i} 0 1 0 {} 0 0 1 0\n", i * i);

@@ -1,6 +1,6 @@
 //! Files of matches: what `epipole match -o` writes, `fit` and `two-view` read.
 
-use crate::common::{Folder, command, fails, json, k, moved, numbers, parse, path};
+use crate::common::{Folder, command, epipole, fails, json, k, moved, numbers, parse, path};
 use epipole::camera::RigidTransform;
 use nalgebra::Vector3;
 use std::io::Write;
@@ -77,6 +77,15 @@ fn matches_that_were_written_give_the_same_geometry() {
         .unwrap();
     let piped = parse(&run.wait_with_output().unwrap());
     assert_eq!(numbers(&piped["model"]), numbers(&fits[0]["model"]));
+
+    // Standard output carries the file and no table.
+    let output = epipole(&["match", path(&a), path(&b), "-o", "-"]);
+    assert!(output.status.success());
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), written);
+    let output = epipole(&["match", path(&a), path(&b), "-o", "-", "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let sentence = String::from_utf8(output.stdout).unwrap();
+    assert!(sentence.contains("both for standard output"), "{sentence}");
 }
 
 #[test]

@@ -2,19 +2,22 @@
 
 use super::judge::Point;
 use crate::failure::Failure;
-use crate::files;
+use crate::files::is_standard;
 use epipole::stereo::PointCloud;
 use epipole_io::cloud::write_ply;
 use std::fmt::Write as _;
 use std::path::Path;
 
-type Writer = fn(&Path, &[Option<Point>]) -> Result<(), Failure>;
+type Writer = fn(&[Option<Point>]) -> Vec<u8>;
 
-/// The writer of a file, by its ending.
+/// The writer of a file, by its ending; CSV for `-`.
 ///
 /// # Errors
 /// A sentence on another ending.
 pub(super) fn writer(path: &Path) -> Result<Writer, Failure> {
+    if is_standard(path) {
+        return Ok(csv);
+    }
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     match ending.to_str() {
         Some("ply") => Ok(ply),
@@ -26,7 +29,7 @@ pub(super) fn writer(path: &Path) -> Result<Writer, Failure> {
     }
 }
 
-fn ply(path: &Path, points: &[Option<Point>]) -> Result<(), Failure> {
+fn ply(points: &[Option<Point>]) -> Vec<u8> {
     let cloud = PointCloud {
         points: points
             .iter()
@@ -35,11 +38,11 @@ fn ply(path: &Path, points: &[Option<Point>]) -> Result<(), Failure> {
             .collect(),
         colors: Vec::new(),
     };
-    files::write(path, &write_ply(&cloud))
+    write_ply(&cloud)
 }
 
 /// A line for each match; without numbers where it has no point.
-fn csv(path: &Path, points: &[Option<Point>]) -> Result<(), Failure> {
+fn csv(points: &[Option<Point>]) -> Vec<u8> {
     let mut text = "x,y,z,error_px,angle_deg\n".to_owned();
     for point in points {
         let row = point
@@ -48,5 +51,5 @@ fn csv(path: &Path, points: &[Option<Point>]) -> Result<(), Failure> {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", row.unwrap_or_else(|| ",,,,".to_owned()));
     }
-    files::write(path, text.as_bytes())
+    text.into_bytes()
 }
