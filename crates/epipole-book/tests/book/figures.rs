@@ -70,8 +70,8 @@ fn sentences_operate_figures_and_quote_them() {
     for part in [
         "<p><span class=\"do\" data-figure=\"fig-dot\" data-parameters=\"{&quot;size&quot;:&quot;5&quot;}\">\
          Make <em>it</em> larger</span>: <span class=\"live\" data-figure=\"fig-dot\" \
-         data-shows=\"area\">9 px²</span>, <span",
-        "data-figure=\"other\" data-shows=\"area\">9 px²</span>.</p>",
+         data-shows=\"area\">9 px²</span>\u{2060}, <span",
+        "data-figure=\"other\" data-shows=\"area\">9 px²</span>\u{2060}.</p>",
         "<epipole-figure name=\"dot\" size=\"3\" readouts=\"area\" goals=\"one\">",
     ] {
         assert!(one.contains(part), "{part}: {one}");
