@@ -25,7 +25,9 @@ function startButton(words: HTMLElement): void {
   if (number) words.title = `Shows it in ${number}`;
   const act = async () => {
     await customElements.whenDefined("epipole-figure");
-    const dock = await import("./dock").catch(() => undefined);
+    // Safari 16 has no popovers: there the page scrolls to the figure.
+    const canDock = "popover" in HTMLElement.prototype;
+    const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
     dock?.bringTogether(figure.closest("figure") ?? figure, words);
     await figure.glide?.(parametersOf(words), { scroll: !dock });
   };
