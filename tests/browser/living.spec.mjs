@@ -69,7 +69,7 @@ test.describe("choosing", () => {
     const figure = await open(page, ["harris"]);
     const inputs = figure.locator("#photos");
     await expect(inputs).toBeHidden();
-    await figure.getByText("Your photograph", { exact: true }).first().click();
+    await figure.locator(".choice label", { hasText: "Your photograph" }).click();
     await expect(inputs).toBeVisible();
     await expect(figure.getByRole("button", { name: "Photographs" })).toHaveAttribute("aria-expanded", "true");
   });
