@@ -33,7 +33,8 @@ use std::path::PathBuf;
     epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o rig.json\n  \
     epipole rectify left.jpg right.jpg --rig rig.json -o rectified\n\n\
     JSON: homography1 and homography2 (9 numbers row by row), q (16 numbers row by row, or null),\n\
-    num_inliers (matches that agree; null with --rig), files (those written)."
+    num_inliers (matches that agree; null with --rig), is_vertical (whether columns agree instead of\n\
+    rows), files (those written)."
 )]
 pub(crate) struct Arguments {
     /// The left photograph.
@@ -82,6 +83,8 @@ struct Found {
     q: Option<Matrix4<f64>>,
     /// `None` where no matches were looked for.
     num_inliers: Option<usize>,
+    /// Whether matches share a column instead of a row.
+    is_vertical: bool,
 }
 
 impl Arguments {
@@ -108,7 +111,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             let paths = [&*arguments.first, &*arguments.second];
             let (photos, cameras, right_from_left) =
                 rig::read(file, paths, arguments.reading, context)?;
-            let found = calibrated(arguments, &cameras, &right_from_left, None)?;
+            let found = calibrated(arguments, &cameras, &right_from_left, None, context)?;
             (photos, found, None)
         }
         None => by_matches(arguments, context)?,
@@ -139,6 +142,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("homography2", row_major(&found.homographies[1]))
         .field("q", q)
         .field("num_inliers", found.num_inliers)
+        .field("is_vertical", found.is_vertical)
         .field("files", written))
 }
 
@@ -192,6 +196,7 @@ fn rectify(
             &cameras,
             &cam2_from_cam1,
             Some(report.num_inliers),
+            context,
         );
     }
     let estimator = FundamentalEstimator::new(MatchSet::new(pixels1, pixels2)?)?;
@@ -223,6 +228,7 @@ fn rectify(
         homographies: rectification.homographies,
         q: None,
         num_inliers: Some(report.num_inliers),
+        is_vertical: false,
     })
 }
 
@@ -232,9 +238,17 @@ fn calibrated(
     cameras: &[Camera; 2],
     cam2_from_cam1: &RigidTransform,
     num_inliers: Option<usize>,
+    context: &Context,
 ) -> Result<Found, Failure> {
     let rectification = rectify_calibrated(cameras, cam2_from_cam1, &arguments.shape())?;
+    if rectification.is_vertical {
+        context.warn(
+            "columns agree, not rows: the second photo was taken above or below the first; epipole stereo \
+             searches along rows, so turn both photos by 90° and rectify them again",
+        );
+    }
     Ok(Found {
+        is_vertical: rectification.is_vertical,
         homographies: rectification.homographies,
         maps: [rectification.map(0)?, rectification.map(1)?],
         q: Some(rectification.q),

@@ -308,3 +308,24 @@ fn a_rig_whose_right_camera_is_upside_down_knows_its_baseline() {
     assert!(rms_px < 0.1, "{rms_px}");
     assert!(!result["warnings"].to_string().contains("do not agree"));
 }
+
+#[test]
+fn photos_one_above_the_other_are_said_to_agree_in_columns() {
+    let [Some(upper), Some(lower)] = ["16/upper.jpg", "16/lower.jpg"].map(field) else {
+        return;
+    };
+    let folder = Folder::new("vertical");
+    let out = folder.file("rectified");
+    let k = "320,320,159.5,119.5";
+    let arguments = [
+        "rectify",
+        path(&upper),
+        path(&lower),
+        "--k",
+        k,
+        "-o",
+        path(&out),
+    ];
+    assert!(told(&arguments).contains("columns agree, not rows"));
+    assert_eq!(json(&arguments)["is_vertical"], true);
+}
