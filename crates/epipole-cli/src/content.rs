@@ -15,8 +15,8 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// Reads a folder as a model, and a file, or standard input for `-`, as the first that fits of a
-    /// model, cameras and a trajectory.
+    /// Reads a folder as a model, and a file, or standard input for `-`, as the first that fits of
+    /// a model, cameras and a trajectory.
     ///
     /// # Errors
     /// A sentence that names the path and why it is none of them.
