@@ -157,19 +157,19 @@ impl Chart {
         for (value, label) in ticks(self.x) {
             let [u, _] = self.at([value, self.y[0]]);
             let below = bottom + 18.0;
-            let _ = write!(
+            let _ = writeln!(
                 text,
                 "<path d=\"M{u:.2} {top}V{bottom}\" stroke=\"#e4e4e4\"/>\
-                 <text x=\"{u:.2}\" y=\"{below}\" text-anchor=\"middle\">{label}</text>\n"
+                 <text x=\"{u:.2}\" y=\"{below}\" text-anchor=\"middle\">{label}</text>"
             );
         }
         for (value, label) in ticks(self.y) {
             let [_, v] = self.at([self.x[0], value]);
             let (beside, base) = (left - 6.0, v + 4.0);
-            let _ = write!(
+            let _ = writeln!(
                 text,
                 "<path d=\"M{left} {v:.2}H{right}\" stroke=\"#e4e4e4\"/>\
-                 <text x=\"{beside}\" y=\"{base:.2}\" text-anchor=\"end\">{label}</text>\n"
+                 <text x=\"{beside}\" y=\"{base:.2}\" text-anchor=\"end\">{label}</text>"
             );
         }
         let (middle, below) = (left + width / 2.0, bottom + 38.0);
