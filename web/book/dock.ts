@@ -1,24 +1,25 @@
 // A figure and the sentence that operates it, on one screen. Where both fit, the page scrolls by the least. Where they
-// do not, the figure docks: it leaves an empty place of its size in the chapter and stands at the top or bottom of the
-// screen, until the reader closes it, reads on or comes to its place.
+// do not, the figure docks at the top or bottom of the screen, and a placeholder keeps its place in the chapter, until
+// the reader closes it, scrolls on or reaches the placeholder.
 
 import { wantsStillness } from "../src/theme";
 
 /** Distance from the edges of the screen, and between figure and text, CSS pixels. */
 const GAP_PX = 8;
-/** Most of a docked figure, and the least for which the whole paragraph stays uncovered, CSS pixels. */
-const HIGHEST_PX = 440;
-const PARAGRAPH_PX = 300;
-/** Visible fraction of its place at which a docked figure returns to it. */
-const HOME = 0.95;
+/** Maximum height of a docked figure, CSS pixels. */
+const MAX_HEIGHT_PX = 440;
+/** Minimum room beside a paragraph for which all of it stays uncovered, CSS pixels. */
+const MIN_ROOM_PX = 300;
+/** Visible fraction of the placeholder at which a docked figure returns to it. */
+const RETURN_AT = 0.95;
 
 interface Span {
   top: number;
   bottom: number;
 }
 
-/** The part of the window below the bar, if that covers the element's columns. */
-function screen(element: Element): Span {
+/** The visible part of the window, without the bar of the page if that is above the element. */
+function viewport(element: Element): Span {
   const bar = document.querySelector(".bar")?.getBoundingClientRect();
   const covers = bar !== undefined && bar.top <= 0 && bar.right > element.getBoundingClientRect().left;
   return { top: (covers ? bar.bottom : 0) + GAP_PX, bottom: innerHeight - GAP_PX };
@@ -33,9 +34,9 @@ let docked: Dock | undefined;
 
 /** Brings a figure of the chapter and a sentence onto one screen, without taking the sentence off it. */
 export function bringTogether(figure: HTMLElement, words: HTMLElement): void {
-  if (docked?.figure === figure) return docked.serve(words);
+  if (docked?.figure === figure) return docked.moveTo(words);
   docked?.end();
-  const [picture, sentence, room] = [pictureOf(figure).getBoundingClientRect(), words.getBoundingClientRect(), screen(figure)];
+  const [picture, sentence, room] = [pictureOf(figure).getBoundingClientRect(), words.getBoundingClientRect(), viewport(figure)];
   const both = { top: Math.min(picture.top, sentence.top), bottom: Math.max(picture.bottom, sentence.bottom) };
   if (isIn(both, room)) return;
   if (both.bottom - both.top > room.bottom - room.top) docked = new Dock(figure, words);
@@ -48,8 +49,8 @@ export function bringTogether(figure: HTMLElement, words: HTMLElement): void {
 class Dock {
   readonly figure: HTMLElement;
   #words: HTMLElement;
-  /** Keeps the figure's place in the chapter. */
-  readonly #place = document.createElement("div");
+  /** As tall as the figure was in the chapter. */
+  readonly #placeholder = document.createElement("div");
   readonly #bar = document.createElement("div");
   readonly #back = button("Back to the text", "dock-back");
   readonly #listening = new AbortController();
@@ -57,30 +58,30 @@ class Dock {
   constructor(figure: HTMLElement, words: HTMLElement) {
     this.figure = figure;
     this.#words = words;
-    this.#place.className = "dock-place";
-    this.#place.style.blockSize = `${figure.getBoundingClientRect().height}px`;
-    figure.before(this.#place);
+    this.#placeholder.className = "dock-placeholder";
+    this.#placeholder.style.blockSize = `${figure.getBoundingClientRect().height}px`;
+    figure.before(this.#placeholder);
     this.#fillBar();
     figure.prepend(this.#bar);
     figure.classList.add("docked");
-    // The top layer stands beside the screen whatever contains the chapter's sections.
+    // In the top layer, `fixed` refers to the screen even inside sections with containment.
     figure.popover = "manual";
     figure.showPopover();
     figure.querySelector("epipole-figure")?.toggleAttribute("compact", true);
-    this.#stand();
+    this.#position();
     const { signal } = this.#listening;
-    addEventListener("scroll", () => this.#follow(), { signal, passive: true });
-    addEventListener("resize", () => this.#stand(), { signal });
+    addEventListener("scroll", () => this.#onScroll(), { signal, passive: true });
+    addEventListener("resize", () => this.#position(), { signal });
     addEventListener("beforeprint", () => this.end(), { signal });
     addEventListener("keydown", (event) => this.#onKey(event), { signal });
   }
 
-  /** Serves another sentence. */
-  serve(words: HTMLElement): void {
+  /** Keeps another sentence uncovered from now on. */
+  moveTo(words: HTMLElement): void {
     this.#words = words;
     const [dock, sentence] = [this.figure.getBoundingClientRect(), words.getBoundingClientRect()];
-    if (sentence.bottom > dock.top && sentence.top < dock.bottom) this.#stand();
-    this.#follow();
+    if (sentence.bottom > dock.top && sentence.top < dock.bottom) this.#position();
+    this.#onScroll();
   }
 
   /** Puts the figure back in its place. */
@@ -93,7 +94,7 @@ class Dock {
     this.figure.classList.remove("docked");
     this.figure.removeAttribute("style");
     this.#bar.remove();
-    this.#place.remove();
+    this.#placeholder.remove();
     this.figure.querySelector("epipole-figure")?.removeAttribute("compact");
     if (focused) this.#words.focus({ preventScroll: true });
   }
@@ -118,13 +119,13 @@ class Dock {
   }
 
   /** Takes the side of the screen, above or below the sentence, that has more room. */
-  #stand(): void {
-    const [sentence, place, room] = [this.#words.getBoundingClientRect(), this.#place.getBoundingClientRect(), screen(this.#place)];
+  #position(): void {
+    const [sentence, place, room] = [this.#words.getBoundingClientRect(), this.#placeholder.getBoundingClientRect(), viewport(this.#placeholder)];
     const paragraph = (this.#words.closest("p, li") ?? this.#words).getBoundingClientRect();
     const [above, below] = [sentence.top - room.top, room.bottom - sentence.bottom];
     const isAbove = above > below;
     const beside = isAbove ? paragraph.top - room.top : room.bottom - paragraph.bottom;
-    const height = Math.min((beside >= PARAGRAPH_PX ? beside : Math.max(above, below)) - GAP_PX, HIGHEST_PX);
+    const height = Math.min((beside >= MIN_ROOM_PX ? beside : Math.max(above, below)) - GAP_PX, MAX_HEIGHT_PX);
     Object.assign(this.figure.style, {
       left: `${place.left}px`,
       width: `${place.width}px`,
@@ -134,13 +135,13 @@ class Dock {
     });
   }
 
-  /** After scrolling: returns the figure to its place there, or when its sentence is a screen away. */
-  #follow(): void {
-    const [place, sentence, room] = [this.#place.getBoundingClientRect(), this.#words.getBoundingClientRect(), screen(this.#place)];
+  /** Ends after scrolling to the placeholder, or a screen away from the sentence. */
+  #onScroll(): void {
+    const [place, sentence, room] = [this.#placeholder.getBoundingClientRect(), this.#words.getBoundingClientRect(), viewport(this.#placeholder)];
     const height = room.bottom - room.top;
     const visible = Math.min(place.bottom, room.bottom) - Math.max(place.top, room.top);
     const away = sentence.bottom < room.top - height || sentence.top > room.bottom + height;
-    if (visible >= HOME * Math.min(place.height, height)) this.end();
+    if (visible >= RETURN_AT * Math.min(place.height, height)) this.end();
     else if (away && !this.figure.matches(":hover, :focus-within")) this.end();
     else this.#back.hidden = isIn(sentence, room);
   }
@@ -165,7 +166,7 @@ function returnTo(words: HTMLElement): void {
   words.focus({ preventScroll: true });
 }
 
-/** Offers the way back to a sentence, until it is on the screen. */
+/** Shows a button that leads back to a sentence, until the sentence is on the screen. */
 function offerReturn(words: HTMLElement): void {
   document.querySelector(".return")?.remove();
   const back = button("Back to the text", "return");

@@ -65,6 +65,15 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    if let Some(path) = &arguments.plot
+        && !files::is_standard(path)
+        && !(path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+    {
+        return Err(Failure::usage(format!(
+            "--plot writes SVG: the name of {} must end in .svg",
+            path.display()
+        )));
+    }
     let paths = [&arguments.truth, &arguments.estimate];
     let [(truth_format, truth), (format, estimate)] = [read(paths[0])?, read(paths[1])?];
     let max_difference_s = (!arguments.by_index).then_some(arguments.max_difference_s);

@@ -85,11 +85,9 @@ impl RansacLine {
 
     fn samples_per_second(&self) -> f64 {
         let since = self.drawn().0.saturating_sub(self.run_from + 1);
-        let pace = (0..since).try_fold(SAMPLES_PER_SECOND, |pace, _| {
-            let pace = pace * FASTER;
-            (pace < MOST_PER_SECOND).then_some(pace)
-        });
-        pace.unwrap_or(MOST_PER_SECOND)
+        (0..since).fold(SAMPLES_PER_SECOND, |pace, _| {
+            (pace * FASTER).min(MOST_PER_SECOND)
+        })
     }
 
     fn drawn(&self) -> (usize, bool) {

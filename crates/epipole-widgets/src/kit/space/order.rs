@@ -57,7 +57,7 @@ pub(super) fn arrange(
             depths.cover(*place, *reach, in_eye.z);
         }
     }
-    let mut placed: Vec<Placed> = match depths.is_empty() {
+    let placed: Vec<Placed> = match depths.is_empty() {
         true => marks,
         false => marks
             .into_iter()
@@ -73,9 +73,9 @@ pub(super) fn arrange(
         })
         .collect();
     order.sort_unstable();
-    let mut marks: Vec<Option<Placed>> = placed.drain(..).map(Some).collect();
-    let ordered = order.into_iter();
-    ordered
+    let mut marks: Vec<Option<Placed>> = placed.into_iter().map(Some).collect();
+    order
+        .into_iter()
         .filter_map(|(.., index)| marks[index as usize].take())
         .collect()
 }
