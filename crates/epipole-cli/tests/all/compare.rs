@@ -184,6 +184,15 @@ fn the_plot_shows_both_paths_and_the_error() {
         .map(|line| line.split('"').next().unwrap().split(' ').count())
         .collect();
     assert_eq!(lines, [11, 11, 2, 11]);
+    let picture = folder.file("plot.png");
+    let arguments = [
+        "compare",
+        path(&truth),
+        path(&estimate),
+        "--plot",
+        path(&picture),
+    ];
+    fails(&folder, &arguments, 2, "must end in .svg");
 }
 
 #[test]
