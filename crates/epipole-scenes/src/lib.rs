@@ -41,4 +41,7 @@ pub use photograph::reproject::{Moved, Reprojected};
 pub use photograph::{Photograph, Sampling};
 pub use scene::Scene;
 pub use scene::rays::{Hit, Transfer};
-pub use sets::{MovableKind, MovableObject, long_table_camera, still_life_camera};
+pub use sets::{
+    MovableKind, MovableObject, long_table_camera, still_life_camera, still_life_cloth,
+    still_life_landscape,
+};

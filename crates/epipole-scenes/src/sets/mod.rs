@@ -7,3 +7,4 @@ mod studio;
 
 pub use cameras::{long_table_camera, still_life_camera};
 pub use long_table::{MovableKind, MovableObject};
+pub use still_life::{still_life_cloth, still_life_landscape};

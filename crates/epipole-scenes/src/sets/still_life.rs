@@ -8,7 +8,7 @@ use crate::things::body::{Body, Paint};
 use crate::things::wares::{
     GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
 };
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use std::sync::{Arc, OnceLock};
 
 /// The room: center and sides, meters. The table's top is y = 0.
@@ -17,6 +17,49 @@ const ROOM_SIZE: [f64; 3] = [3.6, 2.7, 4.3];
 const BACK_WALL_Z: f64 = ROOM_CENTER[2] + ROOM_SIZE[2] / 2.0;
 const LEFT_WALL_X: f64 = ROOM_CENTER[0] - ROOM_SIZE[0] / 2.0;
 const RIGHT_WALL_X: f64 = ROOM_CENTER[0] + ROOM_SIZE[0] / 2.0;
+
+/// The cloth: width, thickness and depth, center, and rotation about the vertical, radians.
+const CLOTH_M: [f64; 3] = [0.70, 0.0016, 0.50];
+const CLOTH_CENTER: [f64; 3] = [0.13, -CLOTH_M[1] / 2.0, -0.13];
+const CLOTH_YAW_RAD: f64 = 0.16;
+/// Center of the landscape's frame, left and down from the middle of the back wall.
+const LANDSCAPE_XY: [f64; 2] = [-0.36, -0.47];
+
+/// Corners of the cloth on the table of [`Scene::still_life`], 70 cm by 50 cm, meters in the
+/// world: the far left one, the far right one, the near right one, the near left one.
+///
+/// ```
+/// let [far_left, far_right, near_right, _] = epipole_scenes::still_life_cloth();
+/// assert!(((far_right - far_left).norm() - 0.7).abs() < 1e-12);
+/// assert!(((near_right - far_right).norm() - 0.5).abs() < 1e-12);
+/// ```
+pub fn still_life_cloth() -> [Point3<f64>; 4] {
+    let (sin, cos) = libm::sincos(CLOTH_YAW_RAD);
+    corners(CLOTH_M[0], CLOTH_M[2]).map(|[x, z]| {
+        Point3::new(
+            CLOTH_CENTER[0] + cos * x + sin * z,
+            -CLOTH_M[1],
+            CLOTH_CENTER[2] + sin * x - cos * z,
+        )
+    })
+}
+
+/// Corners of the landscape's frame on the back wall of [`Scene::still_life`], 62 cm by 46 cm,
+/// meters in the world: upper left, upper right, lower right, lower left.
+pub fn still_life_landscape() -> [Point3<f64>; 4] {
+    let [width, height] = LANDSCAPE_M;
+    corners(width, height).map(|[x, y]| {
+        let z = BACK_WALL_Z - PICTURE_DEPTH_M;
+        Point3::new(LANDSCAPE_XY[0] + x, LANDSCAPE_XY[1] + y, z)
+    })
+}
+
+/// Corners of a rectangle about the origin: left and up, right and up, right and down, left and
+/// down.
+fn corners(width: f64, height: f64) -> [[f64; 2]; 4] {
+    let (x, y) = (width / 2.0, height / 2.0);
+    [[-x, -y], [x, -y], [x, y], [-x, y]]
+}
 
 impl Scene {
     /// Returns a table by a window with a mug of coffee, books, fruit, a jug and a tea tin on a
@@ -97,7 +140,12 @@ fn room() -> Vec<Body> {
     let on_back = BACK_WALL_Z - PICTURE_DEPTH_M / 2.0;
     vec![
         walls,
-        wares.picture(&wares.landscape, LANDSCAPE_M, [-0.36, -0.47, on_back], 0.0),
+        wares.picture(
+            &wares.landscape,
+            LANDSCAPE_M,
+            [LANDSCAPE_XY[0], LANDSCAPE_XY[1], on_back],
+            0.0,
+        ),
         wares.picture(&wares.geometric, GEOMETRIC_M, [0.32, -0.50, on_back], 0.0),
         wares.picture(&wares.star_chart, STAR_CHART_M, [0.84, -0.46, on_back], 0.0),
         wares.picture(
@@ -171,25 +219,23 @@ fn table() -> Vec<Body> {
 /// Builds the things on the table.
 fn things() -> Vec<Body> {
     let wares = Wares::shared();
-    let (cloth_width, cloth_depth, cloth_m) = (0.70, 0.50, 0.0016);
-    let cloth_at = [0.13, -cloth_m / 2.0, -0.13];
     let cloth = Arc::new(paint::block_print(
         wares.noise,
-        (cloth_width / cloth_depth) as f32,
+        (CLOTH_M[0] / CLOTH_M[2]) as f32,
     ));
     let print = Paint::new(&cloth);
     let mut bodies = vec![
         Body::cuboid(
             "the cloth",
-            [cloth_width, cloth_m, cloth_depth],
-            cloth_at,
+            CLOTH_M,
+            CLOTH_CENTER,
             &print.clone().repeated(1.0, 0.01),
         )
-        .turned(0.16)
+        .turned(CLOTH_YAW_RAD)
         .painted(TOP, &print.lit(72, 52))
         .painted(FRONT, &Paint::new(&cloth).repeated(1.0, 0.01)),
     ];
-    let on_cloth = -cloth_m;
+    let on_cloth = -CLOTH_M[1];
 
     // Three books, the lowest the largest, not quite in line.
     let stack = [-0.315, 0.0, 0.06];
@@ -221,4 +267,32 @@ fn things() -> Vec<Body> {
     ));
     bodies.push(wares.orange([0.47, 0.0, 0.015], 0.041, [4.0, 0.3]));
     bodies
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Asserts that points a little toward the middle are on the named thing, and points a little
+    /// farther out are not.
+    fn assert_outline(corners: &[Point3<f64>; 4], from: &Vector3<f64>, name: &str) {
+        let scene = Scene::still_life();
+        let middle = corners.iter().map(|corner| corner.coords / 4.0).sum();
+        // A book lies on the first corner of the cloth, the tea tin stands on the second.
+        for corner in &corners[2..] {
+            for (share, is_on) in [(0.99, true), (1.01, false)] {
+                let point = Point3::from(corner.coords.lerp(&middle, 1.0 - share));
+                let hit = scene.cast(&(point - from), from).unwrap();
+                assert_eq!(hit.object == name, is_on, "{corner} {share} {}", hit.object);
+            }
+        }
+    }
+
+    #[test]
+    fn corners_of_cloth_and_landscape_are_where_they_are_said_to_be() {
+        let down = Vector3::new(0.0, 0.3, 0.0);
+        assert_outline(&still_life_cloth(), &down, "the cloth");
+        let ahead = Vector3::new(0.0, 0.0, 0.3);
+        assert_outline(&still_life_landscape(), &ahead, "a picture");
+    }
 }
