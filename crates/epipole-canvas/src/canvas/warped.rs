@@ -12,14 +12,14 @@ const FINE: f64 = 1.6;
 impl Canvas {
     /// A photograph on a plane in space, seen in perspective.
     ///
-    /// * `corners`: positions of its corners, in order; all in front of the reader
+    /// * `corners`: positions of the corners of the part drawn, in order; it is convex
     /// * `photo_from_page`: the homography from CSS pixels to pixels of the photograph, centers at
     ///   integers
     ///
     /// Interpolation is bilinear, in a photograph halved enough to avoid aliasing.
     pub fn warped_photograph(
         &mut self,
-        corners: &[Place; 4],
+        corners: &[Place],
         photo_from_page: &Matrix3<f64>,
         photograph: &RgbImage,
     ) {
@@ -58,7 +58,10 @@ impl Canvas {
         let clip = self.clip;
         let stride = self.pixmap.width() as usize * 4;
         let device = |value: f64| value * self.scale;
-        let places = corners.map(|(x, y)| (device(x), device(y)));
+        let places: Vec<Place> = corners
+            .iter()
+            .map(|(x, y)| (device(*x), device(*y)))
+            .collect();
         let (top, bottom) = bounds(places.iter().map(|place| place.1));
         let within = |value: f64, low: f64, high: f64, most: u32| {
             let value = value.clamp(device(low), device(high).max(device(low)));
@@ -210,10 +213,10 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-/// Returns the span of a horizontal line of the page within a convex quadrilateral.
-fn span(corners: &[Place; 4], y: f64) -> Option<(f64, f64)> {
-    let crossings = (0..4).filter_map(|index| {
-        let (from, to) = (corners[index], corners[(index + 1) % 4]);
+/// Returns the span of a horizontal line of the page within a convex polygon.
+fn span(corners: &[Place], y: f64) -> Option<(f64, f64)> {
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let crossings = sides.filter_map(|(from, to)| {
         let crosses = (from.1 <= y) != (to.1 <= y);
         crosses.then(|| from.0 + (to.0 - from.0) * (y - from.1) / (to.1 - from.1))
     });
@@ -221,7 +224,7 @@ fn span(corners: &[Place; 4], y: f64) -> Option<(f64, f64)> {
     (low < high).then_some((low, high))
 }
 
-fn area(corners: &[Place; 4]) -> f64 {
+fn area(corners: &[Place]) -> f64 {
     let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
     let twice: f64 = pairs.map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum();
     0.5 * twice.abs()

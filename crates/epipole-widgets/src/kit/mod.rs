@@ -24,6 +24,7 @@
 //! | [`heat`], [`terrain`] | numbers as colors, and as a landscape |
 //! | [`house`] | a house of wire with cameras around it |
 //! | [`pair`] | two photographs of the still life, epipolar lines |
+//! | [`warped`] | a photograph through a homography |
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
 pub(crate) mod cells;
@@ -56,4 +57,5 @@ pub(crate) mod space;
 pub(crate) mod standing;
 pub(crate) mod tally;
 pub(crate) mod terrain;
+pub(crate) mod warped;
 pub(crate) mod words;

@@ -9,9 +9,8 @@ use crate::kit::labels::Labels;
 use crate::kit::pair::{CAMERAS, Photos, draw_line};
 use crate::kit::plan::{self, PlanCamera};
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
+use crate::kit::warped;
 use crate::theme::Role;
-use epipole::homography::transfer;
-use image::RgbImage;
 use nalgebra::{Matrix3, Point2};
 
 const MARKER: f64 = 4.5;
@@ -68,7 +67,10 @@ impl View for RectifyView {
             match self.photos.picture(index, camera) {
                 Ok(picture) => canvas.clipped(panel.rect, |canvas| {
                     let homography = &state.turned.shown_from_taken[index];
-                    draw_picture(canvas, panel, homography, picture);
+                    match (homography - Matrix3::identity()).amax() < 1e-9 {
+                        true => canvas.photograph(panel.rect, picture),
+                        false => warped::draw(canvas, panel, homography, picture),
+                    }
                     draw_marks(model, state, index, panel, canvas);
                 }),
                 Err(error) => grid::notice(canvas, panel.rect, &error.to_string()),
@@ -89,41 +91,6 @@ impl View for RectifyView {
         let state = model.state();
         state.is_ok_and(|state| self.photos.refine(&state.turned.taken))
     }
-}
-
-/// Draws a photograph as its rotated camera would have taken it.
-fn draw_picture(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    shown_from_taken: &Matrix3<f64>,
-    picture: &RgbImage,
-) {
-    if (shown_from_taken - Matrix3::identity()).amax() < 1e-9 {
-        return canvas.photograph(panel.rect, picture);
-    }
-    let (right, bottom) = (f64::from(PHOTO_SIZE.0) - 0.5, f64::from(PHOTO_SIZE.1) - 0.5);
-    let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)];
-    let places = corners.map(|(u, v)| {
-        let shown = transfer(shown_from_taken, &Point2::new(u, v));
-        shown.map(|shown| panel.place_of(&shown))
-    });
-    let ([Some(a), Some(b), Some(c), Some(d)], Some(taken_from_shown)) =
-        (places, shown_from_taken.try_inverse())
-    else {
-        return;
-    };
-    let (step, rect) = (1.0 / panel.scale_x(), panel.rect);
-    #[rustfmt::skip]
-    let shown_from_page = Matrix3::new(
-        step, 0.0,  panel.x_axis.start - rect.x * step,
-        0.0,  step, panel.y_axis.start - rect.y * step,
-        0.0,  0.0,  1.0,
-    );
-    canvas.warped_photograph(
-        &[a, b, c, d],
-        &(taken_from_shown * shown_from_page),
-        picture,
-    );
 }
 
 /// Draws the epipolar lines with their matches, and at the end the valid rectangle.
