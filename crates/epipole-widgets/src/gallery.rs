@@ -13,9 +13,12 @@ mod epipolar_plane;
 mod four_poses;
 mod gradient_field;
 pub mod harris;
+mod homography_drag;
 mod kernel_stepper;
 mod outlier_drag;
+mod panorama;
 mod patch_match;
+mod plane_or_not;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
 mod ransac_line;
@@ -33,6 +36,7 @@ mod tournament;
 mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
+mod vanishing_points;
 pub mod window_shift;
 
 /// A figure's entry in the list.
@@ -95,6 +99,10 @@ figures![
     scale_drift::View,
     ransac_race::View,
     tournament::View,
+    homography_drag::View,
+    vanishing_points::View,
+    panorama::View,
+    plane_or_not::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -294,12 +294,15 @@ const WITH_DATA: &[(&str, &str)] = &[
         "epipolar-click",
         "camera1 camera2 fundamental pixels1 pixels2",
     ),
+    ("homography-drag", "homography pixels planeCm"),
     ("outlier-drag", "pixels1 pixels2"),
+    ("plane-or-not", "camera1 camera2 fundamental homography"),
     ("ransac-epipolar", "pixels1 pixels2 thresholdPx"),
     ("ransac-line", "points thresholdPx"),
     ("ransac-race", "points thresholdPx"),
     ("rectify", "camera1 camera2 pixels1 pixels2"),
     ("triangulate", "camera1 camera2 pixels1 pixels2"),
+    ("vanishing-points", "camera pixels"),
 ];
 
 #[test]
@@ -358,7 +361,11 @@ fn a_photograph_has_the_pixels_of_its_panel() {
         "disparity-map",
         "eight-point",
         "epipolar-click",
+        "homography-drag",
+        "panorama",
+        "plane-or-not",
         "ransac-epipolar",
+        "vanishing-points",
     ];
     assert!(found.iter().eq(&expected), "{found:?}");
 }

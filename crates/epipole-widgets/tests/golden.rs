@@ -25,6 +25,18 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         "epipolar-click-inside.png",
         Theme::Dark,
     ),
+    (
+        "homography-drag",
+        "width=62&height=46",
+        "homography-drag.png",
+        Theme::Light,
+    ),
+    (
+        "plane-or-not",
+        "show=warped&many=true",
+        "plane-or-not.png",
+        Theme::Dark,
+    ),
     ("ransac-race", "", "ransac-race.png", Theme::Light),
     ("scale-drift", "", "scale-drift.png", Theme::Light),
     ("stereo-slider", "", "stereo-slider.png", Theme::Light),

@@ -116,7 +116,14 @@ pub(crate) fn detect(
     ])
 }
 
-fn features_of(photograph: &RgbImage, progress: Progress<'_>) -> Result<Features, Error> {
+/// Detects the strongest SIFT features of a photograph.
+///
+/// # Errors
+/// As [`detect_sift`].
+pub(crate) fn features_of(
+    photograph: &RgbImage,
+    progress: Progress<'_>,
+) -> Result<Features, Error> {
     let options = SiftOptions::default().with_max_features(MAX_FEATURES);
     let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
     detect_sift(&gray, &options, &mut |status: Status| {
