@@ -10,6 +10,7 @@ mod entry;
 mod epipolar;
 mod gradients;
 mod matching;
+mod planes;
 mod ransac;
 mod rays;
 mod sfm;
@@ -26,6 +27,7 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
         gradients::ENTRIES,
         corners::ENTRIES,
         matching::ENTRIES,
+        planes::ENTRIES,
         epipolar::ENTRIES,
         ransac::ENTRIES,
         triangulation::ENTRIES,

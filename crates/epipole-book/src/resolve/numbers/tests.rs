@@ -60,6 +60,30 @@ fn worked_numbers() {
         ("eight-point.condition normalized=1 digits=1", "19.8"),
         ("eight-point.distance-px normalized=0", "0.24"),
         ("eight-point.distance-px normalized=1", "0.13"),
+        // 320 + 600 / 3, 240 + 600 · 1.5 / 3, and back
+        ("planes.floor-u f=600 cu=320 cv=240 h=1.5 x=1 z=3", "520"),
+        ("planes.floor-v f=600 cu=320 cv=240 h=1.5 x=1 z=3", "540"),
+        (
+            "planes.floor-x f=600 cu=320 cv=240 h=1.5 u=420 v=390",
+            "1.00",
+        ),
+        (
+            "planes.floor-z f=600 cu=320 cv=240 h=1.5 u=420 v=390",
+            "6.00",
+        ),
+        // 20 · 20 / (10 · 30), and 120 · 75 / (45 · 150)
+        ("planes.cross-ratio a=0 b=10 c=20 d=30", "1.333"),
+        ("planes.cross-ratio a=540 b=465 c=420 d=390", "1.333"),
+        // √(850 · 450 − 150²)
+        (
+            "planes.focal cu=320 cv=240 u1=1170 v1=90 u2=-130 v2=90",
+            "600",
+        ),
+        // atan(200 / 600); 320 + 600 tan(18.43° − 20°)
+        ("planes.angle-deg f=600 cu=320 u=520", "18.4"),
+        ("planes.turned-u f=600 cu=320 u=520 deg=20", "303.6"),
+        // 600 · 0.2 (1 / 1.5 − 1 / 3)
+        ("planes.parallax-px f=600 b=0.2 z=1.5 wall=3", "40"),
         // (140 − 40) / 2, (120 − 60) / 2; √(50² + 30²); atan(30 / 50)
         ("gradients.slope before=40 after=140 digits=0", "50"),
         ("gradients.slope before=60 after=120", "30.0"),
