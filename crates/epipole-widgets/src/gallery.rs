@@ -10,6 +10,7 @@ mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
 mod epipolar_plane;
+mod flat_scene;
 mod four_poses;
 mod gradient_field;
 pub mod harris;
@@ -37,6 +38,7 @@ mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
 mod vanishing_points;
+mod window_search;
 pub mod window_shift;
 
 /// A figure's entry in the list.
@@ -103,6 +105,8 @@ figures![
     vanishing_points::View,
     panorama::View,
     plane_or_not::View,
+    window_search::View,
+    flat_scene::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -6,6 +6,7 @@
 //! | [`patch`] | what the windows of features show, for comparison |
 //! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
+//! | [`rectified`] | a stereo pair of the still life with its true disparities |
 //! | [`features`] | two photographs of the still life with their features |
 //! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
 //! | [`points`] | points that the reader drags, adds and removes |
@@ -50,6 +51,7 @@ pub(crate) mod points;
 pub(crate) mod probe;
 pub(crate) mod question;
 pub(crate) mod reconstruction;
+pub(crate) mod rectified;
 pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;

@@ -1,12 +1,13 @@
 //! Settings of the disparity search, and a probe.
 
-use super::question::{Answer, Method, Question, SIZE};
+use super::question::{Answer, Method, Question};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Toggle, knobs,
 };
 use crate::kit::probe::Probe;
 use crate::kit::question::{Asked, carry_out};
+use crate::kit::rectified::SIZE;
 
 const METHOD: Choice = Choice::new(
     "method",
@@ -55,8 +56,8 @@ impl DisparityMap {
         let (u, v) = self.probe.pixel();
         Some(Probed {
             found_px: answer.found.get(u, v),
-            truth_px: answer.truth.get(u, v)?,
-            is_hidden: answer.is_hidden(u, v),
+            truth_px: answer.pair.truth.get(u, v)?,
+            is_hidden: answer.pair.is_hidden(u, v),
         })
     }
 

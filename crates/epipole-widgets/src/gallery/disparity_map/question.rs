@@ -1,23 +1,17 @@
 //! The job of `disparity-map`: renders a pair, matches it and scores the disparities.
 
 use crate::contract::{Problem, Progress};
-use crate::kit::picture::Picture;
-use crate::kit::question::{self, tell};
+use crate::kit::question;
+use crate::kit::rectified::{self, Map, RectifiedPair};
 use epipole::Error;
-use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::imaging::rgb_to_gray;
 use epipole::progress::{Monitor, Status};
-use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoSgm, depth_from_disparity};
-use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
+use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoSgm};
 use image::GrayImage;
 use serde::{Deserialize, Serialize};
 
-/// Size of the photographs, pixels.
-pub(super) const SIZE: (u32, u32) = (320, 240);
 /// Error above which an answer is bad, pixels.
 pub(super) const BAD_PX: f32 = 2.0;
-/// Disparities that differ by more belong to different surfaces, pixels.
-const SAME_SURFACE_PX: f32 = 1.0;
 
 /// Matching method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,27 +33,12 @@ pub(super) struct Question {
     pub(super) checks: bool,
 }
 
-/// One value per pixel, row by row; NaN without a value.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Map(Vec<f32>);
-
-impl Map {
-    pub(super) fn get(&self, u: u32, v: u32) -> Option<f32> {
-        let index = v as usize * SIZE.0 as usize + u as usize;
-        let value = self.0.get(index).filter(|_| u < SIZE.0)?;
-        value.is_finite().then_some(*value)
-    }
-}
-
 /// The pair, its true and its computed disparities, and their scores.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
-    pub(super) pictures: [Picture; 2],
-    /// True disparities of the left photograph.
-    pub(super) truth: Map,
+    pub(super) pair: RectifiedPair,
     /// Disparities found.
     pub(super) found: Map,
-    hidden: Vec<bool>,
     pub(super) scores: Scores,
 }
 
@@ -74,65 +53,30 @@ pub(super) struct Scores {
     pub(super) mean_error_px: f64,
 }
 
-/// Returns the focal length of both cameras, pixels.
-pub(super) fn focal_px() -> f64 {
-    still_life_camera(SIZE.0, SIZE.1).camera.intrinsics.fu_px()
-}
-
-/// Returns the left camera and the right one, a baseline apart along the rows.
-fn cameras(baseline_m: f64) -> [PosedCamera; 2] {
-    let left = still_life_camera(SIZE.0, SIZE.1);
-    // Half a baseline to either side of the composition's viewpoint, so that both see the table.
-    let shifted = |x_m: f64| PosedCamera {
-        cam_from_world: RigidTransform::translation(-x_m, 0.0, 0.0) * left.cam_from_world,
-        ..left
-    };
-    [shifted(-0.5 * baseline_m), shifted(0.5 * baseline_m)]
-}
-
 impl question::Question for Question {
     type Answer = Answer;
     const LABEL: &'static str = "Matching every pixel";
     const FAILED: &'static str = "There is no disparity";
 
     fn answer(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
-        tell(progress, 0.0)?;
-        if !(self.baseline_m > 0.0 && self.baseline_m < 1.0) {
-            return Err(Error::OutOfRange {
-                what: "the baseline",
-                requirement: "between 0 and 1 meters",
-                value: self.baseline_m,
-            }
-            .into());
-        }
-        let scene = Scene::still_life();
-        let [left, right] = cameras(self.baseline_m);
-        let left = scene.render(&left, SIZE.0, SIZE.1, Sampling::Full)?;
-        tell(progress, 0.3)?;
-        let right = scene.render(&right, SIZE.0, SIZE.1, Sampling::Full)?;
-        tell(progress, 0.6)?;
-        let gray = |photo: &Photograph| rgb_to_gray(&photo.image);
-        let found = self.search(&gray(&left), &gray(&right), &mut |status: Status| {
+        let pair = RectifiedPair::render(self.baseline_m, &mut |share| progress(0.6 * share))?;
+        let [left, right] = &pair.pictures;
+        let [left, right] = [left, right].map(|picture| rgb_to_gray(picture.image()));
+        let found = self.search(&left, &right, &mut |status: Status| {
             progress(0.6 + 0.4 * f64::from(status.share))
         })?;
-        let truth = self.true_disparity(&left);
-        let hidden = hidden(&truth.0, &self.true_disparity(&right).0);
         let found = Map(found.as_raw().to_vec());
         Ok(Answer {
-            pictures: [left.image.into(), right.image.into()],
-            scores: Scores::of(&found, &truth, &hidden),
-            truth,
+            scores: Scores::of(&found, &pair.truth, &pair.hidden),
+            pair,
             found,
-            hidden,
         })
     }
 
     fn fits(&self, answer: &Answer) -> bool {
-        let num_pixels = (SIZE.0 * SIZE.1) as usize;
         let scores = &answer.scores;
-        answer.pictures.iter().all(|picture| picture.size() == SIZE)
-            && [&answer.truth, &answer.found].map(|map| map.0.len()) == [num_pixels; 2]
-            && answer.hidden.len() == num_pixels
+        answer.pair.fits()
+            && answer.found.fits()
             && [scores.coverage, scores.bad, scores.mean_error_px]
                 .iter()
                 .all(|score| score.is_finite())
@@ -176,38 +120,15 @@ impl Question {
         }
     }
 
-    /// Returns the true disparity of every pixel, `d = f B / Z`.
-    fn true_disparity(&self, photograph: &Photograph) -> Map {
-        let scale = focal_px() * self.baseline_m;
-        let depths = photograph.depth_m.as_raw().iter();
-        Map(depths.map(|&z| (scale / f64::from(z)) as f32).collect())
-    }
-
     /// Returns the depth of a disparity, meters; `None` unless the disparity is positive.
     pub(super) fn depth_m(&self, disparity_px: f32) -> Option<f64> {
-        depth_from_disparity(focal_px(), self.baseline_m, f64::from(disparity_px)).ok()
+        rectified::depth_m(self.baseline_m, disparity_px.into())
     }
 
     /// Whether the search reaches the largest true disparity.
     pub(super) fn reaches_nearest(&self, answer: &Answer) -> bool {
         answer.scale_px() < self.num_disparities as f32 - 1.0
     }
-}
-
-/// Returns, for each pixel of the left photograph, whether it is hidden from the right camera.
-fn hidden(left: &[f32], right: &[f32]) -> Vec<bool> {
-    let width = SIZE.0 as usize;
-    let is_hidden = |index: usize| {
-        let (row, u) = (index / width, (index % width) as f32);
-        let there = (u - left[index]).round();
-        if there < 0.0 {
-            return true;
-        }
-        // A surface in front has a larger disparity.
-        let before = right[row * width + (there as usize).min(width - 1)] - left[index];
-        before > SAME_SURFACE_PX
-    };
-    (0..left.len()).map(is_hidden).collect()
 }
 
 impl Scores {
@@ -235,20 +156,14 @@ impl Scores {
 }
 
 impl Answer {
-    /// Whether a pixel of the left photograph is hidden from the right camera.
-    pub(super) fn is_hidden(&self, u: u32, v: u32) -> bool {
-        let index = v as usize * SIZE.0 as usize + u as usize;
-        self.hidden.get(index).copied().unwrap_or(false)
-    }
-
     /// Returns found minus true disparity, pixels; `None` without an answer.
     pub(super) fn error_px(&self, u: u32, v: u32) -> Option<f32> {
-        Some(self.found.get(u, v)? - self.truth.get(u, v)?)
+        Some(self.found.get(u, v)? - self.pair.truth.get(u, v)?)
     }
 
     /// Returns the largest true disparity, which is the end of the color scale, pixels.
     pub(super) fn scale_px(&self) -> f32 {
-        let finite = self.truth.0.iter().filter(|d| d.is_finite());
+        let finite = self.pair.truth.0.iter().filter(|d| d.is_finite());
         finite.fold(1.0, |most, d| d.max(most))
     }
 }

@@ -1,11 +1,12 @@
 //! The pair, its true disparity, the disparity found, the error, and a legend for the colors.
 
 use super::model::DisparityMap;
-use super::question::{Answer, BAD_PX, SIZE};
-use crate::canvas::{Canvas, Place, Stroke, text_width};
+use super::question::{Answer, BAD_PX};
+use crate::canvas::{Canvas, Stroke, text_width};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::heat::{self, Fill, Heat};
+use crate::kit::rectified::{self, SIZE};
 use crate::theme::{Rgb, Role, Theme, mix};
 use image::RgbImage;
 
@@ -75,7 +76,7 @@ impl View for DisparityMapView {
 
     fn photograph(&mut self, model: &DisparityMap, panel: &str) -> Option<RgbImage> {
         let index = ["left", "right"].iter().position(|&name| name == panel)?;
-        Some(model.asked.answer()?.pictures[index].image().clone())
+        Some(model.asked.answer()?.pair.pictures[index].image().clone())
     }
 
     fn draw(&mut self, model: &DisparityMap, layout: &Layout, canvas: &mut Canvas) {
@@ -89,7 +90,7 @@ impl View for DisparityMapView {
             grid::notice(canvas, layout.panel("left").rect, words);
             return draw_legend(canvas, layout, None);
         };
-        let [left, right] = &answer.pictures;
+        let [left, right] = &answer.pair.pictures;
         canvas.photograph(layout.panel("left").rect, left.image());
         canvas.photograph(layout.panel("right").rect, right.image());
         let theme = canvas.theme();
@@ -114,11 +115,17 @@ fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     };
     let none = |u: u32, v: u32| heat::nothing(theme, u, v);
     [
-        map(&|u, v| answer.truth.get(u, v).map_or_else(|| none(u, v), scale)),
+        map(&|u, v| {
+            answer
+                .pair
+                .truth
+                .get(u, v)
+                .map_or_else(|| none(u, v), scale)
+        }),
         map(&|u, v| answer.found.get(u, v).map_or_else(|| none(u, v), scale)),
         map(&|u, v| match answer.error_px(u, v) {
             None => none(u, v),
-            Some(_) if answer.is_hidden(u, v) => theme.color(Role::Reference),
+            Some(_) if answer.pair.is_hidden(u, v) => theme.color(Role::Reference),
             Some(error_px) => error_color(theme, error_px),
         }),
     ]
@@ -153,22 +160,12 @@ fn draw_probe(model: &DisparityMap, answer: &Answer, layout: &Layout, canvas: &m
         canvas.clipped(panel.rect, |canvas| match window {
             Some(window_px) => {
                 let half = 0.5 * f64::from(window_px) * panel.scale_x();
-                draw_window(canvas, place, half.max(3.0));
+                rectified::draw_window(canvas, place, half.max(3.0));
             }
             None if id == "left" => canvas.grip(place, Role::Grip),
             None => canvas.circle(place, 5.0, Stroke::solid(Role::Grip, 2.0).cased()),
         });
     }
-}
-
-/// Draws the outline of the window, which leaves its pixels visible, with four ticks to find it by.
-fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
-    let stroke = Stroke::solid(Role::Grip, 2.0).cased();
-    for (along, across) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-        let at = |distance: f64| (x + along * distance, y + across * distance);
-        canvas.line(at(half + 2.0), at(half + 11.0), stroke);
-    }
-    canvas.stroke_rect(Rect::around((x, y), half), stroke);
 }
 
 /// Draws the legend beside the small panels, or below all panels on a phone.
