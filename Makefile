@@ -3,7 +3,7 @@
 PORT ?= 8000
 SEED ?= 1
 MONKEY_SECONDS ?= 20
-# Four or five events each, for 31 figures: ten million.
+# Four or five events each, for every figure: some ten million.
 FUZZ_SEQUENCES ?= 72000
 VENV := .venv
 PYTHON := $(VENV)/bin/python

@@ -84,6 +84,7 @@ figures![
     epipolar_click::View,
     epipolar_plane::View,
     eight_point::View,
+    flat_scene::View,
     column_sizes::View,
     outlier_drag::View,
     ransac_line::View,
@@ -93,6 +94,7 @@ figures![
     scale_ambiguity::View,
     stereo_slider::View,
     rectify::View,
+    window_search::View,
     disparity_map::View,
     four_poses::View,
     two_view_sfm::View,
@@ -105,8 +107,6 @@ figures![
     vanishing_points::View,
     panorama::View,
     plane_or_not::View,
-    window_search::View,
-    flat_scene::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -37,6 +37,7 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         "plane-or-not.png",
         Theme::Dark,
     ),
+    ("flat-scene", "spread=0", "flat-scene.png", Theme::Light),
     ("ransac-race", "", "ransac-race.png", Theme::Light),
     ("scale-drift", "", "scale-drift.png", Theme::Light),
     ("stereo-slider", "", "stereo-slider.png", Theme::Light),
@@ -45,6 +46,12 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         "baseline=0.30&object=-0.4,6",
         "stereo-slider-far.png",
         Theme::HighContrast,
+    ),
+    (
+        "window-search",
+        "window=5&place=170,214&candidate=22,0",
+        "window-search.png",
+        Theme::Dark,
     ),
 ];
 

@@ -17,6 +17,7 @@ mod union_find;
 pub use geodetic::{Geodetic, local_from_geodetic};
 pub use length::length;
 pub use line::Line2;
+pub use null_space::right_singular_vectors;
 pub(crate) use svd3::nearest_orthogonal;
 pub use svd3::{Svd3, svd3};
 pub(crate) use union_find::UnionFind;

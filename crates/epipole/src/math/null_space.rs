@@ -90,7 +90,15 @@ fn reflect<const N: usize>(v: &[f64; N], scale: f64, from: usize, x: &mut [f64; 
 /// nothing is squared and nothing allocated.
 ///
 /// Source: Golub & Van Loan 2013, §5.2 (QR), §8.6.3 (one-sided Jacobi).
-pub(crate) fn right_singular_vectors<const N: usize>(
+///
+/// ```
+/// use epipole::math::right_singular_vectors;
+/// let rows = [[0.0, 3.0], [2.0, 0.0], [0.0, 4.0]];
+/// let (values, vectors) = right_singular_vectors(rows.len(), |i| rows[i]);
+/// assert!((values[0] - 5.0).abs() < 1e-12 && (values[1] - 2.0).abs() < 1e-12);
+/// assert!((vectors[0][1].abs() - 1.0).abs() < 1e-12);
+/// ```
+pub fn right_singular_vectors<const N: usize>(
     num_rows: usize,
     row: impl Fn(usize) -> [f64; N],
 ) -> ([f64; N], [[f64; N]; N]) {

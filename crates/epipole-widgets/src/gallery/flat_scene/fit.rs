@@ -3,8 +3,8 @@
 use crate::kit::matches::{Match, distance_px, line2};
 use epipole::Error;
 use epipole::epipolar::{Normalization, epipolar_row};
-use epipole::math::Line2;
-use nalgebra::{DMatrix, Matrix3, Point2};
+use epipole::math::{Line2, right_singular_vectors};
+use nalgebra::{Matrix3, Point2};
 
 /// Largest residual `‖A f‖` of an F that fits, relative to that of the best, σ₉.
 pub(super) const FITS: f64 = 1.5;
@@ -34,21 +34,10 @@ impl Fit {
     pub(super) fn new(matches: &[Match]) -> Result<Self, Error> {
         let (pixels1, pixels2): (Vec<_>, Vec<_>) = matches.iter().copied().unzip();
         let (n1, n2) = (Normalization::new(&pixels1)?, Normalization::new(&pixels2)?);
-        let rows: Vec<[f64; 9]> = (matches.iter())
-            .map(|(pixel1, pixel2)| epipolar_row(&n1.apply(pixel1), &n2.apply(pixel2)))
-            .collect();
-        let rows = DMatrix::from_fn(rows.len(), 9, |i, k| rows[i][k]);
-        let too_few = Error::TooFew {
-            what: "nine singular values",
-            needed: 9,
-            got: matches.len(),
-        };
-        let svd = rows.svd(false, true);
-        let (Some(vectors), 9) = (svd.v_t, svd.singular_values.len()) else {
-            return Err(too_few);
-        };
-        let singular_values: [f64; 9] = core::array::from_fn(|k| svd.singular_values[k]);
-        let vector = |k: usize| Matrix3::from_fn(|i, j| vectors[(k, 3 * i + j)]);
+        let (singular_values, vectors) = right_singular_vectors(matches.len(), |i| {
+            epipolar_row(&n1.apply(&pixels1[i]), &n2.apply(&pixels2[i]))
+        });
+        let vector = |k: usize| Matrix3::from_row_slice(&vectors[k]);
         let undo = |f: Matrix3<f64>| n2.matrix().transpose() * f * n1.matrix();
         let turned = directions(&singular_values)
             .map(|[a, b, c]| undo(vector(8) * a + vector(7) * b + vector(6) * c));

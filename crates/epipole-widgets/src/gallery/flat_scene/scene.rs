@@ -7,7 +7,7 @@ use epipole::math::random::Random;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 
 /// Number of matches that F is estimated from, and of points that evaluate it.
-const NUM_USED: usize = 24;
+const NUM_USED: usize = 40;
 const NUM_NEW: usize = 40;
 /// Maximum number of pixels tried in image 1.
 const MAX_TRIED: usize = 4000;
@@ -21,7 +21,7 @@ const SLOPE: f64 = 0.35;
 /// Largest depth from the plane at full spread, meters.
 const DEEP_M: f64 = 1.7;
 /// Smallest distance between points in image 1 and from its edge, pixels.
-const APART_PX: f64 = 34.0;
+const APART_PX: f64 = 26.0;
 const MARGIN_PX: f64 = 24.0;
 
 /// A pixel of image 1, and the depth of its point behind the plane at full spread, meters.

@@ -17,10 +17,10 @@ use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2, Vector3};
 
-const MARKER: f64 = 4.5;
-const DECADES: [f64; 2] = [-4.2, 1.2];
+const MARKER: f64 = 4.0;
+const DECADES: [f64; 2] = [-3.6, 1.5];
 /// Extent of the plan, meters to the right and away.
-const PLAN_M: [[f64; 2]; 2] = [[-2.2, 3.4], [-0.4, 7.6]];
+const PLAN_M: [[f64; 2]; 2] = [[-2.2, 3.4], [-0.4, 7.2]];
 /// Depth of the drawn image planes, meters.
 const IMAGE_M: f64 = 0.7;
 const BEST: Stroke = Stroke::solid(Role::Grip, 3.0);
@@ -53,7 +53,7 @@ impl View for FlatSceneView {
 
     fn layout(&self, _: &FlatScene, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        let shares = [[1.1, 1.0], [0.8, 1.0]];
+        let shares = [[1.3, 1.0], [0.8, 1.0]];
         let [first, second, above, values] = grid.photographs_and_two(PHOTO_ASPECT, shares);
         grid.strip(legend::height(&legend_entries(), width, 0.0) + 4.0);
         let [x, y] = rulers();
@@ -127,7 +127,7 @@ fn draw_second(model: &FlatScene, state: &State, panel: &Panel, canvas: &mut Can
         draw_line(canvas, panel, &line, BEST.cased());
     }
     if let Some(line) = model.true_line() {
-        draw_line(canvas, panel, &line, TRUTH.cased());
+        draw_line(canvas, panel, &line, TRUTH);
     }
     for (_, pixel2) in &state.matches {
         canvas.marker(
@@ -184,25 +184,28 @@ fn draw_above(model: &FlatScene, state: &State, panel: &Panel, canvas: &mut Canv
 /// Draws the singular values, those at full spread, and the limit up to which an F fits.
 fn draw_values(state: &State, panel: &Panel, canvas: &mut Canvas) {
     let sigma = &state.fit.singular_values;
-    let limit = plot::decade(FITS * sigma[8]);
-    let ends = [5.6, 9.5].map(|x| (x, limit));
-    let stroke = Stroke::solid(Role::Candidate, 1.5).dashed();
+    let limit = plot::decade(FITS * sigma[8]).max(DECADES[0]);
+    let ends = [panel.x_axis.start, panel.x_axis.end].map(|x| (x, limit));
+    let stroke = Stroke::solid(Role::Candidate, 1.5).dotted();
     plot::draw_curve(canvas, panel, ends, stroke);
     let mut labels = Labels::new(panel.rect.inset(2.0));
-    let (x, y) = panel.canvas_from_world((5.6, limit));
+    let start = panel.canvas_from_world(ends[0]);
     let style = (Role::Candidate, SMALL);
-    let deep = List {
-        values: &state.deep,
-        stroke: Stroke::solid(Role::Reference, 1.25).dashed(),
-        mark: (Shape::Ring, 4.0),
-        name: ("spread 1", 6),
-    };
+    labels.name(canvas, ((start.0 + 4.0, start.1), 2.0), "1.5 σ₉", style);
     let now = List {
         values: sigma,
         stroke: Stroke::solid(Role::Inlier, 2.5),
         mark: (Shape::Disk, 4.5),
         name: ("now", 3),
     };
-    plot::draw_lists(canvas, panel, &[deep, now]);
-    labels.name(canvas, ((x, y), 6.0), "1.5 σ₉", style);
+    let deep = List {
+        values: &state.deep,
+        stroke: Stroke::solid(Role::Reference, 1.25).dashed(),
+        mark: (Shape::Ring, 4.0),
+        name: ("spread 1", 7),
+    };
+    // At full spread both lists are the same.
+    let lists = [deep, now];
+    let first = usize::from(state.deep == *sigma);
+    plot::draw_lists(canvas, panel, &lists[first..]);
 }

@@ -116,6 +116,12 @@ impl Three {
         }
     }
 
+    /// Returns disparity and height of the lowest point of the curve.
+    pub(super) fn lowest(&self, refinement: Refinement) -> (f64, f64) {
+        let disparity = self.at as f64 + self.offset(refinement);
+        (disparity, self.height(refinement, disparity))
+    }
+
     /// Returns the height of the curve at a disparity, pixels.
     pub(super) fn height(&self, refinement: Refinement, disparity: f64) -> f64 {
         let [below, best, above] = self.costs;
@@ -153,7 +159,7 @@ mod tests {
         assert!((wedge.offset(Refinement::TwoLines) + 0.3).abs() < 1e-12);
         for three in [bowl, wedge] {
             for refinement in BOTH {
-                let lowest = three.height(refinement, 7.0 + three.offset(refinement));
+                let (_, lowest) = three.lowest(refinement);
                 for (cost, d) in three.costs.into_iter().zip([6.0, 7.0, 8.0]) {
                     assert!((three.height(refinement, d) - cost).abs() < 1e-12);
                     assert!(lowest <= cost);

@@ -4,13 +4,14 @@
 use super::model::WindowSearch;
 use super::search::{Curve, REACH, Three};
 use crate::canvas::{Canvas, Shape, Stroke};
-use crate::contract::{Aspect, Layout, Panel, View};
+use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid, SMALL};
 use crate::kit::labels::Labels;
+use crate::kit::picture::Picture;
 use crate::kit::plot::{self, Ruler};
 use crate::kit::rectified::{self, SIZE};
 use crate::theme::Role;
-use image::RgbImage;
+use image::imageops::crop_imm;
 
 /// Height over width of the photographs.
 const ASPECT: f64 = grid::aspect(SIZE);
@@ -23,6 +24,8 @@ const NEAR_PX: f64 = 1.6;
 const NUM_POINTS: usize = 60;
 /// Height of the plots relative to the highest cost.
 const HEADROOM: f64 = 1.08;
+/// Side of an enlarged window relative to the height of its photograph.
+const INSET: f64 = 0.3;
 
 /// Draws [`WindowSearch`].
 #[derive(Default)]
@@ -40,14 +43,15 @@ fn cost_rulers(model: &WindowSearch) -> [Ruler; 2] {
 /// Returns the axes of the close-up.
 fn near_rulers(model: &WindowSearch) -> [Ruler; 2] {
     let middle = model.curve().map_or(0.0, |curve| curve.winner() as f64);
-    let costs = model
-        .curve()
-        .and_then(Curve::three)
-        .map(|three| three.costs);
-    let highest = costs.map_or(1.0, |costs| costs.into_iter().fold(0.0, f64::max));
+    let three = model.curve().and_then(Curve::three);
+    let highest = three.map_or(1.0, |three| three.costs.into_iter().fold(0.0, f64::max));
+    // Two lines may meet below zero.
+    let lowest = three.map_or(0.0, |three| three.lowest(model.refinement()).1);
+    let highest = HEADROOM * highest.max(0.1);
+    let lowest = lowest.min(0.0);
     [
         Ruler::linear(middle - NEAR_PX, middle + NEAR_PX).named("disparity, px"),
-        Ruler::linear(0.0, HEADROOM * highest.max(0.1)),
+        Ruler::linear(lowest - 0.1 * (highest - lowest), highest),
     ]
 }
 
@@ -77,11 +81,6 @@ impl View for WindowSearchView {
             plot::panel("costs", costs, &d, &cost),
             plot::panel("near", near, &near_d, &near_cost),
         ])
-    }
-
-    fn photograph(&mut self, model: &WindowSearch, panel: &str) -> Option<RgbImage> {
-        let pair = model.asked.answer()?;
-        (panel == "left").then(|| pair.pictures[0].image().clone())
     }
 
     fn draw(&mut self, model: &WindowSearch, layout: &Layout, canvas: &mut Canvas) {
@@ -129,6 +128,10 @@ impl View for WindowSearchView {
         canvas.clipped(right.rect, |canvas| {
             draw_right(model, curve, (right, half), canvas);
         });
+        let shifts = [0, model.candidate_px() as u32];
+        for ((panel, picture), shift) in [left, right].into_iter().zip(&pair.pictures).zip(shifts) {
+            draw_inset(model, (panel, picture), shift, canvas);
+        }
         draw_costs(model, curve, costs, canvas);
         match curve.three() {
             Some(three) => draw_near(model, &three, near, canvas),
@@ -152,24 +155,42 @@ fn draw_right(
     let [from, to] = [curve.costs().len() as f64 - 1.0, 0.0].map(at);
     canvas.line(from, to, Stroke::solid(Role::Grip, 1.25).cased().dotted());
     rectified::draw_window(canvas, at(model.candidate_px() as f64), half);
-    canvas.marker(
-        at(curve.winner() as f64),
-        4.0,
-        Shape::Disk,
-        Role::Best,
-        true,
-    );
+    let winner = Rect::around(at(curve.winner() as f64), half);
+    canvas.stroke_rect(winner, Stroke::solid(Role::Best, 2.0).cased());
     if let Some(truth) = model.truth_px() {
         canvas.marker(at(truth), 5.0, Shape::Plus, Role::Truth, true);
     }
+}
+
+/// Draws the window, shifted to the left by this many pixels, enlarged in a lower corner.
+fn draw_inset(
+    model: &WindowSearch,
+    (panel, picture): (&Panel, &Picture),
+    shift: u32,
+    canvas: &mut Canvas,
+) {
+    let ((u, v), half) = (model.place.pixel(), model.half_px());
+    let side = 2 * half + 1;
+    let window = crop_imm(picture.image(), u - shift - half, v - half, side, side);
+    let (rect, size) = (panel.rect, INSET * panel.rect.height);
+    // Away from the window.
+    let x = match u < SIZE.0 / 2 && v > SIZE.1 / 2 {
+        true => rect.right() - size,
+        false => rect.x,
+    };
+    let inset = Rect::new(x, rect.bottom() - size, size, size).inset(4.0);
+    canvas.photograph(inset, &window.to_image());
+    canvas.stroke_rect(inset, Stroke::solid(Role::Grip, 2.0).cased());
 }
 
 /// Draws all costs, the candidate's, the lowest one, and the true disparity.
 fn draw_costs(model: &WindowSearch, curve: &Curve, panel: &Panel, canvas: &mut Canvas) {
     let places = (curve.costs().iter().enumerate()).map(|(d, cost)| (d as f64, *cost));
     let mut labels = Labels::new(panel.rect.inset(2.0));
-    for place in places.clone() {
-        labels.keep_free(panel.canvas_from_world(place), 3.0);
+    for (d, pair) in curve.costs().windows(2).enumerate() {
+        let ends = [(d, pair[0]), (d + 1, pair[1])].map(|(d, cost)| (d as f64, cost));
+        let [from, to] = ends.map(|place| panel.canvas_from_world(place));
+        labels.keep_line_free(from, to);
     }
     if let Some(truth) = model.truth_px() {
         draw_truth(canvas, panel, truth);
@@ -210,30 +231,32 @@ fn draw_near(model: &WindowSearch, three: &Three, panel: &Panel, canvas: &mut Ca
     if let Some(truth) = model.truth_px() {
         draw_truth(canvas, panel, truth);
     }
-    let x = |k: usize| NEAR_PX * (2.0 * k as f64 / NUM_POINTS as f64 - 1.0);
     // With the tip of the two lines among the points.
+    let x = |k: usize| NEAR_PX * (2.0 * k as f64 / NUM_POINTS as f64 - 1.0);
     let offset = three.offset(refinement);
     let mut xs: Vec<f64> = (0..=NUM_POINTS).map(x).chain([offset]).collect();
     xs.sort_by(f64::total_cmp);
     let curve = (xs.into_iter()).map(|x| (at(x), three.height(refinement, at(x))));
-    plot::draw_curve(canvas, panel, curve, Stroke::solid(Role::Candidate, 2.0));
     let mut labels = Labels::new(panel.rect.inset(2.0));
+    for place in curve.clone() {
+        labels.keep_free(panel.canvas_from_world(place), 2.0);
+    }
+    plot::draw_curve(canvas, panel, curve, Stroke::solid(Role::Candidate, 2.0));
     for (x, cost) in [-1.0, 0.0, 1.0].into_iter().zip(three.costs) {
         let place = panel.canvas_from_world((at(x), cost));
         let role = if x == 0.0 { Role::Best } else { Role::Ink };
         canvas.marker(place, 4.5, Shape::Disk, role, true);
         labels.keep_free(place, 6.0);
     }
-    let lowest = (at(offset), three.height(refinement, at(offset)));
-    let place = panel.canvas_from_world(lowest);
+    let place = panel.canvas_from_world(three.lowest(refinement));
     canvas.marker(place, 5.0, Shape::Diamond, Role::Candidate, true);
     labels.keep_free(place, 6.0);
-    labels.name(canvas, (place, 8.0), "minimum", (Role::Candidate, SMALL));
     let Some(truth) = model.truth_px() else {
         return;
     };
-    let beside = panel.canvas_from_world((truth, 0.0)).0;
-    let rect = panel.rect;
+    let (beside, rect) = (panel.canvas_from_world((truth, 0.0)).0, panel.rect);
+    labels.keep_rect_free(Rect::new(beside - 2.0, rect.y, 4.0, rect.height));
+    labels.name(canvas, (place, 8.0), "minimum", (Role::Candidate, SMALL));
     let text = match truth - three.at as f64 {
         off if off < -NEAR_PX => "← true d",
         off if off > NEAR_PX => "true d →",

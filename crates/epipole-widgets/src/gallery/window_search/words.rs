@@ -2,7 +2,7 @@
 
 use super::model::WindowSearch;
 use super::question::depth_m;
-use super::search::Refinement;
+use super::search::{Curve, Refinement};
 use crate::contract::{Readout, Words, format_number};
 
 impl Words for WindowSearch {
@@ -15,6 +15,7 @@ impl Words for WindowSearch {
         let whole = self.curve().map(|curve| curve.winner() as f64);
         let cost = |disparity: usize| self.curve()?.costs().get(disparity).copied();
         let lowest = self.curve().and_then(|curve| cost(curve.winner()));
+        let highest = self.curve().map(Curve::highest);
         let rival = self.rival().map_or(missing.to_owned(), |(at, ratio)| {
             format!("{at} px, {} times the cost", format_number(ratio, 2))
         });
@@ -38,6 +39,7 @@ impl Words for WindowSearch {
             .main(),
             number("whole", "Whole pixels", whole, 0, "px"),
             number("lowest", "Lowest cost", lowest, 1, "levels"),
+            number("highest", "Highest cost", highest, 1, "levels"),
             Readout::words("rival", "Second minimum", rival),
             number("depth", "Depth found", found.and_then(depth_m), 3, "m"),
             number("true-depth", "True depth", truth.and_then(depth_m), 3, "m"),
