@@ -24,6 +24,8 @@ const NEAR_PX: f64 = 1.6;
 const NUM_POINTS: usize = 60;
 /// Height of the plots relative to the highest cost.
 const HEADROOM: f64 = 1.08;
+/// Highest cost of a curve that is drawn low, gray levels.
+const LOW: f64 = 40.0;
 /// Side of an enlarged window relative to the height of its photograph.
 const INSET: f64 = 0.3;
 
@@ -33,10 +35,10 @@ pub(crate) struct WindowSearchView;
 
 /// Returns the axes of all costs.
 fn cost_rulers(model: &WindowSearch) -> [Ruler; 2] {
-    let highest = model.curve().map_or(1.0, Curve::highest);
+    let highest = model.curve().map_or(0.0, Curve::highest);
     [
         Ruler::linear(-1.0, REACH as f64 + 1.0).named("disparity, px"),
-        Ruler::linear(0.0, HEADROOM * highest.max(1.0)),
+        Ruler::linear(0.0, HEADROOM * highest.max(LOW)),
     ]
 }
 
