@@ -94,6 +94,13 @@ impl WindowSearch {
         Some(self.asked.answer()?.is_hidden(u, v))
     }
 
+    /// Returns whether both cameras see the center of the window, and a candidate reaches its match.
+    fn is_within_reach(&self) -> bool {
+        let last = self.curve().map_or(0, |curve| curve.costs().len() - 1);
+        let is_reached = |truth_px: f64| truth_px <= last as f64;
+        self.is_hidden() == Some(false) && self.truth_px().is_some_and(is_reached)
+    }
+
     /// Returns found minus true disparity, pixels.
     pub(super) fn error_px(&self) -> Option<f64> {
         Some(self.found_px()? - self.truth_px()?)
@@ -170,7 +177,7 @@ const CHALLENGES: &[Challenge<WindowSearch>] = &[
               near thing the stronger texture does.",
         check: |model| {
             let is_wrong = |error_px: f64| error_px.abs() > WRONG_PX;
-            model.is_hidden() == Some(false) && model.error_px().is_some_and(is_wrong)
+            model.is_within_reach() && model.error_px().is_some_and(is_wrong)
         },
         solution: || {
             vec![
@@ -272,6 +279,7 @@ mod tests {
             .unwrap();
         assert_eq!(model.candidate_px(), 20);
         assert_eq!(model.curve().unwrap().costs().len(), 21);
+        assert!(model.is_within_reach());
         model
             .update(&Event::moved(PLACE.id(), 10.0, 100.0))
             .unwrap();
@@ -279,5 +287,6 @@ mod tests {
             (model.candidate_px(), model.curve().unwrap().winner()),
             (0, 0)
         );
+        assert!(!model.is_within_reach());
     }
 }

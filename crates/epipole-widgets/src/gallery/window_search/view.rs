@@ -35,10 +35,10 @@ pub(crate) struct WindowSearchView;
 
 /// Returns the axes of all costs.
 fn cost_rulers(model: &WindowSearch) -> [Ruler; 2] {
-    let highest = model.curve().map_or(0.0, Curve::highest);
+    let highest = HEADROOM * model.curve().map_or(0.0, Curve::highest).max(LOW);
     [
         Ruler::linear(-1.0, REACH as f64 + 1.0).named("disparity, px"),
-        Ruler::linear(0.0, HEADROOM * highest.max(LOW)),
+        Ruler::linear(-0.06 * highest, highest),
     ]
 }
 
