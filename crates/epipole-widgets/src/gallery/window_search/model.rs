@@ -94,7 +94,7 @@ impl WindowSearch {
         Some(self.asked.answer()?.is_hidden(u, v))
     }
 
-    /// Returns whether both cameras see the center of the window, and a candidate reaches its match.
+    /// Returns whether both cameras see the window's center, and a candidate reaches its match.
     fn is_within_reach(&self) -> bool {
         let last = self.curve().map_or(0, |curve| curve.costs().len() - 1);
         let is_reached = |truth_px: f64| truth_px <= last as f64;
