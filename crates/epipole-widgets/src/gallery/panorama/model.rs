@@ -1,6 +1,6 @@
 //! The photographs to join, and surface, blending and exposure of the panorama.
 
-use super::question::{Answer, MAX_PHOTOS, Question, Source};
+use super::question::{Answer, BLENDS, MAX_PHOTOS, Question, SURFACES, Source};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, PhotoSlot, Problem,
     Settings, Slider, knobs,
@@ -79,11 +79,11 @@ impl PanoramaFigure {
     }
 
     pub(super) fn surface(&self) -> Surface {
-        [Surface::Plane, Surface::Cylinder][self.settings.chosen(&SURFACE)]
+        SURFACES[self.settings.chosen(&SURFACE)]
     }
 
     pub(super) fn blend(&self) -> Blend {
-        [Blend::Seams, Blend::Feather, Blend::Bands][self.settings.chosen(&BLEND)]
+        BLENDS[self.settings.chosen(&BLEND)]
     }
 
     /// Returns the answer to the current question; `None` while it is computed or if there is none.
@@ -123,8 +123,8 @@ impl PanoramaFigure {
         };
         self.asked.ask(Question {
             source,
-            surface: self.surface(),
-            blend: self.blend(),
+            surface: self.settings.chosen(&SURFACE),
+            blend: self.settings.chosen(&BLEND),
             gains: exposure == 2,
         });
     }

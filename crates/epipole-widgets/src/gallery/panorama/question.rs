@@ -20,6 +20,8 @@ use serde::{Deserialize, Serialize};
 pub(super) const SIZE: (u32, u32) = (480, 360);
 /// Maximum number of photographs.
 pub(super) const MAX_PHOTOS: usize = 3;
+pub(super) const SURFACES: [Surface; 2] = [Surface::Plane, Surface::Cylinder];
+pub(super) const BLENDS: [Blend; 3] = [Blend::Seams, Blend::Feather, Blend::Bands];
 /// Focal length guessed for all photographs, in units of the longer side.
 const GUESSED_FOCAL: f64 = 1.0;
 /// Maximum number of pixels of the panorama.
@@ -45,8 +47,10 @@ pub(super) enum Source {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) source: Source,
-    pub(super) surface: Surface,
-    pub(super) blend: Blend,
+    /// Index in [`SURFACES`].
+    pub(super) surface: usize,
+    /// Index in [`BLENDS`].
+    pub(super) blend: usize,
     pub(super) gains: bool,
 }
 
@@ -98,8 +102,8 @@ impl question::Question for Question {
         let found = estimate_panorama(&guesses?, &overlaps, true, &mut ())?;
         let images: Vec<_> = photographs.iter().map(Picture::image).collect();
         let options = RenderOptions::default()
-            .with_surface(self.surface)
-            .with_blend(self.blend)
+            .with_surface(*at(&SURFACES, self.surface)?)
+            .with_blend(*at(&BLENDS, self.blend)?)
             .with_gains(self.gains)
             .with_max_pixels(MAX_PIXELS);
         let panorama = render_panorama(&found, &images, &options, &mut ())?;
@@ -121,6 +125,14 @@ impl question::Question for Question {
             && answer.turns_deg.len() == count
             && numbers.iter().chain(turns).all(|number| number.is_finite())
     }
+}
+
+/// Returns one of several options.
+fn at<T>(options: &[T], index: usize) -> Result<&T, Error> {
+    options.get(index).ok_or(Error::Degenerate {
+        what: "the question of a figure",
+        why: "it names an option that does not exist",
+    })
 }
 
 impl From<&Overlap> for Joint {
