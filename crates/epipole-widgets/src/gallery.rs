@@ -4,6 +4,7 @@ use crate::contract::{Compute, Declared, JobResult, Problem, Progress, View};
 use crate::stage::{self, Stage};
 
 mod bundle_adjustment;
+mod calibrate;
 mod column_sizes;
 mod cover;
 mod disparity_map;
@@ -16,6 +17,7 @@ mod gradient_field;
 pub mod harris;
 mod homography_drag;
 mod kernel_stepper;
+mod lens_bend;
 mod outlier_drag;
 mod panorama;
 mod patch_match;
@@ -107,6 +109,8 @@ figures![
     vanishing_points::View,
     panorama::View,
     plane_or_not::View,
+    lens_bend::View,
+    calibrate::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -362,6 +362,7 @@ fn a_photograph_has_the_pixels_of_its_panel() {
         "eight-point",
         "epipolar-click",
         "homography-drag",
+        "lens-bend",
         "panorama",
         "plane-or-not",
         "ransac-epipolar",

@@ -5,6 +5,7 @@
 //! example in the tests. `digits=` sets the decimals. An unknown name or parameter fails the build,
 //! so prose cannot drift away from the code.
 
+mod calibration;
 mod corners;
 mod entry;
 mod epipolar;
@@ -27,12 +28,13 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
         gradients::ENTRIES,
         corners::ENTRIES,
         matching::ENTRIES,
-        planes::ENTRIES,
         epipolar::ENTRIES,
         ransac::ENTRIES,
         triangulation::ENTRIES,
         stereo::ENTRIES,
         sfm::ENTRIES,
+        planes::ENTRIES,
+        calibration::ENTRIES,
     ];
     rooms.into_iter().flatten()
 }

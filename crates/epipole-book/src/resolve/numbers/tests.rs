@@ -84,6 +84,15 @@ fn worked_numbers() {
         ("planes.turned-u f=600 cu=320 u=520 deg=20", "303.6"),
         // 600 · 0.2 (1 / 1.5 − 1 / 3)
         ("planes.parallax-px f=600 b=0.2 z=1.5 wall=3", "40"),
+        // 1 − 0.2 · 0.25; 320 + 600 · 0.285, 240 + 600 · 0.38
+        ("calibration.factor x=0.3 y=0.4 k1=-0.2", "0.950"),
+        ("calibration.bent-u x=0.3 y=0.4 k1=-0.2 f=600 cu=320", "491"),
+        ("calibration.bent-v x=0.3 y=0.4 k1=-0.2 f=600 cv=240", "468"),
+        // 600 tan 60°, 600 · 60 π / 180
+        ("calibration.pinhole-px f=600 deg=60", "1039"),
+        ("calibration.fisheye-px f=600 deg=60", "628"),
+        // 4.25 / 5.6 · 4032
+        ("calibration.exif-px mm=4.25 sensor=5.6 width=4032", "3060"),
         // (140 − 40) / 2, (120 − 60) / 2; √(50² + 30²); atan(30 / 50)
         ("gradients.slope before=40 after=140 digits=0", "50"),
         ("gradients.slope before=60 after=120", "30.0"),

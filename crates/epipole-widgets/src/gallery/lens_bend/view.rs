@@ -1,0 +1,147 @@
+//! The photograph through the lens, and the same as the reader's guess straightens it.
+
+use super::model::{Edge, LensBend, SHARP_SIZE, SIZE, camera, pixel, ray};
+use crate::canvas::{Canvas, Place, Stroke};
+use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::grid::{self, Grid};
+use crate::kit::photo::Photo;
+use crate::kit::scenes::still_life;
+use crate::theme::Role;
+use epipole::camera::Distortion;
+use epipole::stereo::PixelMap;
+use image::RgbImage;
+use nalgebra::Point2;
+
+/// Maximum height of a photograph, CSS pixels.
+const TALLEST: f64 = 430.0;
+/// Spacing of the exact positions between which the lens is interpolated, pixels.
+const NODE: u32 = 8;
+
+/// Draws [`LensBend`].
+#[derive(Default)]
+pub(crate) struct LensBendView {
+    photo: Photo,
+    /// Slices of the sharp photograph that are done.
+    num_slices: u32,
+    taken: Option<(Distortion, u32, RgbImage)>,
+}
+
+impl LensBendView {
+    /// Returns the photograph through the lens.
+    fn taken(&mut self, model: &LensBend) -> Option<&RgbImage> {
+        let (lens, num_slices) = (model.lens(), self.num_slices);
+        let kept = self.taken.take();
+        let kept = kept.filter(|(of, at, _)| (*of, *at) == (lens, num_slices));
+        let image = match kept {
+            Some((.., image)) => image,
+            None => {
+                let (scene, camera) = (still_life(), camera(SHARP_SIZE));
+                let sharp = self.photo.picture(&scene, &camera, [0.0; 3], SHARP_SIZE);
+                through(&lens).warp(sharp.ok()?)
+            }
+        };
+        Some(&self.taken.insert((lens, num_slices, image)).2)
+    }
+}
+
+impl View for LensBendView {
+    type Model = LensBend;
+    const ASPECT: Aspect = Aspect::Broad;
+
+    fn layout(&self, _: &LensBend, width: f64) -> Layout {
+        let mut grid = Grid::new(width);
+        let aspect = grid::aspect(SIZE);
+        let [taken, corrected] = match grid::is_narrow(width) {
+            true => [grid.row([aspect], 158.0), grid.row([aspect], 158.0)].map(|[cell]| cell),
+            false => grid.row([aspect; 2], TALLEST),
+        };
+        grid.layout(vec![
+            Panel::photograph("taken", taken, SIZE),
+            Panel::photograph("corrected", corrected, SIZE),
+        ])
+    }
+
+    fn photograph(&mut self, model: &LensBend, panel: &str) -> Option<RgbImage> {
+        let taken = self.taken(model)?;
+        match panel {
+            "taken" => Some(taken.clone()),
+            "corrected" => Some(straightened(&model.guess()).warp(taken)),
+            _ => None,
+        }
+    }
+
+    fn draw(&mut self, model: &LensBend, layout: &Layout, canvas: &mut Canvas) {
+        let titles: [(_, &[_]); 2] = [
+            ("taken", &["Through the lens"]),
+            ("corrected", &["Corrected by your numbers", "Corrected"]),
+        ];
+        let panels = grid::open_all(canvas, layout, titles);
+        let [taken, corrected] = panels;
+        if let Some(image) = self.taken(model) {
+            canvas.photograph(taken.rect, image);
+            canvas.photograph(corrected.rect, &straightened(&model.guess()).warp(image));
+        }
+        for (panel, edges) in [(taken, model.bent()), (corrected, model.corrected())] {
+            canvas.clipped(panel.rect.inset(1.0), |canvas| {
+                draw_edges(canvas, panel, &edges)
+            });
+        }
+    }
+
+    fn prepare(&mut self, _: &LensBend) -> bool {
+        (self.photo).prepare(&still_life(), &camera(SHARP_SIZE), [0.0; 3], SHARP_SIZE)
+    }
+
+    fn refine(&mut self, _: &LensBend) -> bool {
+        let camera = camera(SHARP_SIZE);
+        let is_working = (self.photo).refine(&still_life(), &camera, [0.0; 3], SHARP_SIZE);
+        self.num_slices += 1;
+        is_working
+    }
+}
+
+/// Returns the map from the sharp photograph to that through the lens.
+fn through(lens: &Distortion) -> PixelMap {
+    let (width, height) = SIZE;
+    let nodes = [width.div_ceil(NODE) + 1, height.div_ceil(NODE) + 1];
+    let mut exact = Vec::new();
+    for row in 0..nodes[1] {
+        for column in 0..nodes[0] {
+            let seen = Point2::new(f64::from(column * NODE), f64::from(row * NODE));
+            let straight = lens.undistort(&ray(&seen, SIZE));
+            exact.push(straight.ok().map(|ray| pixel(&ray, SHARP_SIZE)));
+        }
+    }
+    let at = |column: u32, row: u32| exact[(row * nodes[0] + column) as usize];
+    PixelMap::from_fn(width, height, |u, v| {
+        let (column, row) = (u / NODE, v / NODE);
+        let [across, down] = [u, v].map(|place| f64::from(place % NODE) / f64::from(NODE));
+        let between = |from: Option<Point2<f64>>, to: Option<Point2<f64>>, share: f64| {
+            Some(Point2::from(from?.coords.lerp(&to?.coords, share)))
+        };
+        let upper = between(at(column, row), at(column + 1, row), across);
+        let lower = between(at(column, row + 1), at(column + 1, row + 1), across);
+        between(upper, lower, down)
+    })
+}
+
+/// Returns the map that takes a distortion out of a photograph.
+fn straightened(guess: &Distortion) -> PixelMap {
+    let (width, height) = SIZE;
+    PixelMap::from_fn(width, height, |u, v| {
+        let straight = ray(&Point2::new(f64::from(u), f64::from(v)), SIZE);
+        Some(pixel(&guess.distort(&straight), SIZE))
+    })
+}
+
+/// Draws edges, and beside each the straight line through its ends.
+fn draw_edges(canvas: &mut Canvas, panel: &Panel, edges: &[Edge]) {
+    for Edge(points) in edges {
+        let places: Vec<Place> = points.iter().map(|point| panel.place_of(point)).collect();
+        if let (Some(first), Some(last)) = (places.first(), places.last()) {
+            let chord = Stroke::solid(Role::Ink, 1.25).dashed().cased();
+            canvas.line(*first, *last, chord);
+        }
+        canvas.polyline(&places, Stroke::solid(Role::Outlier, 2.0).cased());
+    }
+}
