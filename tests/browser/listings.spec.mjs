@@ -133,7 +133,7 @@ test("on a phone all tabs are in a row, and the choice is remembered", async ({ 
 });
 
 test("every chapter with Python has its notebook", async ({ page, request, library }) => {
-  for (const name of ["rays", "corners", "epipolar", "eight-point", "ransac", "stereo", "sfm"]) {
+  for (const name of ["rays", "corners", "epipolar", "eight-point", "ransac", "stereo", "sfm", "planes", "calibration"]) {
     await page.goto(`${library}/${name}.html`);
     const link = page.locator(".notebook a");
     await expect(link).toBeVisible();

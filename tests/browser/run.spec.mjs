@@ -1,14 +1,16 @@
 // Code that runs in the page: output, errors with their line, limits, figures, kept code, links.
 
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { expect, expectAccessible, test } from "./fixtures.mjs";
-import { book } from "./places.mjs";
+import { book, root } from "./places.mjs";
 
 test.skip(!book, "the book is not what is tested");
 
-const CHAPTERS = [
-  "gradients", "corners", "matching", "rays", "epipolar", "eight-point",
-  "ransac", "sandbox", "triangulation", "stereo", "sfm", "connections",
-];
+/** Numbered chapters of the book, in its order. */
+const CHAPTERS = [...readFileSync(join(root, "content/SUMMARY.md"), "utf8").matchAll(/^- .*\((.*)\.md\)$/gm)].map(
+  ([, name]) => name,
+);
 const HEAD = 'import { Vision } from "@epipole/vision";\nconst vision = await Vision.load();\n';
 const listing = (page) => page.locator("#listing-line");
 const output = (page) => listing(page).locator(".run-output");
