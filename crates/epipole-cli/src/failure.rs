@@ -53,7 +53,7 @@ impl From<epipole::Error> for Failure {
     fn from(error: epipole::Error) -> Self {
         use epipole::Error as E;
         let kind = match error {
-            E::TooFew { .. } => "too-few",
+            E::TooFew { .. } | E::TooFewDistinct { .. } => "too-few",
             E::NotFinite { .. } => "not-finite",
             E::OutOfRange { .. } => "out-of-range",
             E::Degenerate { .. } => "degenerate",

@@ -32,7 +32,7 @@ impl Fault {
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
         let kind = match error {
-            Error::TooFew { .. } => "TooFew",
+            Error::TooFew { .. } | Error::TooFewDistinct { .. } => "TooFew",
             Error::Degenerate { .. } | Error::PointAtInfinity | Error::PointBehindCamera => {
                 "Degenerate"
             }

@@ -44,7 +44,7 @@ pub(crate) fn exception(error: &epipole::Error) -> PyErr {
     use epipole::Error as E;
     let message = error.to_string();
     match error {
-        E::TooFew { .. } => TooFewError::new_err(message),
+        E::TooFew { .. } | E::TooFewDistinct { .. } => TooFewError::new_err(message),
         E::Degenerate { .. } | E::PointAtInfinity | E::PointBehindCamera => {
             DegenerateError::new_err(message)
         }

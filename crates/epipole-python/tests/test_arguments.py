@@ -77,6 +77,9 @@ def test_empty_arrays(world):
     assert epipolar.epipolar_line1(world.fundamental, empty).shape == (0, 3)
     with pytest.raises(epipole.TooFewError, match="there are none"):
         epipole.estimate_fundamental(empty, empty)
+    same = np.ones((9, 2))
+    with pytest.raises(epipole.TooFewError, match="at least 7 that differ, but the 9 given are equal"):
+        epipole.estimate_fundamental(same, same)
 
 
 def test_errors_have_one_base(world):

@@ -18,6 +18,18 @@ pub enum Error {
         /// Number given.
         got: usize,
     },
+    /// Enough data, but too few that differ: repetitions count once.
+    #[error("{what} needs at least {needed} that differ, but {}", distinct(*.got, *.given))]
+    TooFewDistinct {
+        /// The computation, as in [`Error::TooFew`].
+        what: &'static str,
+        /// The smallest sufficient number.
+        needed: usize,
+        /// Number of distinct data.
+        got: usize,
+        /// Number given.
+        given: usize,
+    },
     /// A NaN or an infinity among the inputs.
     #[error("{what} must be a finite number")]
     NotFinite {
@@ -136,6 +148,14 @@ fn only(count: usize) -> String {
     }
 }
 
+/// The counts in words, for [`Error::TooFewDistinct`].
+fn distinct(count: usize, given: usize) -> String {
+    match count {
+        1 => format!("the {given} given are equal"),
+        _ => format!("of the {given} given only {count} are distinct: the others repeat them"),
+    }
+}
+
 /// A number without hundreds of zeros.
 fn brief(value: f64) -> String {
     let size = value.abs();
@@ -163,6 +183,27 @@ mod tests {
                 got,
             };
             let whole = format!("a fundamental matrix from matches needs at least 7, {end}");
+            assert_eq!(error.to_string(), whole);
+        }
+    }
+
+    #[test]
+    fn repetitions_are_named() {
+        for (got, end) in [
+            (1, "but the 9 given are equal"),
+            (
+                2,
+                "but of the 9 given only 2 are distinct: the others repeat them",
+            ),
+        ] {
+            let error = Error::TooFewDistinct {
+                what: "a fundamental matrix from matches",
+                needed: 7,
+                got,
+                given: 9,
+            };
+            let whole =
+                format!("a fundamental matrix from matches needs at least 7 that differ, {end}");
             assert_eq!(error.to_string(), whole);
         }
     }

@@ -105,6 +105,8 @@ for (const worker of [false, true]) {
     });
     const line = [[0, 0], [1, 1], [2, 2], [3, 3], [4, 4], [5, 5]];
     assert.equal(await codeOf(vision.fitHomography(SQUARE.slice(1), SQUARE.slice(1))), "TooFew");
+    const same = SQUARE.map(() => SQUARE[0]);
+    await assert.rejects(vision.estimateHomography(same, same), { code: "TooFew", message: /the \d+ given are equal/ });
     assert.equal(await codeOf(vision.fitHomography(line, line)), "Degenerate");
     assert.equal(await codeOf(vision.estimateHomography(line, line)), "Degenerate");
   });

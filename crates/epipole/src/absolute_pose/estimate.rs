@@ -41,8 +41,9 @@ impl AbsolutePoseEstimator {
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN,
-    /// [`Error::TooFew`] for fewer than 4 different data: three have up to four poses. A point at
-    /// infinity, and a pixel there, beyond 10⁹ or that the lens bends no ray to, is left out.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 data: three have up to four
+    /// poses. A point at infinity, and a pixel there, beyond 10⁹ or that the lens bends no ray to,
+    /// is left out.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -56,13 +57,7 @@ impl AbsolutePoseEstimator {
         });
         let is_seen = |i: usize| observed.as_ref().is_none_or(|seen| seen[i].is_some());
         let unique = usable(points_in_world, pixels, is_seen)?;
-        if unique.len() < 4 {
-            return Err(Error::TooFew {
-                what: "a camera pose from points",
-                needed: 4,
-                got: unique.len(),
-            });
-        }
+        unique.at_least(4, "a camera pose from points")?;
         let kept = unique.first_occurrences();
         let k = camera.intrinsics;
         let (sight, rays) = match observed {

@@ -55,9 +55,9 @@ impl AbsolutePoseFocalEstimator {
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for
-    /// a principal point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as
-    /// four may have several poses. A point at infinity, and a pixel there or beyond 10⁹, is left
-    /// out.
+    /// a principal point that is not finite, [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer
+    /// than 5 data, as four may have several poses. A point at infinity, and a pixel there or
+    /// beyond 10⁹, is left out.
     fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -69,13 +69,7 @@ impl AbsolutePoseFocalEstimator {
             });
         }
         let unique = usable(points_in_world, pixels, |_| true)?;
-        if unique.len() < 5 {
-            return Err(Error::TooFew {
-                what: NAME,
-                needed: 5,
-                got: unique.len(),
-            });
-        }
+        unique.at_least(5, NAME)?;
         let kept = unique.first_occurrences();
         let pixels: Vec<_> = (kept.iter().map(|&i| pixels[i] - principal.coords)).collect();
         let mut far: Vec<_> = pixels.iter().map(|p| p.coords.norm()).collect();
@@ -199,9 +193,9 @@ impl Estimator for AbsolutePoseFocalEstimator {
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a
-/// principal point that is not finite, [`Error::TooFew`] for fewer than 5 different data, as four
-/// may have several poses, and as [`ransac`]; points on one line give [`Error::NoConsensus`]. A
-/// point at infinity, and a pixel there or beyond 10⁹, is left out.
+/// principal point that is not finite, [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than
+/// 5 data, as four may have several poses, and as [`ransac`]; points on one line give
+/// [`Error::NoConsensus`]. A point at infinity, and a pixel there or beyond 10⁹, is left out.
 ///
 /// Source: Fischler & Bolles 1981, with [`pose_p4pf`](super::pose_p4pf) as the minimal solver.
 ///

@@ -45,7 +45,7 @@ impl EssentialEstimator {
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
     /// # Errors
-    /// As [`MatchSet::new`]; [`Error::TooFew`] for fewer than 5 different matches,
+    /// As [`MatchSet::new`]; [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches,
     /// [`Error::Degenerate`] if all pixels of an image of a pinhole camera lie on one line, or are
     /// equal.
     pub fn new(

@@ -45,8 +45,8 @@ impl FundamentalEstimator {
     /// Prepares the estimation.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] if all pixels
-    /// of an image lie on one line, or are equal.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 7 matches, [`Error::Degenerate`]
+    /// if all pixels of an image lie on one line, or are equal.
     pub fn new(matches: MatchSet) -> Result<Self> {
         matches.at_least(7, "a fundamental matrix from matches")?;
         refuse_collinear(&matches, "a fundamental matrix from matches")?;

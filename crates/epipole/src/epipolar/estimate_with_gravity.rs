@@ -34,8 +34,9 @@ impl GravityEstimator {
     ///   cameras, of any length
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 5 different matches, as fewer fit many motions well,
-    /// [`Error::Degenerate`] for a gravity without direction, and as [`EssentialEstimator::new`].
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches, as fewer fit many
+    /// motions well, [`Error::Degenerate`] for a gravity without direction, and as
+    /// [`EssentialEstimator::new`].
     pub fn new(
         pixels1: &[Point2<f64>],
         pixels2: &[Point2<f64>],

@@ -22,8 +22,8 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 7 different matches, [`Error::Degenerate`] for a start of rank
-/// 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
+/// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 7 matches, [`Error::Degenerate`] for
+/// a start of rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
 /// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
 /// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
 /// counts.

@@ -21,9 +21,9 @@ use nalgebra::Point2;
 /// The rotation and the direction of the translation, five parameters, are refined.
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 5 different matches, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a number at
-/// some match, [`Error::Degenerate`] for a pixel that its lens bends no ray to, and as
+/// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches, [`Error::OutOfRange`] for
+/// a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a
+/// number at some match, [`Error::Degenerate`] for a pixel that its lens bends no ray to, and as
 /// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
 /// counts.
 ///

@@ -49,8 +49,8 @@ impl HomographyEstimator {
     /// Prepares the estimation.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 4 different matches, [`Error::Degenerate`] if all pixels of
-    /// an image lie on one line.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 matches, [`Error::Degenerate`]
+    /// if all pixels of an image lie on one line.
     pub fn new(matches: MatchSet) -> Result<Self> {
         matches.at_least(4, "a homography from matches")?;
         let [u1, v1, u2, v2] = matches.coordinates();

@@ -18,10 +18,10 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// * `loss`: its width is in pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than 4 different matches, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to infinity, and
-/// as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
-/// counts.
+/// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 matches, [`Error::OutOfRange`] for
+/// a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to
+/// infinity, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as
+/// every match counts.
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
 ///

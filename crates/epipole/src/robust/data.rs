@@ -1,6 +1,7 @@
 //! The data of a robust problem.
 
 use super::{MatchSet, Unique, chance_near_line, chance_near_point};
+use crate::{Error, Result};
 use nalgebra::Point2;
 
 /// Support of a model among the data.
@@ -52,6 +53,15 @@ impl<'a> Data<'a> {
         match *self {
             Self::Matches(matches) => Some(matches),
             _ => None,
+        }
+    }
+
+    /// Checks that there are enough different data to find `what` in; see [`Unique::at_least`].
+    pub(super) fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
+        match (self.unique(), self.len()) {
+            (Some(unique), _) => unique.at_least(needed, what),
+            (None, got) if got < needed => Err(Error::TooFew { what, needed, got }),
+            _ => Ok(()),
         }
     }
 

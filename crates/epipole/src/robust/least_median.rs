@@ -88,13 +88,7 @@ pub fn least_median<E: Estimator>(
 ) -> Result<LeastMedian<E::Model>> {
     let problem = estimator.problem();
     let (num_data, size, name) = (problem.data.len(), problem.sample_size, problem.name);
-    if num_data <= size {
-        return Err(Error::TooFew {
-            what: name,
-            needed: size + 1,
-            got: num_data,
-        });
-    }
+    problem.data.at_least(size + 1, name)?;
     if options.num_samples == 0 {
         return Err(Error::OutOfRange {
             what: "the number of samples",

@@ -154,12 +154,9 @@ impl MatchSet {
     /// Checks that there are enough matches to find `what` in.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than `needed`.
+    /// As [`Unique::at_least`].
     pub(crate) fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
-        match self.len() {
-            got if got < needed => Err(Error::TooFew { what, needed, got }),
-            _ => Ok(()),
-        }
+        self.unique.at_least(needed, what)
     }
 
     /// The probability that a pixel anywhere in image 2 is nearer than so much to a given one.

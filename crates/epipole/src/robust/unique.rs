@@ -1,6 +1,7 @@
 //! Equal data, found once and counted once.
 
 use crate::math::order::order_by;
+use crate::{Error, Result};
 
 /// Maximum number of values of a datum: a point and its pixel.
 const MAX_COORDINATES: usize = 5;
@@ -79,6 +80,29 @@ impl Unique {
         self.first.is_empty()
     }
 
+    /// Checks that there are enough different data to find `what` in.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] for fewer usable data than `needed`, [`Error::TooFewDistinct`] if only
+    /// repetitions make them enough.
+    pub fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
+        let given = self.place.len() - self.num_left_out();
+        match self.len() {
+            got if got >= needed => Ok(()),
+            got if given >= needed => Err(Error::TooFewDistinct {
+                what,
+                needed,
+                got,
+                given,
+            }),
+            _ => Err(Error::TooFew {
+                what,
+                needed,
+                got: given,
+            }),
+        }
+    }
+
     /// For each different datum, the index of its first occurrence among the given data.
     pub fn first_occurrences(&self) -> &[usize] {
         &self.first
@@ -111,5 +135,24 @@ mod tests {
         assert_eq!(unique.first_occurrences(), [1, 2, 4]);
         assert_eq!(unique.places(), [None, Some(0), Some(1), Some(0), Some(2)]);
         assert_eq!((unique.len(), unique.num_left_out()), (3, 1));
+    }
+
+    #[test]
+    fn repetitions_do_not_make_enough() {
+        let data = [[1.0], [1.0], [2.0], [f64::NAN]];
+        let unique = Unique::of_usable(4, |i| (!data[i][0].is_nan()).then_some(data[i]));
+        assert_eq!(unique.at_least(2, "a fit"), Ok(()));
+        let (what, given) = ("a fit", 3);
+        let (needed, got) = (3, 2);
+        let repeated = Error::TooFewDistinct {
+            what,
+            needed,
+            got,
+            given,
+        };
+        assert_eq!(unique.at_least(needed, what), Err(repeated));
+        let (needed, got) = (4, 3);
+        let few = Error::TooFew { what, needed, got };
+        assert_eq!(unique.at_least(needed, what), Err(few));
     }
 }

@@ -83,7 +83,9 @@ pub fn find_overlap(
     let estimator = HomographyEstimator::new(MatchSet::new(pixels1, pixels2)?);
     let report = match estimator.and_then(|it| ransac(it, &options.ransac, &mut *monitor)) {
         Ok(report) => report,
-        Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
+        Err(Error::TooFew { .. } | Error::TooFewDistinct { .. } | Error::NoConsensus { .. }) => {
+            return Ok(None);
+        }
         Err(error) => return Err(error),
     };
     if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {

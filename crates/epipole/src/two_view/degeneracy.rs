@@ -81,7 +81,12 @@ pub fn find_degeneracy(
     };
     let num_explained = match estimate_homography(&in1, &in2, &ransac, &mut ()) {
         Ok(report) => report.num_inliers,
-        Err(Error::TooFew { .. } | Error::NoConsensus { .. } | Error::Degenerate { .. }) => 0,
+        Err(
+            Error::TooFew { .. }
+            | Error::TooFewDistinct { .. }
+            | Error::NoConsensus { .. }
+            | Error::Degenerate { .. },
+        ) => 0,
         Err(error) => return Err(error),
     };
     let explained = nearly_all(num_explained, num_inliers, options);

@@ -40,7 +40,7 @@ impl RotationEstimator {
     /// Prepares the estimation from the matches of two cameras of any lens.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 2 different matches.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 2 matches.
     pub fn new(matches: MatchSet, cameras: [&Camera; 2]) -> Result<Self> {
         matches.at_least(2, "a rotation from matches")?;
         let pairs = (0..matches.len()).map(|i| matches.pair(i));

@@ -70,7 +70,9 @@ pub fn find_explaining_turn(
     };
     let report = match estimate_rotation(&in1, &in2, cameras, &ransac, &mut ()) {
         Ok(report) => report,
-        Err(Error::TooFew { .. } | Error::NoConsensus { .. }) => return Ok(None),
+        Err(Error::TooFew { .. } | Error::TooFewDistinct { .. } | Error::NoConsensus { .. }) => {
+            return Ok(None);
+        }
         Err(error) => return Err(error),
     };
     let pairs = in1.iter().zip(&in2);

@@ -80,7 +80,12 @@ pub(super) fn judge(
         {
             Ok(report) => report,
             // Wrong matches have no consensus, and matches at one place determine nothing.
-            Err(Error::NoConsensus { .. } | Error::Degenerate { .. } | Error::TooFew { .. }) => {
+            Err(
+                Error::NoConsensus { .. }
+                | Error::Degenerate { .. }
+                | Error::TooFew { .. }
+                | Error::TooFewDistinct { .. },
+            ) => {
                 return Ok(nothing(Verdict::NoConsensus));
             }
             Err(error) => return Err(error),

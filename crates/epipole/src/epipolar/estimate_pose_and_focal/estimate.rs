@@ -153,8 +153,8 @@ impl Estimator for FocalEstimator {
 /// direction are the poorer for it, too.
 ///
 /// # Errors
-/// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`] for fewer than 6 different matches,
-/// [`Error::Degenerate`] if all pixels of an image lie on one line, or are equal,
+/// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than
+/// 6 matches, [`Error::Degenerate`] if all pixels of an image lie on one line, or are equal,
 /// [`Error::NotFinite`] for principal points that are not.
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point), the minimal solver.

@@ -39,9 +39,9 @@ impl FocalEstimator {
     /// * `principal1`, `principal2`: the principal points of the two images, pixels
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than 6 different matches, [`Error::Degenerate`] if all pixels of
-    /// an image lie on one line, or are equal, [`Error::NotFinite`] for principal points that are
-    /// not.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 6 matches, [`Error::Degenerate`]
+    /// if all pixels of an image lie on one line, or are equal, [`Error::NotFinite`] for principal
+    /// points that are not.
     pub(super) fn new(
         matches: MatchSet,
         principal1: &Point2<f64>,

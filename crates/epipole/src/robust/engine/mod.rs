@@ -16,8 +16,8 @@ mod stopping;
 use super::sampler::Sampler;
 use super::step::{Step, Trial};
 use super::{Estimator, Problem, RansacOptions, RansacReport, ScoreKind, StopReason, Support};
+use crate::Result;
 use crate::math::random::Random;
-use crate::{Error, Result};
 
 /// A sample's model is improved if it beats those of this block of so many samples and of the block
 /// before: a sample that is better than all others may still lead to an optimum that is worse than
@@ -90,19 +90,13 @@ impl<E: Estimator> Ransac<E> {
     /// Prepares a run; all memory is taken here.
     ///
     /// # Errors
-    /// [`Error::TooFew`] if there are fewer different data than one sample has,
+    /// [`Error::TooFew`] or [`Error::TooFewDistinct`] for fewer data than one sample has,
     /// [`Error::OutOfRange`] for options outside their range.
     pub fn new(estimator: E, options: RansacOptions) -> Result<Self> {
         options.check()?;
         let problem = estimator.problem();
         let (num_data, size) = (problem.data.len(), problem.sample_size);
-        if num_data < size || size == 0 {
-            return Err(Error::TooFew {
-                what: problem.name,
-                needed: size.max(1),
-                got: num_data,
-            });
-        }
+        problem.data.at_least(size.max(1), problem.name)?;
         let chance = (problem.data).chance(problem.codimension, options.max_error_px);
         Ok(Self {
             sampler: Sampler::new(options.sampler, num_data, size, options.max_iterations),
