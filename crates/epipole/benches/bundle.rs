@@ -41,7 +41,10 @@ fn bundle(c: &mut Criterion) {
             b.iter(|| black_box(adjust(max_iterations)));
         });
     }
-    if let Some(graph) = data("posegraph/INTEL.g2o").and_then(|text| read_g2o(&text).ok()) {
+    if let Some(graph) = data("posegraph/INTEL.g2o")
+        .and_then(|text| read_g2o(&text).ok())
+        .map(|read| read.graph)
+    {
         group.bench_function("INTEL pose graph", |b| {
             b.iter(|| {
                 let mut graph = graph.clone();

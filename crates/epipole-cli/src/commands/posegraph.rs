@@ -17,10 +17,12 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
     JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information\n\
-    whatever the loss, iterations, termination (why it ended), num_vertices, num_edges."
+    whatever the loss, iterations, termination (why it ended), num_vertices, num_edges,\n\
+    num_priors, notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// A g2o file with poses in the plane, in space, or in space with scale.
+    /// A g2o file with poses in the plane, in space, or in space with scale; priors count,
+    /// landmarks are left out.
     graph: PathBuf,
     /// Place the vertices from the measurements first, wherever the file puts them.
     #[arg(long)]
@@ -38,7 +40,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let text = files::read_text(&arguments.graph)?;
     let parsed = read_g2o(&text);
-    let mut graph = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
+    let read = parsed.map_err(|error| Failure::from(error).about(&arguments.graph))?;
+    for note in &read.notes {
+        context.warn(note);
+    }
+    let mut graph = read.graph;
     let progress = Progress::new(context, "pose graph");
     if arguments.initialize {
         let watch = &mut |status| progress.show(status);
@@ -72,7 +78,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("termination", ended_by)
         .field("num_vertices", vertices)
         .field("num_edges", edges)
+        .field("num_priors", graph.num_priors())
+        .field("notes", read.notes)
         .row("vertices and edges", format!("{vertices} and {edges}"))
+        .row("priors", graph.num_priors())
         .row("initial χ²", format!("{:.3}", initial_chi2))
         .row("final χ²", format!("{:.3}", final_chi2))
         .row("iterations", iterations)

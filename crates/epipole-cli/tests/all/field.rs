@@ -253,20 +253,54 @@ fn four_matches_give_their_homography() {
 }
 
 #[test]
-fn pose_graphs_that_are_not_read_name_the_cause() {
+fn pose_graphs_have_priors_or_name_the_cause() {
     let folder = Folder::new("graphs");
-    for (file, why) in [
-        ("commas.g2o", "line 1: “0,000000” has a decimal comma"),
-        (
-            "prior.g2o",
-            "line 5: “EDGE_SE3_PRIOR” is a prior of one pose",
-        ),
+    let (Some(commas), Some(prior)) = (field("12/commas.g2o"), field("12/prior.g2o")) else {
+        return;
+    };
+    let why = "line 1: “0,000000” has a decimal comma";
+    fails(&folder, &["posegraph", path(&commas)], 1, why);
+    // The prior places vertex 1 at (5, 0, 0); the edges carry the others along, as in g2o.
+    let placed = folder.file("placed.g2o");
+    let result = json(&["posegraph", path(&prior), "-o", path(&placed)]);
+    assert_eq!(result["num_priors"], 1);
+    assert!(result["final_chi2"].as_f64().unwrap() < 1e-12, "{result}");
+    let text = std::fs::read_to_string(&placed).unwrap();
+    for (id, x, y, z) in [
+        (1, 5.0, 0.0, 0.0),
+        (2, 5.12, 0.03, -0.02),
+        (3, 5.28, 0.03, -0.01),
     ] {
-        let Some(file) = field(&format!("12/{file}")) else {
-            return;
-        };
-        fails(&folder, &["posegraph", path(&file)], 1, why);
+        let start = format!("VERTEX_SE3:QUAT {id} ");
+        let line = text
+            .lines()
+            .find_map(|line| line.strip_prefix(&start))
+            .unwrap();
+        let found: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+        for (found, expected) in found.iter().zip([x, y, z]) {
+            assert!((found - expected).abs() < 1e-6, "{line}");
+        }
     }
+    let lines = text.lines();
+    assert_eq!(
+        lines
+            .filter(|line| line.starts_with("EDGE_SE3_PRIOR 1 0 5 0 0"))
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn landmarks_of_pose_graphs_are_left_out_with_a_sentence() {
+    let folder = Folder::new("landmarks");
+    let graph = folder.write(
+        "landmarks.g2o",
+        "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 2 0 0\nVERTEX_XY 2 4 4\n\
+         EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 2 4 4 1 0 1\n",
+    );
+    let sentence = told(&["posegraph", path(&graph)]);
+    let why = "warning: 1 landmark and 1 measurement of them are left out";
+    assert!(sentence.contains(why), "{sentence}");
 }
 
 #[test]

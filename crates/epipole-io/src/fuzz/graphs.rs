@@ -6,7 +6,7 @@ use crate::damage::{config, damage_bytes, damage_text, some_damage};
 use crate::disparity::{read_pfm, write_pfm};
 use crate::pose_graph::{read_g2o, write_g2o};
 use epipole::optim::{LmOptions, RobustLoss};
-use epipole::sfm::adjust_bal;
+use epipole::sfm::{PoseGraph, adjust_bal};
 use epipole::stereo::DisparityImage;
 use proptest::prelude::*;
 
@@ -17,12 +17,17 @@ const BAL: [&str; 2] = [
      0.1 0.2 -5\n-1 0.4 -6\n0.3 -0.2 -4\n",
 ];
 
-const G2O: [&str; 3] = [
+const G2O: [&str; 5] = [
     "VERTEX_SE2 5 0 0 0\nVERTEX_SE2 9 1.5 0 0.25\nFIX 5\nEDGE_SE2 5 9 1 0 0 4 0.5 0 3 0 2\n",
     "# two\n\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 -2\n\
      EDGE_SE3:QUAT 0 1 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
     "VERTEX_SIM3:QUAT 0 0 0 0 0 0 0 1 1\nVERTEX_SIM3:QUAT 1 1 0 0 0 0 0 1 2\n\
      EDGE_SIM3:QUAT 0 1 1 0 0 0 0 0 1 2 1 0 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 2 4 4\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n\
+     EDGE_SE2_XY 0 2 4 4 1 0 1\nEDGE_PRIOR_SE2 0 1 2 3 1 0 0 1 0 1\nEDGE_PRIOR_SE2_XY 1 5 5 4 0 4\n",
+    "PARAMS_SE3OFFSET 3 0.5 0 0 0 0.6 0 0.8\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n\
+     EDGE_SE3_PRIOR 0 3 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n\
+     EDGE_SE3_XYZ_PRIOR 0 3 1 2 3 1 0 0 1 0 1\n",
 ];
 
 /// Whether the error names a line of the text.
@@ -66,9 +71,11 @@ proptest! {
     fn g2o(which in 0..G2O.len(), changes in some_damage()) {
         let text = damage_text(G2O[which], &changes);
         match read_g2o(&text) {
-            Ok(mut graph) => {
+            Ok(read) => {
+                let mut graph = read.graph;
+                let size = |graph: &PoseGraph| (graph.size(), graph.num_priors());
                 let again = read_g2o(&write_g2o(&graph));
-                prop_assert_eq!(again.map(|graph| graph.size()), Ok(graph.size()));
+                prop_assert_eq!(again.map(|again| size(&again.graph)), Ok(size(&graph)));
                 let options = LmOptions::default().with_max_iterations(3);
                 if graph.optimize(&options, RobustLoss::Trivial, &mut ()).is_ok() {
                     prop_assert!(read_g2o(&write_g2o(&graph)).is_ok());

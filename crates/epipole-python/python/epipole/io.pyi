@@ -560,7 +560,9 @@ def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
         NaN where unknown. Values outside [1/256, 255.996] are written as unknown.
     """
 def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
-    """Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT.
+    """Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
+
+    Landmarks are left out, with a warning.
 
     Parameters
     ----------

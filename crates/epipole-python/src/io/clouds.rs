@@ -8,6 +8,7 @@ use crate::sfm::{BalProblem, PoseGraph};
 use epipole::stereo::{DisparityImage, PointCloud};
 use epipole_io::{bundle, cloud, pose_graph};
 use numpy::PyArray2;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 /// Python object of a cloud, `epipole.stereo.PointCloud`.
@@ -121,7 +122,9 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
     )
 }
 
-/// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT.
+/// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
+///
+/// Landmarks are left out, with a warning.
 ///
 /// Parameters
 /// ----------
@@ -131,11 +134,14 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 /// -------
 /// epipole.sfm.PoseGraph
 #[pyfunction]
-fn read_g2o(source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
+fn read_g2o(py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
     let source = Source::read(source)?;
-    Ok(PoseGraph(
-        source.done(pose_graph::read_g2o(source.text()?))?,
-    ))
+    let read = source.done(pose_graph::read_g2o(source.text()?))?;
+    for note in &read.notes {
+        let note = std::ffi::CString::new(note.as_str())?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 1)?;
+    }
+    Ok(PoseGraph(read.graph))
 }
 
 /// Writes a pose graph in the text format of g2o.

@@ -94,6 +94,7 @@ impl Parts<'_, '_> {
                 })
                 .collect(),
             fixed: self.fixed,
+            ..Graph::default()
         })
     }
 }

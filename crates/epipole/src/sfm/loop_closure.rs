@@ -303,6 +303,7 @@ fn graph_of_path<T: GraphPose<D>, const D: usize>(
         vertices: world_from_cam.iter().map(unscaled).collect(),
         edges: steps.chain(closures).collect(),
         fixed: vec![0],
+        ..Graph::default()
     }
 }
 

@@ -60,7 +60,8 @@ pub use photos::{
     photo_features, reconstruct_photos,
 };
 pub use pose_graph::{
-    Edge, Graph, GraphPose, PoseGraph, PoseGraphReport, RelativeRotation, average_rotations,
+    Edge, Graph, GraphPose, PoseGraph, PoseGraphReport, PosePrior, RelativeRotation,
+    average_rotations,
 };
 pub use reconstruction::{Reconstruction, ScenePoint, SfmImage};
 pub use tracks::{PairMatches, TrackElement, build_tracks};

@@ -18,7 +18,7 @@ pub enum PoseGraph {
 }
 
 impl PoseGraph {
-    /// `χ² = Σ eᵀ Ω e` over all edges.
+    /// `χ² = Σ eᵀ Ω e` over all edges and priors.
     pub fn chi2(&self) -> f64 {
         match self {
             PoseGraph::Se2(graph) => graph.chi2(),
@@ -53,6 +53,15 @@ impl PoseGraph {
             PoseGraph::Se2(graph) => graph.optimize(options, loss, monitor),
             PoseGraph::Se3(graph) => graph.optimize(options, loss, monitor),
             PoseGraph::Sim3(graph) => graph.optimize(options, loss, monitor),
+        }
+    }
+
+    /// Number of priors.
+    pub fn num_priors(&self) -> usize {
+        match self {
+            PoseGraph::Se2(graph) => graph.priors.len(),
+            PoseGraph::Se3(graph) => graph.priors.len(),
+            PoseGraph::Sim3(graph) => graph.priors.len(),
         }
     }
 

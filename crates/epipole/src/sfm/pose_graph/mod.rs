@@ -3,6 +3,7 @@
 mod any;
 mod chordal;
 mod poses;
+mod prior;
 
 use crate::optim::{
     EdgeTerms, GraphProblem, GraphSystem, LmOptions, RobustLoss, Termination, minimize,
@@ -14,6 +15,7 @@ use nalgebra::{SMatrix, SVector};
 pub use any::PoseGraph;
 pub use chordal::{RelativeRotation, average_rotations};
 pub use poses::GraphPose;
+pub use prior::PosePrior;
 
 /// A measured relative pose between two vertices.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +39,10 @@ pub struct Graph<T, const D: usize> {
     pub vertices: Vec<T>,
     /// The measurements.
     pub edges: Vec<Edge<T, D>>,
+    /// Measurements of single vertices, such as those of a GPS receiver.
+    pub priors: Vec<PosePrior<T, D>>,
     /// Indices of the vertices that stay where they are. Where a connected part of the graph has
-    /// none, its first vertex stays.
+    /// neither one nor a prior, its first vertex stays.
     pub fixed: Vec<usize>,
 }
 
@@ -48,6 +52,7 @@ impl<T, const D: usize> Default for Graph<T, D> {
             ids: Vec::new(),
             vertices: Vec::new(),
             edges: Vec::new(),
+            priors: Vec::new(),
             fixed: Vec::new(),
         }
     }
@@ -112,13 +117,16 @@ pub struct PoseGraphReport {
     pub iterations: usize,
     /// Why the loop ended.
     pub termination: Termination,
-    /// The number of connected parts; each hangs on a vertex of its own.
+    /// The number of connected parts; priors connect all that have one.
     pub num_components: usize,
 }
 
 impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
-    /// `χ² = Σ eᵀ Ω e` over all edges.
+    /// `χ² = Σ eᵀ Ω e` over all edges and priors.
     pub fn chi2(&self) -> f64 {
+        if let Some(joined) = self.with_world() {
+            return joined.chi2();
+        }
         let mut sum = 0.0;
         for edge in &self.edges {
             let (a, b) = (&self.vertices[edge.from], &self.vertices[edge.to]);
@@ -138,7 +146,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///   [`Stage::PoseGraph`]
     ///
     /// # Errors
-    /// [`Error::TooFew`] without edges, [`Error::OutOfRange`] if an edge joins what is not there or
+    /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins what is not there or
     /// a vertex with itself, or for a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`]
     /// for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
     ///
@@ -149,6 +157,11 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         loss: RobustLoss,
         monitor: &mut dyn Monitor,
     ) -> Result<PoseGraphReport> {
+        if let Some(mut joined) = self.with_world() {
+            let report = joined.optimize(options, loss, monitor);
+            self.take_vertices(joined);
+            return report;
+        }
         self.check(loss)?;
         let pairs: Vec<(u32, u32)> = self
             .edges
@@ -271,6 +284,7 @@ mod tests {
             ids: (0..count as u64).collect(),
             vertices: vec![identity],
             edges: Vec::new(),
+            priors: Vec::new(),
             fixed: Vec::new(),
         };
         for i in 1..count {

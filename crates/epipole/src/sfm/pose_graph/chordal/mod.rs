@@ -123,13 +123,18 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///         from_from_to: Isometry2::new(Vector2::new(1.0, 0.0), quarter),
     ///         information: 4.0 * Matrix3::identity(),
     ///     }],
-    ///     fixed: vec![],
+    ///     ..Graph::default()
     /// };
     /// graph.initialize(&mut ())?;
     /// assert!(graph.chi2() < 1e-20);
     /// # Ok(()) }
     /// ```
     pub fn initialize(&mut self, monitor: &mut dyn Monitor) -> Result<()> {
+        if let Some(mut joined) = self.with_world() {
+            let result = joined.initialize(monitor);
+            self.take_vertices(joined);
+            return result;
+        }
         self.check(RobustLoss::Trivial)?;
         let (held, _) = self.held();
         let mut poses: Vec<Similarity3<f64>> = self.vertices.iter().map(T::to_similarity).collect();
@@ -300,7 +305,7 @@ pub fn average_rotations(
                 information,
             })
             .collect(),
-        fixed: Vec::new(),
+        ..Graph::default()
     };
     graph.initialize(&mut Part::new(monitor, 0.0, 0.5))?;
     let options = crate::optim::LmOptions::default();

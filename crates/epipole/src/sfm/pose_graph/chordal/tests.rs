@@ -50,6 +50,7 @@ fn graph<T: GraphPose<D>, const D: usize>(
         vertices,
         edges,
         fixed: vec![0],
+        ..Graph::default()
     }
 }
 

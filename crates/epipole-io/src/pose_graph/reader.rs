@@ -1,0 +1,235 @@
+//! Reader of g2o's text format.
+
+use super::pose::Written;
+use super::words::no_number;
+use crate::{Error, Result};
+use epipole::sfm::{Edge, Graph, PosePrior};
+use nalgebra::{Cholesky, Isometry3, SMatrix};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The kind of a line.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Vertex,
+    Edge,
+    Prior,
+    /// A prior of the position alone.
+    Position,
+}
+
+impl Kind {
+    fn of<T: Written<D>, const D: usize>(tag: &str) -> Option<Self> {
+        let kinds = [
+            (T::VERTEX, Self::Vertex),
+            (T::EDGE, Self::Edge),
+            (T::PRIOR, Self::Prior),
+            (T::POSITION, Self::Position),
+        ];
+        kinds
+            .iter()
+            .find(|(name, _)| *name == tag)
+            .map(|&(_, kind)| kind)
+    }
+
+    /// Counts of ids, numbers of the pose and rows of the information matrix.
+    fn counts<T: Written<D>, const D: usize>(self) -> [usize; 3] {
+        let of_prior = 1 + usize::from(T::HAS_OFFSET);
+        match self {
+            Self::Vertex => [1, T::ORIGIN.len(), 0],
+            Self::Edge => [2, T::ORIGIN.len(), D],
+            Self::Prior => [of_prior, T::ORIGIN.len(), D],
+            Self::Position => [of_prior, T::NUM_AXES, T::NUM_AXES],
+        }
+    }
+}
+
+/// A measurement whose vertices may follow.
+struct Measurement<T, const D: usize> {
+    line: usize,
+    kind: Kind,
+    ids: [u64; 2],
+    pose: T,
+    information: SMatrix<f64, D, D>,
+}
+
+/// Lines that concern poses of every kind.
+#[derive(Default)]
+pub(super) struct Shared {
+    /// Line and vertex of each `FIX`.
+    pub(super) fixed: Vec<(usize, u64)>,
+    /// `PARAMS_SE3OFFSET`: `vertex_from_sensor`.
+    pub(super) offsets: BTreeMap<u64, Isometry3<f64>>,
+    /// Vertices that are landmarks.
+    pub(super) landmarks: BTreeSet<u64>,
+}
+
+/// The lines of one kind of poses, read into a graph.
+pub(super) struct Reader<T, const D: usize> {
+    graph: Graph<T, D>,
+    index: BTreeMap<u64, usize>,
+    measurements: Vec<Measurement<T, D>>,
+}
+
+impl<T: Written<D>, const D: usize> Reader<T, D> {
+    pub(super) fn new() -> Self {
+        Self {
+            graph: Graph::default(),
+            index: BTreeMap::new(),
+            measurements: Vec::new(),
+        }
+    }
+
+    /// Reads a vertex or a measurement; false if the tag is another kind's.
+    pub(super) fn accept(&mut self, line: usize, tag: &str, words: &[&str]) -> Result<bool> {
+        let Some(kind) = Kind::of::<T, D>(tag) else {
+            return Ok(false);
+        };
+        let [num_ids, num_numbers, rank] = kind.counts::<T, D>();
+        let (ids, numbers) = parse(
+            line,
+            tag,
+            words,
+            num_ids,
+            num_numbers + rank * (rank + 1) / 2,
+        )?;
+        let mut of_pose = T::ORIGIN.to_vec();
+        of_pose[..num_numbers].copy_from_slice(&numbers[..num_numbers]);
+        let pose = T::read(&of_pose).map_err(|why| Error::at(line, why))?;
+        if kind == Kind::Vertex {
+            let next = self.graph.vertices.len();
+            if self.index.insert(ids[0], next).is_some() {
+                return Err(Error::at(line, format!("vertex {} is there twice", ids[0])));
+            }
+            self.graph.ids.push(ids[0]);
+            self.graph.vertices.push(pose);
+            return Ok(true);
+        }
+        let information = symmetric(&numbers[num_numbers..], rank);
+        if !is_positive_semidefinite(&information) {
+            let why = "the information matrix is not positive semi-definite";
+            return Err(Error::at(line, why));
+        }
+        if kind == Kind::Edge && ids[0] == ids[1] {
+            let why = format!("the edge joins vertex {} with itself", ids[0]);
+            return Err(Error::at(line, why));
+        }
+        self.measurements.push(Measurement {
+            line,
+            kind,
+            ids,
+            pose,
+            information,
+        });
+        Ok(true)
+    }
+
+    pub(super) fn finish(self, shared: &Shared) -> Result<Graph<T, D>> {
+        let mut graph = self.graph;
+        let find = |line: usize, id: u64| {
+            self.index
+                .get(&id)
+                .copied()
+                .ok_or_else(|| Error::at(line, format!("there is no vertex {id}")))
+        };
+        for measured in self.measurements {
+            let Measurement {
+                line,
+                kind,
+                ids,
+                pose,
+                information,
+            } = measured;
+            if kind == Kind::Edge {
+                graph.edges.push(Edge {
+                    from: find(line, ids[0])?,
+                    to: find(line, ids[1])?,
+                    from_from_to: pose,
+                    information,
+                });
+                continue;
+            }
+            // A position is that of the vertex, whatever the offset: so g2o has it.
+            let (world_from_vertex, information) = if T::HAS_OFFSET && kind == Kind::Prior {
+                let offset = shared.offsets.get(&ids[1]).ok_or_else(|| {
+                    Error::at(
+                        line,
+                        format!("there is no line PARAMS_SE3OFFSET {}", ids[1]),
+                    )
+                })?;
+                let (pose, information) = pose.without_offset(information, offset);
+                if !is_positive_semidefinite(&information) {
+                    let why = "the offset is too far for the information matrix";
+                    return Err(Error::at(line, why));
+                }
+                (pose, information)
+            } else {
+                (pose, information)
+            };
+            graph.priors.push(PosePrior {
+                vertex: find(line, ids[0])?,
+                world_from_vertex,
+                information,
+            });
+        }
+        for &(line, id) in &shared.fixed {
+            if !shared.landmarks.contains(&id) {
+                graph.fixed.push(find(line, id)?);
+            }
+        }
+        Ok(graph)
+    }
+}
+
+/// Ids, then numbers, all finite, and nothing else.
+pub(super) fn parse(
+    line: usize,
+    tag: &str,
+    words: &[&str],
+    num_ids: usize,
+    num_numbers: usize,
+) -> Result<([u64; 2], Vec<f64>)> {
+    let needed = num_ids + num_numbers;
+    if words.len() != needed {
+        let why = format!("{tag} needs {needed} values, but has {}", words.len());
+        return Err(Error::at(line, why));
+    }
+    let mut ids = [0; 2];
+    for (id, word) in ids.iter_mut().zip(&words[..num_ids]) {
+        *id = parse_id(line, word)?;
+    }
+    let number = |word: &&str| match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(Error::at(line, no_number(word))),
+    };
+    let numbers = words[num_ids..].iter().map(number).collect::<Result<_>>()?;
+    Ok((ids, numbers))
+}
+
+pub(super) fn parse_id(line: usize, word: &str) -> Result<u64> {
+    word.parse()
+        .map_err(|_| Error::at(line, format!("“{word}” is not the number of a vertex")))
+}
+
+/// A matrix from its upper triangle, row by row, in the first `rank` rows and columns.
+fn symmetric<const D: usize>(upper: &[f64], rank: usize) -> SMatrix<f64, D, D> {
+    let mut matrix = SMatrix::zeros();
+    let mut upper = upper.iter();
+    for i in 0..rank {
+        for j in i..rank {
+            let value = upper.next().copied().unwrap_or(0.0);
+            matrix[(i, j)] = value;
+            matrix[(j, i)] = value;
+        }
+    }
+    matrix
+}
+
+/// Whether all eigenvalues are at least about zero.
+fn is_positive_semidefinite<const D: usize>(matrix: &SMatrix<f64, D, D>) -> bool {
+    let largest = (0..D).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
+    let mut shifted = *matrix;
+    for i in 0..D {
+        shifted[(i, i)] += 1e-9 * largest + f64::MIN_POSITIVE;
+    }
+    Cholesky::new(shifted).is_some()
+}

@@ -1,0 +1,57 @@
+//! Sentences on lines that are not read.
+
+/// Reason why a word is no number.
+pub(super) fn no_number(word: &str) -> String {
+    let has_point = word.replacen(',', ".", 1).parse::<f64>();
+    match word.contains(',') && has_point.is_ok_and(f64::is_finite) {
+        true => format!("“{word}” has a decimal comma, where g2o has a point"),
+        false => format!("“{word}” is not a finite number"),
+    }
+}
+
+/// Whether a line is of a landmark, which is no pose.
+pub(super) fn is_of_landmark(tag: &str) -> bool {
+    const PARTS: [&str; 8] = [
+        "XY",
+        "POINT",
+        "LANDMARK",
+        "LINE",
+        "PLANE",
+        "DEPTH",
+        "DISPARITY",
+        "CALIB",
+    ];
+    PARTS.iter().any(|part| tag.contains(part))
+}
+
+/// Reason why a tag is not read.
+pub(super) fn unknown(tag: &str) -> String {
+    if tag.contains("PRIOR") {
+        return format!(
+            "the prior “{tag}” is not known: those of poses are EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, \
+             EDGE_SE3_PRIOR and EDGE_SE3_XYZ_PRIOR"
+        );
+    }
+    match tag {
+        "VERTEX2" | "EDGE2" | "VERTEX3" | "EDGE3" => {
+            format!("“{tag}” is of TORO's format: convert the file to g2o")
+        }
+        _ => format!("the tag “{tag}” is not known"),
+    }
+}
+
+/// Landmarks that were left out, if any.
+pub(super) fn left_out(num_landmarks: usize, num_measurements: usize) -> Option<String> {
+    let count = |number: usize, what: &str| match number {
+        1 => format!("1 {what}"),
+        _ => format!("{number} {what}s"),
+    };
+    (num_landmarks + num_measurements > 0).then(|| {
+        format!(
+            "{} and {} of them are left out: only poses are optimized, so the result lacks what \
+             landmarks tell about them",
+            count(num_landmarks, "landmark"),
+            count(num_measurements, "measurement")
+        )
+    })
+}
