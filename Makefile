@@ -5,6 +5,8 @@ SEED ?= 1
 MONKEY_SECONDS ?= 20
 # Four or five events each, for every figure: some ten million.
 FUZZ_SEQUENCES ?= 72000
+# Of each reader of files and each way to go wrong.
+FUZZ_FILES ?= 1000000
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 PACKAGE := crates/epipole-python
@@ -13,7 +15,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz vision test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -94,6 +96,10 @@ monkey: setup build ## random hands on every figure: make monkey SEED=7 MONKEY_S
 
 fuzz: setup-build ## random events on every figure, natively: some ten million, a night's worth; make fuzz FUZZ_SEQUENCES=2000
 	FUZZ_SEQUENCES=$(FUZZ_SEQUENCES) cargo test --locked --test fuzz -- --nocapture
+
+# Without -p, as above: the other crates have no test of this name.
+fuzz-files: setup-build ## a million damaged files for every reader, hours on one core; make fuzz-files FUZZ_FILES=100000
+	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --workspace --lib --bins fuzz
 
 test-hosts: setup build python-module tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh
