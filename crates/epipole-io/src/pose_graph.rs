@@ -30,8 +30,8 @@ pub struct ReadGraph {
 /// `PARAMS_SE3OFFSET` and `EDGE_SE3_XYZ_PRIOR`. Landmarks and their measurements are left out,
 /// which [`ReadGraph::notes`] say.
 ///
-/// The similarities are an extension, `EDGE_SIM3_PRIOR` included: as SE(3), with the scale after the quaternion and an
-/// information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
+/// The similarities are an extension, `EDGE_SIM3_PRIOR` included: as SE(3), with the scale after
+/// the quaternion and an information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
 /// information matrices are written as their upper triangles, row by row. Empty lines, those
 /// that start with `#`, and other `PARAMS_…` are skipped.
 ///

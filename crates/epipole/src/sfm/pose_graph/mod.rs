@@ -146,9 +146,10 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///   [`Stage::PoseGraph`]
     ///
     /// # Errors
-    /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins what is not there or
-    /// a vertex with itself, or for a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`]
-    /// for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
+    /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins what is
+    /// not there or a vertex with itself, or for a loss that [`RobustLoss::check`] refuses,
+    /// [`Error::NotFinite`] for NaN and infinities, [`Error::Canceled`]; the graph is then the best
+    /// found so far.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
     pub fn optimize(
