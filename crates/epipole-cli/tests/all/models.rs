@@ -104,6 +104,17 @@ fn a_model_is_converted_and_back() {
         let images = if kind == "ply" { 0 } else { 3 };
         assert_eq!(again["counts"]["images"], images, "{name}");
     }
+    // The name asks for cameras alone.
+    for (name, kind) in [
+        ("camera.json", "Epipole"),
+        ("cameras.txt", "COLMAP"),
+        ("c.yml", "OpenCV"),
+    ] {
+        let result = json(&["convert", &binary, &place(name)]);
+        assert_eq!(result["kind"], kind, "{name}");
+        let again = json(&["inspect", &place(name)]);
+        assert_eq!(again["counts"], json!({ "cameras": 1 }), "{name}");
+    }
     json(&["convert", &binary, &place("model.glb")]);
     assert_eq!(
         std::fs::read(folder.file("model.glb")).unwrap()[..4],

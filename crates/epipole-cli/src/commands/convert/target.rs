@@ -77,6 +77,8 @@ impl Target {
             ("yml" | "yaml", _) => Format::Opencv,
             ("json", Content::Cameras(..)) => Format::Epipole,
             ("txt", Content::Cameras(..)) => Format::ColmapCameras,
+            ("json", Content::Model(..)) if name.starts_with("camera") => Format::Epipole,
+            ("txt", Content::Model(..)) if name.starts_with("camera") => Format::ColmapCameras,
             ("csv", _) => Format::Euroc,
             ("tum", _) => Format::Tum,
             ("txt", Content::Trajectory(TrajectoryFormat::Kitti, _)) => Format::Kitti,
