@@ -2,9 +2,10 @@
 
 use crate::common::{Folder, epipole, fails, json, motion, numbers, path};
 use epipole::camera::{Distortion, Intrinsics, RigidTransform};
+use epipole_io::camera::{CameraFormat, read_cameras};
 use image::{GrayImage, Luma};
 use nalgebra::{Point2, Point3, Vector3};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const SIZE: (u32, u32) = (480, 360);
 const SQUARE_M: f64 = 0.03;
@@ -127,6 +128,25 @@ fn a_rig_is_calibrated_and_its_photographs_made_flat() {
     );
     let baseline = stereo["baseline_m"].as_f64().unwrap();
     assert!((baseline - right_from_left.translation.vector.norm()).abs() < 3e-4);
+
+    // As YAML it is the same rig.
+    let yaml = folder.file("camera.yml");
+    let output = arguments
+        .iter()
+        .position(|word| *word == path(&file))
+        .unwrap();
+    arguments[output] = path(&yaml);
+    json(&arguments);
+    let rig = |file: &Path| read_cameras(&std::fs::read(file).unwrap(), None).unwrap();
+    let ((format, as_yaml), (_, as_json)) = (rig(&yaml), rig(&file));
+    assert_eq!(format, CameraFormat::OpenCv);
+    assert_eq!(as_yaml.cameras.len(), 2);
+    for (a, b) in as_yaml.cameras.iter().zip(&as_json.cameras) {
+        assert_eq!(a.camera, b.camera);
+    }
+    let motions = [as_yaml, as_json].map(|rig| rig.right_from_left.unwrap());
+    assert_eq!(motions[0].translation, motions[1].translation);
+    assert!(motions[0].rotation.angle_to(&motions[1].rotation) < 1e-15);
 
     // The file is read again, for both sides.
     let flat = folder.file("flat");
