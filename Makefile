@@ -51,8 +51,10 @@ python-module: setup-build ## builds the native module of the Python package, in
 	cp target/debug/lib_epipole.$(if $(filter Darwin,$(shell uname)),dylib,so) $(PACKAGE)/python/epipole/new.so
 	mv $(PACKAGE)/python/epipole/new.so $(PACKAGE)/python/epipole/_epipole.abi3.so
 
-test-python: setup-test python-module ## the Python package
+test-python: setup-test python-module ## the Python package; files through pycolmap, OpenCV and evo
 	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
+	cargo build --locked --quiet --bin epipole
+	$(PYTHON) -m pytest --quiet -rs tests/files
 
 test-web: setup-build ## unit tests of the elements, without a browser
 	cd web && npm test --silent
