@@ -2,9 +2,11 @@
 
 use crate::failure::Failure;
 use crate::{files, model};
-use epipole_io::camera::{CameraFormat, Cameras, read_cameras};
-use epipole_io::model::ReadModel;
-use epipole_io::trajectory::{Trajectory, TrajectoryFormat, read_trajectory};
+use epipole_io::Error;
+use epipole_io::camera::{CameraFormat, Cameras, is_camera_file, read_cameras};
+use epipole_io::model::{ReadModel, format_of_file};
+use epipole_io::photo::sensor_size;
+use epipole_io::trajectory::{Trajectory, TrajectoryFormat, is_trajectory, read_trajectory};
 use std::path::Path;
 
 /// Content of a file or folder.
@@ -24,24 +26,64 @@ impl Content {
         if path.is_dir() {
             return model::read(path).map(Self::Model);
         }
-        let bytes = files::read_bytes(path)?;
-        let of_model = match model::of_file(path, &bytes) {
+        Self::of_bytes(path, &files::read_bytes(path)?)
+    }
+
+    /// As [`read`](Self::read), for a file with these bytes.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read). What the file is by its first words is what its error is about.
+    pub(crate) fn of_bytes(path: &Path, bytes: &[u8]) -> Result<Self, Failure> {
+        let of_model = match model::of_file(path, bytes) {
             Ok(read) => return Ok(Self::Model(read)),
             Err(failure) => failure,
         };
-        let of_cameras = match read_cameras(&bytes, None) {
+        let of_cameras = match read_cameras(bytes, None) {
             Ok((format, cameras)) => return Ok(Self::Cameras(format, cameras)),
             Err(error) => error,
         };
-        let of_trajectory = match read_trajectory(&bytes) {
+        let of_trajectory = match read_trajectory(bytes) {
             Ok((format, trajectory)) => return Ok(Self::Trajectory(format, trajectory)),
             Err(error) => error,
         };
+        let is_of_colmap = path
+            .file_stem()
+            .is_some_and(|stem| stem == "images" || stem == "points3D");
+        if is_of_colmap || format_of_file(bytes).is_some() {
+            return Err(of_model);
+        }
+        let about = |error: Error| Err(Failure::from(error).about(path));
+        // A tree that ends early has no keys to tell it by, but a name.
+        let is_tree = path.extension().is_some_and(|ending| {
+            ["yml", "yaml", "xml", "json"]
+                .iter()
+                .any(|tree| ending.eq_ignore_ascii_case(tree))
+        });
+        let has_line = matches!(of_cameras, Error::Malformed { line: Some(_), .. });
+        if is_camera_file(bytes) || (is_tree && has_line) {
+            return about(of_cameras);
+        }
+        if is_trajectory(bytes) {
+            return about(of_trajectory);
+        }
+        if bytes.is_empty() {
+            return Err(Failure::new("malformed", "the file is empty").about(path));
+        }
+        if sensor_size(bytes).is_ok() {
+            let message =
+                "this is a photograph, where a model, cameras or a trajectory is expected";
+            return Err(Failure::new("malformed", message).about(path));
+        }
+        if let Err(image @ Error::BadImage { .. }) = sensor_size(bytes)
+            && image.to_string().contains("not supported")
+        {
+            return about(image);
+        }
         let message = format!(
-            "{}; read as cameras: {of_cameras}; read as a trajectory: {of_trajectory}",
-            of_model.message
+            "this is no model (of COLMAP, nerfstudio, openMVG, Bundler or PLY) and no trajectory (of TUM, KITTI or \
+             EuRoC); as cameras: {of_cameras}"
         );
-        Err(Failure::new("malformed", message))
+        Err(Failure::new("malformed", message).about(path))
     }
 
     /// Name of the format.

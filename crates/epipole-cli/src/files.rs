@@ -88,6 +88,7 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::IsADirectory => "this is a folder, where a file is expected".to_owned(),
         _ => format!("cannot be read: {error}"),
     };
     Failure::new("read", why).about(path)

@@ -62,6 +62,12 @@ pub fn read_bal(text: &str) -> Result<BalProblem> {
     Ok(problem)
 }
 
+/// Whether a text is a problem by its first line, three whole numbers, right or wrong.
+pub fn is_bal(text: &str) -> bool {
+    let words = text.lines().next().unwrap_or_default().split_whitespace();
+    words.clone().count() == 3 && words.clone().all(|word| word.parse::<usize>().is_ok())
+}
+
 /// Writes the format; numbers have as many digits as they need to be read back unchanged.
 pub fn write_bal(problem: &BalProblem) -> String {
     let mut text = String::new();

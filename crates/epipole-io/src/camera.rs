@@ -23,5 +23,5 @@ mod yaml_number;
 pub use epipole_json::camera_fields;
 pub use format::CameraFormat;
 pub use named::{Cameras, NamedCamera};
-pub use read::read_cameras;
+pub use read::{is_camera_file, read_cameras};
 pub use write::write_cameras;

@@ -16,7 +16,7 @@ mod notes;
 mod openmvg;
 mod reconstruction;
 
-pub use format::{ModelFormat, ReadModel, read_model_file, read_model_folder};
+pub use format::{ModelFormat, ReadModel, format_of_file, read_model_file, read_model_folder};
 
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};

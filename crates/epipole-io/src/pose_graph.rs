@@ -121,6 +121,16 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
     })
 }
 
+/// Whether a text is g2o's by its first word, right or wrong.
+pub fn is_g2o(text: &str) -> bool {
+    let mut words = text
+        .lines()
+        .filter_map(|line| line.split_whitespace().next());
+    let first = words.find(|word| !word.starts_with('#'));
+    let starts = ["VERTEX_", "EDGE_", "PARAMS_", "FIX"];
+    first.is_some_and(|word| starts.iter().any(|start| word.starts_with(start)))
+}
+
 /// Writes g2o's text format; see [`read_g2o`].
 pub fn write_g2o(graph: &PoseGraph) -> String {
     match graph {

@@ -14,5 +14,5 @@ mod write;
 
 pub use format::TrajectoryFormat;
 pub use path::Trajectory;
-pub use read::read_trajectory;
+pub use read::{is_trajectory, read_trajectory};
 pub use write::write_trajectory;

@@ -1,8 +1,11 @@
 //! `epipole inspect`: contents, conventions and oddities of a file or folder.
 
+mod other;
+
 use crate::content::Content;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::files;
 use crate::report::Report;
 use clap::Args;
 use epipole::camera::Camera;
@@ -12,11 +15,12 @@ use epipole_io::trajectory::Trajectory;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Tell what a model, a camera file or a trajectory holds.
+/// Tell what a file or a folder with a model holds.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: epipole inspect reconstruction/sparse/0\n\n\
     Reads the models of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) and\n\
-    PLY files; cameras of any format that --camera takes; trajectories of TUM, KITTI and EuRoC.\n\n\
+    PLY files; cameras of any format that --camera takes; trajectories of TUM, KITTI and EuRoC; photographs, PFM\n\
+    files, g2o, BAL, tables of points and matches.\n\n\
     JSON: kind (the format), counts, notes. Of a model also convention (frames and pixels of the file),\n\
     mean_reprojection_px (null without observations), cameras (width, height, lens, k and distortion of each), notes\n\
     (what was left out or is odd: names with blanks, images without points, points behind cameras, NaN). Of cameras:\n\
@@ -27,7 +31,19 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure> {
-    let content = Content::read(&arguments.input)?;
+    let path = &arguments.input;
+    let content = if path.is_dir() {
+        Content::read(path)?
+    } else {
+        let bytes = files::read_bytes(path)?;
+        if let Some(described) = other::by_first_bytes(path, &bytes) {
+            return described;
+        }
+        match (Content::of_bytes(path, &bytes), other::table(&bytes)) {
+            (Err(_), Some(report)) => return Ok(report),
+            (content, _) => content?,
+        }
+    };
     let report = (Report::default())
         .field("kind", content.format())
         .row("kind", content.format());

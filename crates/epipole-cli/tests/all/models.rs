@@ -164,7 +164,7 @@ fn what_is_no_model_is_named() {
         &folder,
         &["inspect", path(&note)],
         1,
-        "note.json is no model",
+        "note.json: this is no model",
     );
     fails(
         &folder,
@@ -296,4 +296,71 @@ fn trajectories_are_inspected_and_converted() {
         2,
         "has no cameras",
     );
+}
+
+#[test]
+fn other_files_are_inspected() {
+    let folder = Folder::new("inspect-others");
+    let photo = folder.blank("photo.png", (40, 30));
+    let result = json(&["inspect", path(&photo)]);
+    assert_eq!(result["kind"], "photograph");
+    assert_eq!(result["counts"], json!({ "width": 40, "height": 30 }));
+    let graph = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_XY 2 4 4\nFIX 0\n\
+                 EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_PRIOR_SE2 1 1 0 0 1 0 0 1 0 1\n";
+    let result = json(&["inspect", path(&folder.write("graph", graph))]);
+    let counts = json!({ "vertices": 2, "edges": 1, "priors": 1, "fixed": 1 });
+    assert_eq!(result["counts"], counts);
+    assert!(notes(&result).contains("1 landmark"), "{result}");
+    let bal = "1 1 1\n0 0 5 6\n0 0 0 0 0 0 500 0 0\n1 2 3\n";
+    let result = json(&["inspect", path(&folder.write("bal.txt", bal))]);
+    let counts = json!({ "cameras": 1, "points": 1, "observations": 1 });
+    assert_eq!(result["counts"], counts);
+    for (table, kind) in [
+        ("1 2 3 4\n5 6 7 8\n", "matches of two images (u1 v1 u2 v2)"),
+        (
+            "1;2;3;4;5,5\n5;6;7;8;9\n",
+            "points of the world with their pixels (x y z u v)",
+        ),
+        ("1 2\n3 4\n", "points of an image (u v)"),
+    ] {
+        let result = json(&["inspect", path(&folder.write("table.txt", table))]);
+        assert_eq!(result["kind"], kind);
+        assert_eq!(result["counts"], json!({ "rows": 2 }));
+    }
+    for (name, text, why) in [
+        (
+            "graph",
+            "VERTEX_SE2 0 0 0\n",
+            "graph: line 1: VERTEX_SE2 needs 4 values",
+        ),
+        (
+            "c.txt",
+            "1 FOV 4 4 5 5 2 2 .9\n",
+            "c.txt: camera model FOV is not supported",
+        ),
+        (
+            "cut.yml",
+            "%YAML:1.0\n---\nK: [1, 2",
+            "cut.yml: line 4: while parsing",
+        ),
+        (
+            "path.txt",
+            "0 0 0 0 0 0 0 0\n",
+            "path.txt: line 1: the quaternion is zero",
+        ),
+        ("cut.ply", "ply\nformat ascii 1.0\n", "cut.ply: the header"),
+        (
+            "a.heic",
+            "\0\0\0\u{18}ftypheic",
+            "a.heic: the image cannot be read: it is a HEIC file",
+        ),
+        ("none", "", "none: the file is empty"),
+        ("words", "hello\n", "words: this is no model"),
+    ] {
+        let file = folder.write(name, text);
+        fails(&folder, &["inspect", path(&file)], 1, why);
+    }
+    let place = folder.file("out.txt");
+    let why = "photo.png: this is a photograph, where a model, cameras or a trajectory is expected";
+    fails(&folder, &["convert", path(&photo), path(&place)], 1, why);
 }

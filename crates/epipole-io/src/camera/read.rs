@@ -48,6 +48,22 @@ pub fn read_cameras(bytes: &[u8], size: Option<(u32, u32)>) -> Result<(CameraFor
     }
 }
 
+/// Whether a file is one of cameras by its keys or first words, right or wrong.
+pub fn is_camera_file(bytes: &[u8]) -> bool {
+    let is_tree = |text: &str| {
+        let syntax = Syntax::of(text);
+        let Ok(node) = syntax.parse(text) else {
+            return false;
+        };
+        let whole = Field::root(&node);
+        let storage = whole.get("opencv_storage");
+        let root = storage.as_ref().unwrap_or(&whole);
+        recognize(syntax, root, storage.is_some()).is_ok()
+    };
+    let is_text = |text: &str| colmap::is_text(text) || is_tree(text);
+    colmap::is_binary(bytes) || decode(bytes).is_ok_and(is_text)
+}
+
 fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Cameras)> {
     let syntax = Syntax::of(text);
     let node = syntax.parse(text)?;

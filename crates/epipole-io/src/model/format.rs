@@ -188,41 +188,58 @@ fn alone(this: &str, other: &str, ending: &str) -> Error {
 /// [`Error::Malformed`] with the line or place, [`Error::Unsupported`] for another format and for
 /// cameras that the library does not have, [`Error::Invalid`] for impossible cameras.
 pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<ReadModel> {
+    let unknown = || {
+        Error::unsupported(format!(
+            "{name} is no model: expected a folder of COLMAP, transforms.json, sfm_data.json, \
+             a Bundler file or PLY"
+        ))
+    };
+    let format = format_of_file(bytes).ok_or_else(unknown)?;
+    let read = match format {
+        ModelFormat::Ply => {
+            let (cloud, num_lost) = read_ply(bytes)?;
+            let model = Model {
+                points: points_of(cloud),
+                ..Model::default()
+            };
+            (model, notes::not_finite(num_lost).into_iter().collect())
+        }
+        ModelFormat::Bundler => {
+            let stem = name.strip_suffix(".out").unwrap_or(name);
+            let lists = [
+                "list.txt".to_owned(),
+                format!("{name}.list.txt"),
+                format!("{stem}.list.txt"),
+            ];
+            bundler::read(bytes, &lists, beside)?
+        }
+        ModelFormat::OpenMvg => openmvg::read(bytes)?,
+        ModelFormat::Transforms => nerfstudio::read(bytes, beside)?,
+        ModelFormat::ColmapText | ModelFormat::ColmapBinary | ModelFormat::Glb => {
+            return Err(unknown());
+        }
+    };
+    Ok(with_format(format, read))
+}
+
+/// Format of a model of one file by its first bytes and keys, right or wrong.
+pub fn format_of_file(bytes: &[u8]) -> Option<ModelFormat> {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let first = start.trim_ascii_start();
-    if first.starts_with(b"ply") {
-        let (cloud, num_lost) = read_ply(bytes)?;
-        let model = Model {
-            points: points_of(cloud),
-            ..Model::default()
-        };
-        let notes = notes::not_finite(num_lost).into_iter().collect();
-        return Ok(with_format(ModelFormat::Ply, (model, notes)));
-    }
-    if first.starts_with(b"# Bundle file") {
-        let stem = name.strip_suffix(".out").unwrap_or(name);
-        let lists = [
-            "list.txt".to_owned(),
-            format!("{name}.list.txt"),
-            format!("{stem}.list.txt"),
-        ];
-        let read = bundler::read(bytes, &lists, beside)?;
-        return Ok(with_format(ModelFormat::Bundler, read));
-    }
-    if first.starts_with(b"{") {
-        let holds = |key: &[u8]| bytes.windows(key.len()).any(|window| window == key);
-        if holds(b"\"sfm_data_version\"") {
-            return Ok(with_format(ModelFormat::OpenMvg, openmvg::read(bytes)?));
-        }
-        if holds(b"\"frames\"") {
-            let read = nerfstudio::read(bytes, beside)?;
-            return Ok(with_format(ModelFormat::Transforms, read));
-        }
-    }
-    Err(Error::unsupported(format!(
-        "{name} is no model: expected a folder of COLMAP, transforms.json, sfm_data.json, \
-         a Bundler file or PLY"
-    )))
+    let holds = |key: &[u8]| bytes.windows(key.len()).any(|window| window == key);
+    let is_json = first.starts_with(b"{");
+    let tests: [(ModelFormat, &dyn Fn() -> bool); 4] = [
+        (ModelFormat::Ply, &|| first.starts_with(b"ply")),
+        (ModelFormat::Bundler, &|| {
+            first.starts_with(b"# Bundle file")
+        }),
+        (ModelFormat::OpenMvg, &|| {
+            is_json && holds(b"\"sfm_data_version\"")
+        }),
+        (ModelFormat::Transforms, &|| is_json && holds(b"\"frames\"")),
+    ];
+    let found = tests.iter().find(|(_, is_it)| is_it());
+    found.map(|(format, _)| *format)
 }
 
 impl Model {

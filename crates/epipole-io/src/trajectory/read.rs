@@ -41,6 +41,11 @@ pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
     }
 }
 
+/// Whether a file is a trajectory by its first line, right or wrong.
+pub fn is_trajectory(bytes: &[u8]) -> bool {
+    decode(bytes).is_ok_and(|text| recognize(text).is_ok())
+}
+
 /// Format of the first line of numbers.
 fn recognize(text: &str) -> Result<TrajectoryFormat> {
     let is_header = |content: &str| content.starts_with(|c: char| c.is_alphabetic());
