@@ -29,6 +29,7 @@ use crate::{Error, Result};
 /// ```
 pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
     let text = decode(bytes)?;
+    decimal_commas(text)?;
     let format = recognize(text)?;
     let trajectory = match format {
         TrajectoryFormat::Tum => tum::read(text),
@@ -39,6 +40,25 @@ pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
         true => Err(Error::malformed("the trajectory has no poses")),
         false => Ok((format, trajectory)),
     }
+}
+
+/// Refuses commas where points belong: `0,5` between blanks.
+fn decimal_commas(text: &str) -> Result<()> {
+    for (line, content) in lines(text) {
+        let fields = content.split_whitespace();
+        let is_comma = |word: &&str| {
+            word.split_once(',').is_some_and(|(whole, share)| {
+                whole.trim_start_matches('-').parse::<u64>().is_ok() && share.parse::<u64>().is_ok()
+            })
+        };
+        if fields.clone().count() >= 8
+            && let Some(word) = fields.clone().find(is_comma)
+        {
+            let message = format!("\"{word}\" has a decimal comma: write a point");
+            return Err(Error::at(line, message));
+        }
+    }
+    Ok(())
 }
 
 /// Whether a file is a trajectory by its first line, right or wrong.
@@ -147,6 +167,10 @@ mod tests {
             (
                 "# t\n0 0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n",
                 "line 3: not the eight values t tx ty tz qx qy qz qw: \"1 0 0 0 0 0 1\"",
+            ),
+            (
+                "0 0 0 0 0 0 0 1\n1 -0,5 0 0 0 0 0 1\n",
+                "line 2: \"-0,5\" has a decimal comma: write a point",
             ),
             ("0 0 0 x 0 0 0 1\n", "line 1: \"x\" is not a number"),
             (
