@@ -83,7 +83,10 @@ pub fn align_points(
         if values[1] <= 1e-14 * values[0] || values[0] <= 0.0 {
             return Err(Error::Degenerate {
                 what: "an alignment of points",
-                why: "they lie on one line",
+                why: match values[0] > 0.0 {
+                    true => "they lie on one line",
+                    false => "those of one set are all equal",
+                },
             });
         }
         Ok(spread)
