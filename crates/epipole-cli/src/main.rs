@@ -31,6 +31,7 @@ mod report;
 mod robust;
 mod short_help;
 mod turn;
+mod units;
 
 use clap::{CommandFactory, FromArgMatches, Parser};
 use commands::Command;

@@ -7,6 +7,7 @@ use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
+use crate::units::warn_of_units;
 use clap::{Args, ValueEnum};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
@@ -230,6 +231,8 @@ fn fit(
                 .k
                 .ok_or_else(|| Failure::usage("an essential matrix needs --k fx,fy,cx,cy"))?;
             let k2 = arguments.k2.unwrap_or(k1);
+            warn_of_units(pixels1, &k1, context);
+            warn_of_units(pixels2, &k2, context);
             // A list of pixels does not tell the size of the images, and no estimator asks for it.
             let cameras = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
             let cameras = cameras.each_ref();

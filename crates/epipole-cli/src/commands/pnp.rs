@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::match_file;
 use crate::matrices::Motion;
 use crate::report::Report;
+use crate::units::warn_of_units;
 use epipole_io::camera::camera_fields;
 use nalgebra::Point3;
 use serde_json::{Value, json};
@@ -21,7 +22,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let view = arguments.view()?;
     let (pixels, points) = match_file::points_with_pixels(&arguments.points)?;
     causes::check(&pixels, &points).map_err(|failure| failure.about(&arguments.points))?;
-    causes::warn_of_units(&pixels, &view, context);
+    warn_of_units(&pixels, &view.camera().intrinsics, context);
     let found = match &view {
         View::Camera(camera) => search::with_camera(arguments, context, &points, &pixels, camera),
         View::WithoutFocal(camera) => {

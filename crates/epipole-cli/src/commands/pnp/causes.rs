@@ -1,7 +1,5 @@
-//! Points that determine no pose, and units that do not fit.
+//! Points that determine no pose.
 
-use super::arguments::View;
-use crate::context::Context;
 use crate::failure::Failure;
 use nalgebra::{Point2, Point3, Vector3};
 use std::collections::BTreeSet;
@@ -12,12 +10,6 @@ pub(super) const MIN_POINTS: usize = 4;
 
 /// Points nearer to a line than this share of its length are on it.
 const FLAT: f64 = 1e-6;
-
-/// Pixels within ± this are shares of an image or rays.
-const SHARES: f64 = 2.0;
-
-/// A pixel this many times as far as the principal point is beyond the image.
-const BEYOND: f64 = 3.0;
 
 /// Sentence for four points without a focal length.
 pub(super) const NO_FOCAL: &str = "no focal length fits these points: three of them lie on one line, in the world or in \
@@ -70,34 +62,6 @@ fn are_on_a_line(points: &[Point3<f64>]) -> bool {
     let length = along.norm();
     let beside = |x: &Point3<f64>| along.cross(&(x - end)).norm() / length;
     points.iter().all(|x| beside(x) <= FLAT * length)
-}
-
-/// Warns of pixels that cannot be those of the camera.
-pub(super) fn warn_of_units(pixels: &[Point2<f64>], view: &View, context: &Context) {
-    let k = view.camera().intrinsics;
-    let center = k.principal_point();
-    let reach = pixels
-        .iter()
-        .map(|pixel| pixel.coords.amax())
-        .fold(0.0, f64::max);
-    if reach <= SHARES && k.fu_px() > 10.0 * SHARES {
-        context.warn(&format!(
-            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
-             Multiply them by its size, or give --k 1,1,0,0 with a small \
-             --max-error-px for rays"
-        ));
-    }
-    let beyond = |at: fn(&Point2<f64>) -> f64| {
-        let most = pixels.iter().map(at).fold(0.0, f64::max);
-        (at(&center) > 0.0 && most > BEYOND * at(&center)).then_some((most, at(&center)))
-    };
-    if let Some((most, center)) = beyond(|pixel| pixel.x).or(beyond(|pixel| pixel.y)) {
-        context.warn(&format!(
-            "pixels reach to {most:.0}, and the principal point at {center:.0} is that of an image about {:.0} long: \
-             intrinsics must be of the size of the image that the pixels are from",
-            2.0 * center
-        ));
-    }
 }
 
 /// Says what to look at where no pose fits.

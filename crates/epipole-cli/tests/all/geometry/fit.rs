@@ -243,3 +243,22 @@ fn files_of_matches_that_say_nothing_are_refused() {
         fails(&folder, &arguments, 2, value);
     }
 }
+
+#[test]
+fn matches_that_are_no_pixels_are_told() {
+    let folder = Folder::new("fit-units");
+    let rows =
+        "0.1 0.2 0.3 0.4\n0.2 0.1 0.3 0.2\n0.5 0.3 0.4 0.2\n0.2 0.9 0.1 0.8\n0.7 0.3 0.3 0.1\n";
+    let file = folder.write("shares.txt", rows);
+    let fit = [
+        "fit",
+        "--model",
+        "essential",
+        "--k",
+        "600,600,320,240",
+        path(&file),
+    ];
+    let sentence = String::from_utf8(crate::common::epipole(&fit).stderr).unwrap();
+    let why = "no u or v is beyond ± 0.90, which are no pixels";
+    assert!(sentence.contains(why), "{sentence}");
+}

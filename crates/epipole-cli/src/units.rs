@@ -1,0 +1,38 @@
+//! Units of pixels that do not fit their camera.
+
+use crate::context::Context;
+use epipole::camera::Intrinsics;
+use nalgebra::Point2;
+
+/// Pixels within ± this are shares of an image or rays.
+const SHARES: f64 = 2.0;
+
+/// A pixel this many times as far as the principal point is beyond the image.
+const BEYOND: f64 = 3.0;
+
+/// Warns of pixels that cannot be those of the camera.
+pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Context) {
+    let center = k.principal_point();
+    let reach = pixels
+        .iter()
+        .map(|pixel| pixel.coords.amax())
+        .fold(0.0, f64::max);
+    if reach <= SHARES && k.fu_px() > 10.0 * SHARES {
+        context.warn(&format!(
+            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
+             Multiply them by its size, or give --k 1,1,0,0 with a small \
+             --max-error-px for rays"
+        ));
+    }
+    let beyond = |at: fn(&Point2<f64>) -> f64| {
+        let most = pixels.iter().map(at).fold(0.0, f64::max);
+        (at(&center) > 0.0 && most > BEYOND * at(&center)).then_some((most, at(&center)))
+    };
+    if let Some((most, center)) = beyond(|pixel| pixel.x).or(beyond(|pixel| pixel.y)) {
+        context.warn(&format!(
+            "pixels reach to {most:.0}, and the principal point at {center:.0} is that of an image about {:.0} long: \
+             intrinsics must be of the size of the image that the pixels are from",
+            2.0 * center
+        ));
+    }
+}
