@@ -31,9 +31,9 @@ pub struct ReadGraph {
 /// which [`ReadGraph::notes`] say.
 ///
 /// The similarities are an extension, `EDGE_SIM3_PRIOR` included: as SE(3), with the scale after
-/// the quaternion and an information matrix of 7×7. Quaternions are written x, y, z, w and are normalized here;
-/// information matrices are written as their upper triangles, row by row. Empty lines, those
-/// that start with `#`, and other `PARAMS_…` are skipped.
+/// the quaternion and an information matrix of 7×7. Quaternions are written x, y, z, w and are
+/// normalized here; information matrices are written as their upper triangles, row by row. Empty
+/// lines, those that start with `#`, and other `PARAMS_…` are skipped.
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus values,

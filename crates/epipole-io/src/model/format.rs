@@ -70,8 +70,12 @@ impl ModelFormat {
         let blanks = model.images.iter().filter(|image| has_blank(&image.name));
         let blanks = blanks.count();
         if self == Self::ColmapText && blanks > 0 {
+            let names = match blanks {
+                1 => "1 name has blanks".to_owned(),
+                _ => format!("{blanks} names have blanks"),
+            };
             losses.push(format!(
-                "{blanks} names have blanks, where COLMAP cuts them in text files: use colmap-binary"
+                "{names}, where COLMAP cuts them in text files: use colmap-binary"
             ));
         }
         let has_tracks = model.num_observations() > 0;
