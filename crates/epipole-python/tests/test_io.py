@@ -192,7 +192,7 @@ def test_g2o_has_priors_and_leaves_out_landmarks(tmp_path):
             b"EDGE_SE2_XY 0 2 4 4 1 0 1\nEDGE_PRIOR_SE2 0 5 6 0 1 0 0 1 0 1\n")
     with pytest.warns(UserWarning, match="1 landmark and 1 measurement of them are left out"):
         graph = io.read_g2o(text)
-    graph.optimize()
+    graph, _ = graph.optimize()
     np.testing.assert_allclose(graph.vertices, [[5, 6, 0], [6, 6, 0]], atol=1e-6)
     io.write_g2o(tmp_path / "graph.g2o", graph)
     assert io.read_g2o(tmp_path / "graph.g2o").chi2() < 1e-12
