@@ -23,7 +23,7 @@ impl View for PanoramaView {
         let mut grid = Grid::new(width);
         let (tallest, height) = match grid::is_narrow(width) {
             true => (100.0, 180.0),
-            false => (126.0, (0.36 * width).min(270.0)),
+            false => (126.0, (0.39 * width).min(280.0)),
         };
         let photos = grid.row([PHOTO_ASPECT; MAX_PHOTOS], tallest);
         let [panorama] = grid.shares([1.0], height);
