@@ -109,10 +109,8 @@ impl Model for Calibrate {
             let views = self.views() ^ (1 << index);
             self.settings.slide(&VIEWS, f64::from(views));
         }
-        if changed != Some(SET.id) {
-            let known = SETS.iter().position(|set| *set == self.views());
-            self.settings.choose(&SET, known.unwrap_or(SETS.len()));
-        }
+        let known = SETS.iter().position(|set| *set == self.views());
+        self.settings.choose(&SET, known.unwrap_or(SETS.len()));
         self.ask();
         Ok(())
     }

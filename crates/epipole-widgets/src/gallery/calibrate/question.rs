@@ -5,7 +5,8 @@ use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::calibration::{
-    Board, BoardView, CalibrationOptions, Pattern, calibrate, find_board, photograph_of_board,
+    Board, BoardSearch, BoardView, CalibrationOptions, Pattern, calibrate, find_board,
+    photograph_of_board,
 };
 use epipole::camera::{Camera, Distortion, Intrinsics, Lens, RigidTransform};
 use epipole::imaging::{gray_to_u8, resize};
@@ -76,8 +77,8 @@ impl question::Question for Question {
             .iter()
             .map(|&index| taken.views[index].clone())
             .collect();
-        let corners = taken.views.iter().map(|view| {
-            let pixels = view.iter().flat_map(|view| view.pixels.iter().flatten());
+        let corners = taken.views.iter().map(|found| {
+            let pixels = found.iter().flat_map(|found| found.pixels.iter().flatten());
             pixels.map(|pixel| [pixel.x, pixel.y]).collect()
         });
         let colored = |image: &GrayImage| DynamicImage::from(image.clone()).into_rgb8().into();
@@ -133,7 +134,7 @@ const POSES: [([f64; 2], [f64; 3]); NUM_VIEWS] = [
     ([25.0, 28.0], [0.1, -0.07, 0.44]),
 ];
 
-/// Returns the pose of the board in a view.
+/// Returns the pose of the board in one of the photographs.
 fn pose(index: usize) -> RigidTransform {
     let ([about_x, about_y], middle) = POSES[index];
     let turn = Vector3::new(about_x.to_radians(), about_y.to_radians(), 0.0);
@@ -156,7 +157,10 @@ fn taken(board: &Board, progress: Progress<'_>) -> Result<&'static Taken, Error>
     for index in 0..NUM_VIEWS {
         tell(progress, index as f64 / NUM_VIEWS as f64)?;
         let image = photograph_of_board(board, &camera, &pose(index), NOISE, index as u64);
-        views.push(find_board(&image, board, &mut ())?.view());
+        views.push(match find_board(&image, board, &mut ())? {
+            BoardSearch::Found(found) => Some(found),
+            _ => None,
+        });
         let (width, height) = SHOWN_SIZE;
         photographs.push(gray_to_u8(&resize(&image, width, height)?));
     }
@@ -177,8 +181,8 @@ fn found(board: &Board, views: &[Option<BoardView>]) -> Result<Found, Error> {
     })
 }
 
-/// Returns the distances of the projections of true rays from their pixels. Their mean is taken out:
-/// a turned camera would give it, and the poses of the boards take it up.
+/// Returns the distances of the projections of true rays from their pixels. Their mean is left
+/// out: a turned camera would give it, and the poses of the boards take it up.
 fn errors_px(truth: &Camera, found: &Camera) -> Vec<f32> {
     let (columns, rows) = CELLS;
     let mut offsets: Vec<Option<Vector2<f64>>> = Vec::new();

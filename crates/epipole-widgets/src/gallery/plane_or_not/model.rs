@@ -161,8 +161,7 @@ impl PlaneOrNot {
         })
     }
 
-    /// Returns the distance of a point from the plane, toward camera 1, meters; `None` for the plane
-    /// at infinity.
+    /// Returns the distance of a point from the plane, toward camera 1, meters; `None` at infinity.
     pub(super) fn height_m(&self, point: &Point3<f64>) -> Option<f64> {
         let (normal, on_plane) = self.plane_in_world()?;
         Some(normal.dot(&(point - on_plane)))
