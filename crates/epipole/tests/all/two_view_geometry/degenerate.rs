@@ -194,11 +194,11 @@ fn duplicates_count_once() {
     assert_eq!(once.num_inliers, often.num_unique_inliers);
     assert_eq!(once.inliers, often.inliers[..100]);
 
-    // Seven different matches in many copies are seven matches.
+    // Six different matches in many copies are six matches.
     let few: Vec<_> = s.p1[..6].iter().cycle().take(60).copied().collect();
     assert!(matches!(
         estimate_fundamental(&few, &few, &options(1), &mut ()),
-        Err(Error::TooFew { got: 6, .. })
+        Err(Error::TooFewDistinct { got: 6, .. })
     ));
 }
 
