@@ -15,7 +15,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision vision-docs test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -63,11 +63,14 @@ vision: setup-build ## the npm package of the core, in web/vision/dist/
 	$(BOOK) vision
 	node web/vision/build.mjs
 
+vision-docs: web/node_modules/.installed ## the reference of the npm package of the core in target/vision-docs/
+	web/node_modules/.bin/typedoc --options web/vision/typedoc.json --logLevel Warn
+
 # Without -p, as above.
 test-vision: vision ## the npm package of the core: calls, errors, examples, sizes, the bits of every function
 	@mkdir -p target
 	cargo run --locked --quiet --example js_native -- target/vision-native.json
-	EPIPOLE_NATIVE=target/vision-native.json node --test --test-reporter=spec web/vision/test/
+	EPIPOLE_NATIVE=target/vision-native.json node --test --test-reporter=spec web/vision/test/*.test.mjs
 
 # PYTHONPATH is absolute, because listings and notebooks run in folders of their own.
 test-listings: setup-test python-module vision ## the Python and JavaScript listings and the notebooks of the chapters
@@ -130,8 +133,8 @@ test-wheel: python python-figures ## both wheels in an empty environment: sizes,
 python-docs: python-module target/python-docs-venv/.installed ## the manual of the Python package in target/python-docs/: runs the code of its pages
 	NO_MKDOCS_2_WARNING=1 target/python-docs-venv/bin/mkdocs build --strict --quiet --config-file $(PACKAGE)/docs/mkdocs.yml
 
-site: setup-build python-docs ## the book with the manual of the Python package, in target/book/: one site, one search
-	$(BOOK) build --manual target/python-docs
+site: setup-build python-docs vision-docs ## the book with the manuals of the Python and npm packages, in target/book/
+	$(BOOK) build --manual target/python-docs --js-reference target/vision-docs
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
 	@tests/tools/audit.sh

@@ -36,6 +36,9 @@ enum Command {
         /// Folder with the manual of the Python package, to become a part of the site.
         #[arg(long)]
         manual: Option<PathBuf>,
+        /// Folder with the reference of the npm package, to become a part of the site.
+        #[arg(long)]
+        js_reference: Option<PathBuf>,
         /// As for `serve`: faster, larger, pages that reload.
         #[arg(long, hide = true)]
         live: bool,
@@ -94,15 +97,18 @@ fn run(cli: &Cli) -> Result<bool> {
         check: false,
         notebooks: None,
         manual: None,
+        js_reference: None,
     };
     match &cli.command {
         Command::Build {
             out: chosen,
             manual,
+            js_reference,
             live,
         } => {
             options.out = chosen.clone().unwrap_or(out);
             options.manual.clone_from(manual);
+            options.js_reference.clone_from(js_reference);
             options.live = *live;
             once(&options, cli.timings)
         }

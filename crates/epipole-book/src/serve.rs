@@ -8,7 +8,7 @@ use crate::problems::Problem;
 use crate::render::links::LAB_FOLDER;
 use crate::resolve::figures::Widgets;
 use crate::site::{Options, Outcome, build};
-use crate::write::manual::MANUAL_FOLDER;
+use crate::write::manual::{MANUAL_FOLDER, REFERENCE_FOLDER};
 use crate::write::policy::{FRAME_POLICY, LAB_POLICY, MANUAL_POLICY, PROGRAM_POLICY};
 use anyhow::{Context, Result};
 use axum::Router;
@@ -118,7 +118,7 @@ fn policy_of(path: &str) -> &'static str {
         FRAME_POLICY
     } else if is_in(LAB_FOLDER) {
         LAB_POLICY
-    } else if is_in(MANUAL_FOLDER) {
+    } else if is_in(MANUAL_FOLDER) || is_in(REFERENCE_FOLDER) {
         MANUAL_POLICY
     } else {
         // Pages without code that runs tighten it themselves.

@@ -20,7 +20,7 @@ use crate::write::compress;
 use crate::write::disk::{STAND_IN, write};
 use crate::write::frames::{self, Frame};
 use crate::write::gathered;
-use crate::write::manual::Manual;
+use crate::write::manual::{Manual, read_reference};
 use crate::write::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
@@ -43,6 +43,8 @@ pub struct Options {
     pub notebooks: Option<PathBuf>,
     /// Folder with the manual of the Python package, which becomes a part of the site.
     pub manual: Option<PathBuf>,
+    /// Folder with the reference of the npm package, which becomes a part of the site.
+    pub js_reference: Option<PathBuf>,
     /// For `serve`: pages reload themselves, and files are not compressed.
     pub live: bool,
 }
@@ -150,6 +152,9 @@ fn build_beside(
     };
     files.extend(assets.files.clone());
     let manual = options.manual.as_deref().map(Manual::read).transpose()?;
+    if let Some(folder) = &options.js_reference {
+        files.extend(read_reference(folder)?);
+    }
     phases.run("fill templates", 0, |_| {
         let book = Bound {
             config: &config,
@@ -230,7 +235,15 @@ impl Bound<'_> {
         let search = serde_json::to_vec(&sections.collect::<Vec<_>>())?;
         let search = assets::add_hashed(files, "search", "json", search);
         let file = options.project.join("web/theme/index.hbs");
-        let template = Template::load(&file, config, assets, &search, has_manual, options.live)?;
+        let template = Template::load(
+            &file,
+            config,
+            assets,
+            &search,
+            has_manual,
+            options.js_reference.is_some(),
+            options.live,
+        )?;
         for page in pages.iter_mut() {
             let styles = assets.figure_css.as_deref().unwrap_or_default();
             let address = format!("{}{styles}", path_to_root(&page.path));

@@ -58,6 +58,8 @@ fn api() -> String {
             methods += &format!("  {}({parameters}): Promise<{result}>;\n", signature.name);
         }
     }
+    let parts = part_names();
+    let union: Vec<String> = parts.iter().map(|name| format!("{name:?}")).collect();
     let names: Vec<&str> = PARTS.iter().map(|(name, _)| *name).collect();
     let larger = PARTS.iter();
     let larger = larger.map(|(name, larger)| format!("  {}: {},\n", camel(name), quoted(larger)));
@@ -66,14 +68,15 @@ fn api() -> String {
         "/** Functions, options and results. Written by `make bless-vision` from `epipole-js`. */\n\n\
          import type {{ Control }} from \"./control.js\";\n\
          import type {{ Picture }} from \"./pictures.js\";\n\n\
-         /** Parts of the library, each a module. */\n\
-         export const PART_NAMES = {} as const;\n\n\
-         /** A part of the library. */\nexport type Part = (typeof PART_NAMES)[number];\n\n\
-         /** Larger parts that contain each part, smallest first. */\n\
+         /** A part of the library, a module. */\nexport type Part = {};\n\n\
+         /** Parts of the library. @hidden */\n\
+         export const PART_NAMES: readonly Part[] = {};\n\n\
+         /** Larger parts that contain each part, smallest first. @hidden */\n\
          export const LARGER: Readonly<Record<Part, readonly Part[]>> = {{\n{larger}}};\n\n\
-         /** Smallest part and parameters of each function. */\n\
+         /** Smallest part and parameters of each function. @hidden */\n\
          export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {{\n{table}}};\n\n\
-         {}\n/** Functions by part. */\nexport interface Functions {{\n{methods}}}\n",
+         {}\n/** Functions by part. @hidden */\nexport interface Functions {{\n{methods}}}\n",
+        union.join(" | "),
         quoted(&names),
         types.text()
     )

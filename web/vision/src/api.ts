@@ -3,13 +3,13 @@
 import type { Control } from "./control.js";
 import type { Picture } from "./pictures.js";
 
-/** Parts of the library, each a module. */
-export const PART_NAMES = ["homography", "geometry", "images", "all"] as const;
+/** A part of the library, a module. */
+export type Part = "homography" | "geometry" | "images" | "all";
 
-/** A part of the library. */
-export type Part = (typeof PART_NAMES)[number];
+/** Parts of the library. @hidden */
+export const PART_NAMES: readonly Part[] = ["homography", "geometry", "images", "all"];
 
-/** Larger parts that contain each part, smallest first. */
+/** Larger parts that contain each part, smallest first. @hidden */
 export const LARGER: Readonly<Record<Part, readonly Part[]>> = {
   homography: ["geometry", "all"],
   geometry: ["all"],
@@ -17,7 +17,7 @@ export const LARGER: Readonly<Record<Part, readonly Part[]>> = {
   all: [],
 };
 
-/** Smallest part and parameters of each function. */
+/** Smallest part and parameters of each function. @hidden */
 export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> = {
   estimateHomography: ["homography", "pixels1", "pixels2", "options"],
   fitHomography: ["homography", "pixels1", "pixels2"],
@@ -1696,7 +1696,7 @@ export interface WindowTensorLike {
   vv: number;
 }
 
-/** Functions by part. */
+/** Functions by part. @hidden */
 export interface Functions {
   /** Homography of matches with outliers, by RANSAC: `x2 ~ H x1`. */
   estimateHomography(pixels1: Points2, pixels2: Points2, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;

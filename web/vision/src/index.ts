@@ -8,6 +8,8 @@ import { WorkerRunner, type Runner } from "./runner.js";
 
 export { VisionError, type Code } from "./errors.js";
 export type * from "./api.js";
+export type { Control } from "./control.js";
+export type { Picture } from "./pictures.js";
 
 /** Options of `Vision.load`. */
 export interface LoadOptions {
@@ -20,9 +22,9 @@ export interface LoadOptions {
 const runners = new WeakMap<Vision, Runner>();
 const forgotten = new FinalizationRegistry<Runner>((runner) => runner.closeLater());
 
-/** The functions of the library. */
 export interface Vision extends Functions {}
 
+/** The functions of the library. Each call is a promise; the first call of a part loads it. */
 export class Vision {
   private constructor(runner: Runner) {
     runners.set(this, runner);

@@ -1,22 +1,28 @@
-//! The manual of the Python package, which another program builds, as a part of the site.
+//! The manual of the Python package and the reference of the npm package, which other programs
+//! build, as parts of the site.
 
 use crate::render::page::Section;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Folder of the manual in the site.
 pub const MANUAL_FOLDER: &str = "python";
 
+/// Folder of the reference in the site.
+pub const REFERENCE_FOLDER: &str = "js";
+
 /// Sections for the search, among the files of the manual: as those of the book, with addresses
 /// relative to the manual.
 const SECTIONS: &str = "search/sections.json";
 
+/// Files by their paths in the site.
+type Files = BTreeMap<String, Vec<u8>>;
+
 /// Files of the manual and the sections that a search finds.
 #[derive(Debug, Default)]
 pub(crate) struct Manual {
-    /// By their paths in the site.
-    pub(crate) files: BTreeMap<String, Vec<u8>>,
+    pub(crate) files: Files,
     /// With addresses relative to the root of the site.
     pub(crate) sections: Vec<Section>,
 }
@@ -40,24 +46,42 @@ impl Manual {
         for section in &mut manual.sections {
             section.url.insert_str(0, &format!("{MANUAL_FOLDER}/"));
         }
-        manual.add(folder, MANUAL_FOLDER)?;
+        add(&mut manual.files, folder, MANUAL_FOLDER)?;
         manual.files.remove(&format!("{MANUAL_FOLDER}/{SECTIONS}"));
         Ok(manual)
     }
+}
 
-    fn add(&mut self, folder: &Path, path: &str) -> Result<()> {
-        let unreadable = || format!("cannot read {}", folder.display());
-        for entry in std::fs::read_dir(folder).with_context(unreadable)? {
-            let entry = entry.with_context(unreadable)?;
-            let inner = format!("{path}/{}", entry.file_name().to_string_lossy());
-            if entry.file_type().with_context(unreadable)?.is_dir() {
-                self.add(&entry.path(), &inner)?;
-            } else {
-                let bytes = std::fs::read(entry.path())
-                    .with_context(|| format!("cannot read {}", entry.path().display()))?;
-                self.files.insert(inner, bytes);
-            }
-        }
-        Ok(())
+/// Reads the reference, which has a search of its own.
+///
+/// # Errors
+/// A folder without a first page, or a file that cannot be read.
+pub(crate) fn read_reference(folder: &Path) -> Result<Files> {
+    let first = folder.join("index.html");
+    if !first.is_file() {
+        bail!(
+            "{} does not exist: `make vision-docs` builds the reference",
+            first.display()
+        );
     }
+    let mut files = Files::new();
+    add(&mut files, folder, REFERENCE_FOLDER)?;
+    Ok(files)
+}
+
+/// Adds the files below a folder, which has this path in the site.
+fn add(files: &mut Files, folder: &Path, path: &str) -> Result<()> {
+    let unreadable = || format!("cannot read {}", folder.display());
+    for entry in std::fs::read_dir(folder).with_context(unreadable)? {
+        let entry = entry.with_context(unreadable)?;
+        let inner = format!("{path}/{}", entry.file_name().to_string_lossy());
+        if entry.file_type().with_context(unreadable)?.is_dir() {
+            add(files, &entry.path(), &inner)?;
+        } else {
+            let bytes = std::fs::read(entry.path())
+                .with_context(|| format!("cannot read {}", entry.path().display()))?;
+            files.insert(inner, bytes);
+        }
+    }
+    Ok(())
 }

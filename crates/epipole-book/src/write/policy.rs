@@ -30,8 +30,8 @@ pub const FRAME_POLICY: &str = policy!("", "", "; frame-ancestors *");
 /// the page for cancellation.
 pub const LAB_POLICY: &str = policy!(" blob:", "", "; media-src blob:");
 
-/// Content-Security-Policy of the manual of the Python package, whose theme has inline scripts and
-/// styles.
+/// Content-Security-Policy of the manual of the Python package and of the reference of the npm
+/// package, whose themes have inline scripts and styles.
 pub const MANUAL_POLICY: &str = concat!(
     "default-src 'none'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline'; ",
     "img-src 'self' data:; font-src 'self'; connect-src 'self'; worker-src 'self'; ",

@@ -21,6 +21,7 @@ pub(crate) struct Template<'a> {
     assets: &'a Assets,
     search: &'a str,
     has_manual: bool,
+    has_js_reference: bool,
     live: bool,
 }
 
@@ -44,6 +45,8 @@ struct Data<'a> {
     search: &'a str,
     /// Whether the manual of the Python package is part of the site.
     has_manual: bool,
+    /// Whether the reference of the npm package is part of the site.
+    has_js_reference: bool,
     live: bool,
     #[serde(flatten)]
     nav: &'a Nav,
@@ -149,6 +152,7 @@ impl<'a> Template<'a> {
         assets: &'a Assets,
         search: &'a str,
         has_manual: bool,
+        has_js_reference: bool,
         live: bool,
     ) -> Result<Template<'a>> {
         let source = std::fs::read_to_string(file)
@@ -174,6 +178,7 @@ impl<'a> Template<'a> {
             assets,
             search,
             has_manual,
+            has_js_reference,
             live,
         })
     }
@@ -213,6 +218,7 @@ impl<'a> Template<'a> {
             has_references: page.has_references,
             search: self.search,
             has_manual: self.has_manual,
+            has_js_reference: self.has_js_reference,
             live: self.live,
             nav,
         };

@@ -52,6 +52,24 @@ fn the_manual_becomes_a_part_of_the_site_and_of_its_search() {
 }
 
 #[test]
+fn the_reference_of_the_npm_package_becomes_a_part_of_the_site() {
+    let mut book = Book::of_chapter("# A title\n\nWords.\n");
+    book.must_build();
+    assert!(!book.page("one.html").contains("js/index.html"));
+    book.write("reference/index.html", "<p>Epipole for JavaScript");
+    book.write("reference/classes/Vision.html", "<p>Functions");
+    book.js_reference = Some(book.path("reference"));
+    book.must_build();
+    assert_eq!(book.page("js/classes/Vision.html"), "<p>Functions");
+    assert!(book.page("one.html").contains("\"js/index.html\""));
+    assert!(!book.page("one.html").contains("python/index.html"));
+
+    book.js_reference = Some(book.path("nothing"));
+    let error = format!("{:#}", book.try_build().unwrap_err());
+    assert!(error.contains("make vision-docs"), "{error}");
+}
+
+#[test]
 fn links_to_the_lab_are_not_dead_while_there_is_no_lab() {
     let book = Book::new(&[
         ("SUMMARY.md", "- [One](part/one.md)\n"),

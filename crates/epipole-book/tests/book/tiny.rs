@@ -68,6 +68,8 @@ pub(crate) struct Book {
     folder: TempDir,
     /// Folder of the manual, if it is part of the site.
     pub(crate) manual: Option<PathBuf>,
+    /// Folder of the reference of the npm package, if it is part of the site.
+    pub(crate) js_reference: Option<PathBuf>,
 }
 
 impl Book {
@@ -76,6 +78,7 @@ impl Book {
         let book = Book {
             folder,
             manual: None,
+            js_reference: None,
         };
         for template in ["web/theme/index.hbs", "web/theme/frame.hbs"] {
             let own = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -117,6 +120,7 @@ impl Book {
             check: false,
             notebooks: None,
             manual: self.manual.clone(),
+            js_reference: self.js_reference.clone(),
         };
         build(&options, &OneDot, &Phases::silent())
     }
