@@ -3,28 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vision, VisionError } from "../dist/index.js";
+import { cameraOf, photograph } from "./scene.mjs";
 
 /** A square, and the same moved by (2, 3) and scaled by 2. */
 const SQUARE = [[0, 0], [100, 0], [100, 100], [0, 100]];
 const moved = (pixels) => pixels.map(([u, v]) => [2 * u + 2, 2 * v + 3]);
-
-/** Photo of two textured walls, z = 4 - 0.5 |x|, by a camera moved along x. */
-function wedge(width, height, along) {
-  const at = (x, y) => ((((x * 7919 + y * 104729 + x * y * 31) % 251) + 251) % 251) / 250;
-  const smooth = (x, y) => {
-    const [column, row] = [Math.floor(x), Math.floor(y)];
-    const [s, t] = [x - column, y - row].map((share) => share * share * (3 - 2 * share));
-    const on = (row) => at(column, row) * (1 - s) + at(column + 1, row) * s;
-    return on(row) * (1 - t) + on(row + 1) * t;
-  };
-  return Uint8Array.from({ length: width * height }, (_, place) => {
-    const du = ((place % width) - (width - 1) / 2) / 150;
-    const dv = (Math.floor(place / width) - (height - 1) / 2) / 150;
-    const depth = Math.min(...[0.5, -0.5].map((slope) => (4 - slope * along) / (1 + slope * du)));
-    const [x, y] = [along + depth * du, depth * dv];
-    return 160 * smooth(4 * x, 4 * y) + 95 * smooth(11 * x + 3, 11 * y);
-  });
-}
 
 /** Both ways of running. */
 for (const worker of [false, true]) {
@@ -384,9 +367,8 @@ for (const worker of [false, true]) {
   });
 
   withVision("photos become cameras and points, with progress, until aborted", async (vision) => {
-    const [width, height] = [160, 120];
-    const photos = [0, 0.25, 0.5, 0.75].map((along) => ({ width, height, data: wedge(width, height, along) }));
-    const cameras = [{ width, height, intrinsics: { fuPx: 150, fvPx: 150, cuPx: 79.5, cvPx: 59.5 } }];
+    const cameras = [cameraOf(160, 120, 150)];
+    const photos = [0, 0.25, 0.5, 0.75].map((along) => photograph(cameras[0], { center: [along, 0, 0] }));
     const stages = new Set();
     const progress = (stage) => stages.add(stage);
     const { images, pairs, result } = await vision.reconstructPhotos(photos, cameras, {}, { progress });

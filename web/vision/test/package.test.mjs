@@ -2,13 +2,16 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
+import { PNG } from "pngjs";
+import { Vision } from "../dist/index.js";
+import { cameraOf, inColor, photograph, seenAt, turn } from "./scene.mjs";
 
 const folder = new URL("../", import.meta.url);
 const read = (path) => readFileSync(new URL(path, folder));
@@ -61,17 +64,69 @@ new Vision();
 `;
 
 const readme = read("README.md").toString();
-const examples = [...readme.matchAll(/```js\n([\s\S]*?)```/g)].map(([, code]) => code);
-for (const [index, code] of examples.entries()) {
-  test(`example ${index + 1} of the README prints what it says`, () => {
-    const expected = [...code.matchAll(/console\.log\(.*\/\/ (.*)/g)].map(([, text]) => text);
-    assert.ok(expected.length > 0);
-    const local = code.replace("@epipole/vision", new URL("dist/index.js", folder).href);
-    const options = { timeout: 30_000, encoding: "utf8" };
-    const out = execFileSync(process.execPath, ["--input-type=module", "-e", local], options);
-    assert.deepEqual(out.trim().split("\n"), expected);
-  });
+const examples = new Map([...readme.matchAll(/^## (.*)\n```js\n([\s\S]*?)```/gm)].map(([, title, code]) => [title, code]));
+const CAMERA = cameraOf(480, 320, 400);
+/** Pose of the right camera; that of the left one is the identity. */
+const CENTER = [0.3, 0.02, 0.05];
+const ROTATION = turn(0.02, -0.05, 0.01);
+const TRANSLATION = [0, 3, 6].map((row) => -CENTER.reduce((sum, place, k) => sum + ROTATION[row + k] * place, 0));
+
+/** Output of an example, run beside two photos and their rig. */
+function run(title) {
+  const temporary = mkdtempSync(join(tmpdir(), "vision-readme-"));
+  try {
+    mkdirSync(join(temporary, "node_modules/@epipole"), { recursive: true });
+    symlinkSync(fileURLToPath(folder), join(temporary, "node_modules/@epipole/vision"));
+    symlinkSync(fileURLToPath(new URL("../node_modules/pngjs", folder)), join(temporary, "node_modules/pngjs"));
+    const right = { center: CENTER, rotation: ROTATION };
+    for (const [name, pose] of [["left.png", {}], ["right.png", right]]) {
+      writeFileSync(join(temporary, name), PNG.sync.write(Object.assign(new PNG(), inColor(photograph(CAMERA, pose)))));
+    }
+    const rig = { leftCamera: CAMERA, rightCamera: CAMERA, rightFromLeft: { rotation: ROTATION, translation: TRANSLATION } };
+    writeFileSync(join(temporary, "rig.json"), JSON.stringify(rig));
+    writeFileSync(join(temporary, "example.mjs"), examples.get(title));
+    return execFileSync(process.execPath, ["example.mjs"], { cwd: temporary, timeout: 30_000, encoding: "utf8" });
+  } finally {
+    rmSync(temporary, { recursive: true });
+  }
 }
+
+const numbersIn = (text) => text.match(/-?\d+(\.\d+)?(e-?\d+)?/g).map(Number);
+/** Norm of the difference of two vectors or matrices: for unit vectors their angle, if it is small. */
+const distance = (first, second) => Math.hypot(...first.map((number, k) => number - second[k]));
+
+test("the README has an example of each use", () => {
+  assert.deepEqual([...examples.keys()], [
+    "A panorama in a page",
+    "The pose from two photographs",
+    "A rig to depth",
+    "ORB and a homography over a webcam",
+    "SIFT in Node",
+  ]);
+});
+
+test("the example of a pose finds the motion between the photos", () => {
+  const [rotation, direction] = run("The pose from two photographs").split("t along").map(numbersIn);
+  const length = Math.hypot(...TRANSLATION);
+  assert.equal(rotation.length, 9);
+  assert.ok(distance(rotation, ROTATION) < 0.003, `${rotation} is not ${ROTATION}`);
+  assert.ok(distance(direction, TRANSLATION.map((part) => part / length)) < 0.01, `${direction}`);
+});
+
+test("the example of a rig measures the depth of the wall", async () => {
+  const vision = await Vision.load();
+  const rightFromLeft = { rotation: ROTATION, translation: TRANSLATION };
+  const { intrinsics1, rotation1, width, height } = await vision.rectifyCalibrated(CAMERA, CAMERA, rightFromLeft);
+  const { depth } = seenAt({ intrinsics: intrinsics1 }, width >> 1, height >> 1, { rotation: rotation1 });
+  const [measured] = numbersIn(run("A rig to depth"));
+  assert.ok(Math.abs(measured - depth) < 0.01 * depth, `${measured} m, but the wall is at ${depth} m`);
+});
+
+test("the example of SIFT finds features", () => {
+  const [count, dimension] = numbersIn(run("SIFT in Node"));
+  assert.ok(count > 100, `${count} features`);
+  assert.equal(dimension, 128);
+});
 
 test("the package contains scripts, modules, types and licenses, and no dependency", () => {
   const { dependencies } = JSON.parse(read("package.json"));
