@@ -10,11 +10,15 @@ import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
 import { PNG } from "pngjs";
+import { FUNCTIONS } from "../dist/api.js";
 import { Vision } from "../dist/index.js";
 import { cameraOf, inColor, photograph, seenAt, turn } from "./scene.mjs";
 
 const folder = new URL("../", import.meta.url);
 const read = (path) => readFileSync(new URL(path, folder));
+
+/** Path of an installed program. */
+const tool = (name) => fileURLToPath(new URL(`../node_modules/.bin/${name}`, folder));
 
 /** Size as a server sends it, bytes. */
 function brotli(...paths) {
@@ -151,11 +155,32 @@ test("publint and arethetypeswrong find nothing", () => {
     const pack = ["pack", "--json", "--ignore-scripts", "--pack-destination", temporary];
     const [{ filename }] = JSON.parse(execFileSync("npm", pack, { cwd: fileURLToPath(folder), encoding: "utf8" }));
     const packed = join(temporary, filename);
-    const tool = (name) => fileURLToPath(new URL(`../node_modules/.bin/${name}`, folder));
     const options = { encoding: "utf8", stdio: "pipe" };
     assert.match(execFileSync(tool("publint"), ["run", packed, "--strict"], options), /All good!/);
     // The package has modules only; scripts of CommonJS import it dynamically.
     execFileSync(tool("attw"), [packed, "--profile", "esm-only", "--no-definitely-typed"], options);
+  } finally {
+    rmSync(temporary, { recursive: true });
+  }
+});
+
+test("the reference has every function and loads nothing from other servers", () => {
+  const temporary = mkdtempSync(join(tmpdir(), "vision-docs-"));
+  try {
+    const options = ["--options", fileURLToPath(new URL("typedoc.json", folder)), "--out", temporary];
+    execFileSync(tool("typedoc"), options, { stdio: "pipe" });
+    const pages = readdirSync(temporary, { recursive: true }).filter((name) => /\.(html|css)$/.test(name));
+    assert.ok(pages.length > 100, `${pages.length} pages`);
+    for (const name of pages) {
+      const text = readFileSync(join(temporary, name), "utf8");
+      const loaded = /<(?:script|link|img|iframe)\b[^>]*(?:src|href)="([^"]*)"|url\(([^)]*)\)|@import ([^;]*)/g;
+      for (const [, ...found] of text.matchAll(loaded)) {
+        const address = found.find(Boolean) ?? "";
+        assert.ok(!/^["']?(https?:|\/)/.test(address), `${name} loads ${address}`);
+      }
+    }
+    const methods = readFileSync(join(temporary, "classes/Vision.html"), "utf8").toLowerCase();
+    for (const name of Object.keys(FUNCTIONS)) assert.ok(methods.includes(`id="${name.toLowerCase()}"`), name);
   } finally {
     rmSync(temporary, { recursive: true });
   }
