@@ -44,7 +44,8 @@ const EXPOSURE: Choice = Choice::new(
         ("automatic", "Automatic"),
         ("even", "Evened out"),
     ],
-);
+)
+.more();
 const KNOBS: &[Knob] = knobs![SOURCE, TURN, STEP, SURFACE, BLEND, EXPOSURE];
 
 const SLOTS: &[PhotoSlot] = &[
