@@ -15,6 +15,22 @@ function parametersOf(words: HTMLElement): Record<string, string> {
   return JSON.parse(words.dataset.parameters ?? "{}") as Record<string, string>;
 }
 
+/** Watches, until it is asked, whether the reader scrolls or presses anything. */
+function watchReader(): { hasMoved: () => boolean } {
+  const watching = new AbortController();
+  const { signal } = watching;
+  for (const type of ["wheel", "touchmove", "keydown", "pointerdown"]) {
+    addEventListener(type, () => watching.abort(), { signal, passive: true });
+  }
+  return {
+    hasMoved: () => {
+      const { aborted } = signal;
+      watching.abort();
+      return aborted;
+    },
+  };
+}
+
 /** Makes the words a button without a box of its own, so that they still wrap like text. */
 function startButton(words: HTMLElement): void {
   const figure = figureOf(words);
@@ -28,8 +44,12 @@ function startButton(words: HTMLElement): void {
     // Safari 16 has no popovers: there the page scrolls to the figure.
     const canDock = "popover" in HTMLElement.prototype;
     const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
-    dock?.bringTogether(figure.closest("figure") ?? figure, words);
+    const together = () => dock?.bringTogether(figure.closest("figure") ?? figure, words);
+    together();
+    const reader = watchReader();
     await figure.glide?.(parametersOf(words), { scroll: !dock });
+    // A figure that came alive meanwhile may have moved the text.
+    if (!reader.hasMoved()) together();
   };
   words.addEventListener("click", () => void act());
   words.addEventListener("keydown", (event) => {
