@@ -37,6 +37,8 @@ LEFT_OUT = {
         robust::Trial robust::Unique two_view::RotationEstimator optim::DenseProblem
         optim::EdgeTerms sfm::GraphPose""",
     "robust.estimate_line runs it": "robust::LineEstimator",
+    "numpy.linalg.svd does the same": "math::right_singular_vectors",
+    "a pose graph read from a file keeps its priors": "sfm::PosePrior",
     "steps inside the eight-point method and the refinement": """
         camera::Observation epipolar::Normalization""",
 }
