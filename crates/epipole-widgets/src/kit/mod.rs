@@ -25,10 +25,12 @@
 //! | [`heat`], [`terrain`] | numbers as colors, and as a landscape |
 //! | [`house`] | a house of wire with cameras around it |
 //! | [`pair`] | two photographs of the still life, epipolar lines |
+//! | [`corners`] | the corners of a rectangle, dragged in a photograph |
 //! | [`warped`] | a photograph through a homography |
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
 pub(crate) mod cells;
+pub(crate) mod corners;
 pub(crate) mod features;
 pub(crate) mod geometry;
 pub(crate) mod grid;

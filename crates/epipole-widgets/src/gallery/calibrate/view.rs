@@ -108,7 +108,7 @@ fn draw_map(model: &Calibrate, answer: &Answer, found: &Found, panel: &Panel, ca
         let error = found.errors_px[(row * columns + column) as usize];
         image::Rgb(color(theme, f64::from(error) / MOST_PX))
     });
-    canvas.photograph(panel.rect, &colors);
+    canvas.photograph(panel.rect.inset(1.0), &colors);
     canvas.clipped(panel.rect, |canvas| {
         let used = answer
             .corners
@@ -119,7 +119,6 @@ fn draw_map(model: &Calibrate, answer: &Answer, found: &Found, panel: &Panel, ca
             canvas.disk(panel.canvas_from_world((*u, *v)), 1.4, Role::Ink, 0.7);
         }
     });
-    canvas.panel(Rect::new(panel.rect.x, panel.rect.y, panel.rect.width, 0.0));
 }
 
 /// Returns the color of an error, as a fraction of [`MOST_PX`].

@@ -4,8 +4,9 @@ use crate::contract::{
     Challenge, Choice, Control, Data, Datum, Declared, Event, Handle, Knob, Model, PhotoSlot,
     Problem, Settings, Slider, knobs,
 };
+use crate::kit::corners::CORNERS;
 use crate::kit::picture::{Own, Picture, slot};
-use crate::kit::probe::{Probe, place_words};
+use crate::kit::probe::Probe;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
 use epipole::camera::{PosedCamera, look_at};
 use epipole::homography::{homography_4point, transfer};
@@ -35,12 +36,6 @@ const MIN_SIDE_PX: u32 = 32;
 /// Margin of the plane around the rectangle, relative to its larger side.
 const MARGIN: f64 = 0.16;
 
-const CORNERS: [Probe; 4] = [
-    corner("a", "Corner A, far left"),
-    corner("b", "Corner B, far right"),
-    corner("c", "Corner C, near right"),
-    corner("d", "Corner D, near left"),
-];
 /// Ends of the ruler, cm on the plane from corner A.
 const RULER: [Probe; 2] = [
     Probe::new("from", "plane", "Ruler start")
@@ -57,19 +52,14 @@ fn cm_words((x, y): (f64, f64)) -> String {
     format!("{x:.1} cm across, {y:.1} cm down")
 }
 
-const fn corner(id: &'static str, label: &'static str) -> Probe {
-    Probe::new(id, "photo", label)
-        .digits(1)
-        .told(|place| place_words(place, 1))
-}
-
 /// The camera of the photograph: it sees the cloth whole, and the pictures on the wall.
 pub(super) fn camera() -> PosedCamera {
     let (width, height) = PHOTO_SIZE;
     let eye = Point3::new(-0.42, -0.84, -1.66);
     let target = Point3::new(-0.01, -0.22, 0.1);
     PosedCamera {
-        cam_from_world: look_at(&eye, &target, &Vector3::new(0.0, -1.0, 0.0)).unwrap_or_default(),
+        cam_from_world: look_at(&eye, &target, &Vector3::new(0.0, -1.0, 0.0))
+            .expect("the table is below the camera, not above it"),
         ..still_life_camera(width, height)
     }
 }

@@ -3,6 +3,7 @@
 use super::model::{HomographyDrag, camera};
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::corners;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
 use crate::kit::photo::Photo;
@@ -16,7 +17,6 @@ use nalgebra::Point2;
 const TALLEST: f64 = 430.0;
 const OUTLINE: Role = Role::Series(0);
 const RULER: Role = Role::Series(1);
-const NAMES: [&str; 4] = ["A", "B", "C", "D"];
 
 /// Draws [`HomographyDrag`].
 #[derive(Default)]
@@ -123,21 +123,17 @@ fn draw_photo_marks(model: &HomographyDrag, panel: &Panel, canvas: &mut Canvas) 
         let ends = (panel.place_of(&from), panel.place_of(&to));
         canvas.line(ends.0, ends.1, Stroke::solid(RULER, 2.5).cased());
     }
-    for corner in corners {
-        canvas.grip(corner, Role::Grip);
-    }
-    draw_names(panel, corners, canvas);
+    corners::draw_grips(canvas, corners);
+    draw_outline_names(panel, corners, canvas);
 }
 
-fn draw_names(panel: &Panel, corners: [Place; 4], canvas: &mut Canvas) {
+/// Draws the letters beside the corners of an outline.
+fn draw_outline_names(panel: &Panel, corners: [Place; 4], canvas: &mut Canvas) {
     let mut labels = Labels::new(panel.rect.inset(3.0));
-    for (index, corner) in corners.into_iter().enumerate() {
-        labels.keep_line_free(corner, corners[(index + 1) % 4]);
-        labels.keep_free(corner, 9.0);
+    for index in 0..4 {
+        labels.keep_line_free(corners[index], corners[(index + 1) % 4]);
     }
-    for (corner, name) in corners.into_iter().zip(NAMES) {
-        labels.name(canvas, (corner, 11.0), name, (Role::Ink, TEXT));
-    }
+    corners::draw_names(canvas, &mut labels, corners);
 }
 
 /// Draws the rectangle, and the ruler with its length.
@@ -145,7 +141,7 @@ fn draw_plane_marks(model: &HomographyDrag, panel: &Panel, canvas: &mut Canvas) 
     let at = |point: Point2<f64>| panel.place_of(&point);
     let corners = model.rectangle().map(at);
     canvas.polygon_outline(&corners, Stroke::solid(OUTLINE, 2.0).cased());
-    draw_names(panel, corners, canvas);
+    draw_outline_names(panel, corners, canvas);
     let [from, to] = model.ruler().map(at);
     canvas.line(from, to, Stroke::solid(RULER, 2.5).cased());
     for end in [from, to] {

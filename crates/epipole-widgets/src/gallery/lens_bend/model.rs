@@ -6,7 +6,7 @@ use crate::contract::{
 use epipole::camera::{Camera, Distortion, Intrinsics, PosedCamera};
 use epipole::math::Line2;
 use epipole_scenes::{still_life_camera, still_life_cloth, still_life_landscape};
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::{Point2, Point3};
 
 /// Size of the photograph, pixels, and its focal length.
 pub(super) const SIZE: (u32, u32) = (400, 300);
@@ -77,23 +77,25 @@ fn edges() -> [[Point3<f64>; 2]; 5] {
 
 /// Returns the camera without its lens, for a photograph of this size.
 pub(super) fn camera((width, height): (u32, u32)) -> PosedCamera {
-    let centered = Intrinsics::centered(FOCAL_PX, width, height);
     PosedCamera {
-        camera: Camera::pinhole(centered.expect("the focal is positive"), width, height),
+        camera: Camera::pinhole(intrinsics((width, height)), width, height),
         ..still_life_camera(width, height)
     }
 }
 
-/// Returns the pixel of a ray (x, y, 1) without a lens, in a photograph of this size.
-pub(super) fn pixel(ray: &Point2<f64>, (width, height): (u32, u32)) -> Point2<f64> {
-    let middle = Vector2::new(f64::from(width) - 1.0, f64::from(height) - 1.0) / 2.0;
-    ray * FOCAL_PX + middle
+/// Returns the intrinsics for a photograph of this size.
+pub(super) fn intrinsics((width, height): (u32, u32)) -> Intrinsics {
+    Intrinsics::centered(FOCAL_PX, width, height).expect("the focal length is positive")
 }
 
-/// Returns the ray (x, y, 1) of a pixel without a lens, in a photograph of this size.
-pub(super) fn ray(pixel: &Point2<f64>, (width, height): (u32, u32)) -> Point2<f64> {
-    let middle = Vector2::new(f64::from(width) - 1.0, f64::from(height) - 1.0) / 2.0;
-    (pixel - middle) / FOCAL_PX
+/// Returns the pixel of a ray (x, y, 1) without a lens.
+pub(super) fn pixel(ray: &Point2<f64>, intrinsics: &Intrinsics) -> Point2<f64> {
+    ray * intrinsics.fu_px() + intrinsics.principal_point().coords
+}
+
+/// Returns the ray (x, y, 1) of a pixel without a lens.
+pub(super) fn ray(pixel: &Point2<f64>, intrinsics: &Intrinsics) -> Point2<f64> {
+    intrinsics.ray(pixel).xy().into()
 }
 
 /// The model of `lens-bend`.
@@ -120,14 +122,15 @@ impl LensBend {
 
     /// Returns the edges as the lens bends them.
     pub(super) fn bent(&self) -> Vec<Edge> {
-        let (lens, cam_from_world) = (self.lens(), camera(SIZE).cam_from_world);
+        let (lens, intrinsics) = (self.lens(), intrinsics(SIZE));
+        let cam_from_world = camera(SIZE).cam_from_world;
         let bent = edges().map(|[from, to]| {
             let points = (0..NUM_POINTS).map(|index| {
                 let share = index as f64 / (NUM_POINTS - 1) as f64;
                 let point = Point3::from(from.coords.lerp(&to.coords, share));
                 let in_cam = cam_from_world * point;
                 let ray = Point2::new(in_cam.x / in_cam.z, in_cam.y / in_cam.z);
-                pixel(&lens.distort(&ray), SIZE)
+                pixel(&lens.distort(&ray), &intrinsics)
             });
             Edge(points.collect())
         });
@@ -136,10 +139,10 @@ impl LensBend {
 
     /// Returns the edges as the reader's guess straightens them.
     pub(super) fn corrected(&self) -> Vec<Edge> {
-        let guess = self.guess();
+        let (guess, intrinsics) = (self.guess(), intrinsics(SIZE));
         let straighten = |point: &Point2<f64>| {
-            let straight = guess.undistort(&ray(point, SIZE));
-            straight.ok().map(|ray| pixel(&ray, SIZE))
+            let straight = guess.undistort(&ray(point, &intrinsics));
+            straight.ok().map(|ray| pixel(&ray, &intrinsics))
         };
         let corrected = |edge: &Edge| Edge(edge.0.iter().filter_map(straighten).collect());
         self.bent().iter().map(corrected).collect()

@@ -1,6 +1,6 @@
 //! The photograph through the lens, and the same as the reader's guess straightens it.
 
-use super::model::{Edge, LensBend, SHARP_SIZE, SIZE, camera, pixel, ray};
+use super::model::{Edge, LensBend, SHARP_SIZE, SIZE, camera, intrinsics, pixel, ray};
 use crate::canvas::{Canvas, Place, Stroke};
 use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid};
@@ -95,7 +95,7 @@ impl View for LensBendView {
     fn refine(&mut self, _: &LensBend) -> bool {
         let camera = camera(SHARP_SIZE);
         let is_working = (self.photo).refine(&still_life(), &camera, [0.0; 3], SHARP_SIZE);
-        self.num_slices += 1;
+        self.num_slices += u32::from(is_working);
         is_working
     }
 }
@@ -104,12 +104,13 @@ impl View for LensBendView {
 fn through(lens: &Distortion) -> PixelMap {
     let (width, height) = SIZE;
     let nodes = [width.div_ceil(NODE) + 1, height.div_ceil(NODE) + 1];
+    let [of_seen, of_sharp] = [intrinsics(SIZE), intrinsics(SHARP_SIZE)];
     let mut exact = Vec::new();
     for row in 0..nodes[1] {
         for column in 0..nodes[0] {
             let seen = Point2::new(f64::from(column * NODE), f64::from(row * NODE));
-            let straight = lens.undistort(&ray(&seen, SIZE));
-            exact.push(straight.ok().map(|ray| pixel(&ray, SHARP_SIZE)));
+            let straight = lens.undistort(&ray(&seen, &of_seen));
+            exact.push(straight.ok().map(|ray| pixel(&ray, &of_sharp)));
         }
     }
     let at = |column: u32, row: u32| exact[(row * nodes[0] + column) as usize];
@@ -128,9 +129,10 @@ fn through(lens: &Distortion) -> PixelMap {
 /// Returns the map that takes a distortion out of a photograph.
 fn straightened(guess: &Distortion) -> PixelMap {
     let (width, height) = SIZE;
+    let intrinsics = intrinsics(SIZE);
     PixelMap::from_fn(width, height, |u, v| {
-        let straight = ray(&Point2::new(f64::from(u), f64::from(v)), SIZE);
-        Some(pixel(&guess.distort(&straight), SIZE))
+        let straight = ray(&Point2::new(f64::from(u), f64::from(v)), &intrinsics);
+        Some(pixel(&guess.distort(&straight), &intrinsics))
     })
 }
 

@@ -70,7 +70,7 @@ pub(super) struct Parallax {
     pub(super) pixel2: Point2<f64>,
     /// Whether photograph 2 shows the point: neither hidden nor outside.
     pub(super) is_seen: bool,
-    /// Name of the object, such as "the mug".
+    /// The point, world, meters.
     pub(super) point: Point3<f64>,
 }
 
@@ -114,8 +114,8 @@ impl PlaneOrNot {
         Geometry::of(&self.cameras())
     }
 
-    /// Returns the plane's unit normal toward camera 1, world, and its distance from a point of the
-    /// world along it, meters; `None` for the plane at infinity.
+    /// Returns the plane's unit normal toward camera 1 and one of its points, world, meters; `None`
+    /// for the plane at infinity.
     fn plane_in_world(&self) -> Option<(Vector3<f64>, Point3<f64>)> {
         let [one, two, three, _] = match self.plane() {
             Plane::Table => still_life_cloth(),

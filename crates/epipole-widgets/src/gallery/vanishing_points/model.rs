@@ -4,7 +4,8 @@ use crate::contract::{
     Challenge, Control, Data, Datum, Declared, Event, Handle, Knob, Model, Problem, Settings,
     Slider, knobs,
 };
-use crate::kit::probe::{Probe, place_words};
+use crate::kit::corners::CORNERS;
+use crate::kit::probe::Probe;
 use crate::kit::scenes::PHOTO_SIZE;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
 use epipole::math::Line2;
@@ -31,20 +32,6 @@ const MIDDLE: [f64; 3] = [0.13, -0.08, -0.05];
 const RADIUS_M: f64 = 1.4;
 /// A point on the rim of the vase, world, meters.
 const RIM: [f64; 3] = [0.045, -0.34, 0.215];
-
-const CORNERS: [Probe; 4] = [
-    corner("a", "Corner A, far left"),
-    corner("b", "Corner B, far right"),
-    corner("c", "Corner C, near right"),
-    corner("d", "Corner D, near left"),
-];
-
-const fn corner(id: &'static str, label: &'static str) -> Probe {
-    Probe::new(id, "photo", label)
-        .over(PHOTO_SIZE)
-        .digits(1)
-        .told(|place| place_words(place, 1))
-}
 
 /// The model of `vanishing-points`.
 pub(crate) struct VanishingPoints {
@@ -79,7 +66,7 @@ impl VanishingPoints {
                 width,
                 height,
             ),
-            cam_from_world: look_at(&eye, &middle, &up).unwrap_or_default(),
+            cam_from_world: look_at(&eye, &middle, &up).expect("the camera is beside the table"),
         }
     }
 
@@ -90,7 +77,7 @@ impl VanishingPoints {
         std::array::from_fn(|index| {
             let corner = camera.project(&cloth[index]).unwrap_or_default();
             let offset = self.offsets[index];
-            let mut probe = CORNERS[index].at(corner.x, corner.y);
+            let mut probe = CORNERS[index].over(PHOTO_SIZE).at(corner.x, corner.y);
             if offset != Vector2::zeros() {
                 probe.put(corner.x + offset.x, corner.y + offset.y);
             }

@@ -1,17 +1,18 @@
 //! The photograph with the sides of the cloth, and its surroundings with the vanishing points.
 
 use super::model::{VanishingPoints, pixel};
-use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
+use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, View};
+use crate::kit::corners;
 use crate::kit::grid::{self, Grid, TEXT};
 use crate::kit::labels::Labels;
-use crate::kit::pair::border_arrow;
+use crate::kit::pair::{border_arrow, draw_line};
 use crate::kit::photo::Photo;
 use crate::kit::scenes::{PHOTO_ASPECT, PHOTO_SIZE, still_life};
 use crate::theme::Role;
 use epipole::math::Line2;
 use image::RgbImage;
-use nalgebra::{Point2, Vector3};
+use nalgebra::Vector3;
 
 /// Maximum height of the panels, CSS pixels.
 const TALLEST: f64 = 430.0;
@@ -117,7 +118,7 @@ fn draw_marks(model: &VanishingPoints, panel: &Panel, canvas: &mut Canvas) {
             for line in pair {
                 let width = if is_photo { 1.75 } else { 1.25 };
                 let (from, to) =
-                    draw_whole(canvas, panel, &line, Stroke::solid(role, width).cased());
+                    draw_line(canvas, panel, &line, Stroke::solid(role, width).cased());
                 labels.keep_line_free(from, to);
             }
         }
@@ -130,30 +131,14 @@ fn draw_marks(model: &VanishingPoints, panel: &Panel, canvas: &mut Canvas) {
         }
     }
     if is_photo {
-        for corner in corners {
-            canvas.grip(corner, Role::Grip);
-            labels.keep_free(corner, 9.0);
-        }
-        for (corner, name) in corners.into_iter().zip(["A", "B", "C", "D"]) {
-            labels.name(canvas, (corner, 11.0), name, (Role::Ink, TEXT));
-        }
+        corners::draw_grips(canvas, corners);
+        corners::draw_names(canvas, &mut labels, corners);
     }
-}
-
-/// Draws a line of the image plane through the whole panel, and returns its ends.
-fn draw_whole(canvas: &mut Canvas, panel: &Panel, line: &Line2, stroke: Stroke) -> (Place, Place) {
-    let (u, v) = panel.world_from_canvas(panel.rect.center());
-    let foot = line.nearest(&Point2::new(u, v));
-    let reach = (panel.rect.width + panel.rect.height) / panel.scale_x();
-    let [from, to] = [-reach, reach]
-        .map(|along| panel.canvas_from_world((foot.x - along * line.b, foot.y + along * line.a)));
-    canvas.line(from, to, stroke);
-    (from, to)
 }
 
 fn draw_horizon(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels, horizon: &Line2) {
     let stroke = Stroke::solid(HORIZON, 2.5).dashed().cased();
-    let (from, to) = draw_whole(canvas, panel, horizon, stroke);
+    let (from, to) = draw_line(canvas, panel, horizon, stroke);
     labels.keep_line_free(from, to);
     let rect = panel.rect;
     let x = rect.center().0;
