@@ -10,7 +10,7 @@ impl Words for LensBend {
         vec![
             Readout::number("bent", "Edges bent", bent_px, 1, "px").main(),
             Readout::number("left", "Bend left", left_px, 1, "px").main(),
-            Readout::number("corner", "Corner drawn", corner, 0, "%").main(),
+            Readout::number("corner", "Corner radius", corner, 0, "%").main(),
         ]
     }
 
