@@ -12,12 +12,14 @@ pub mod eight_point;
 mod epipolar_click;
 mod epipolar_plane;
 mod flat_scene;
+mod flow_window;
 mod four_poses;
 mod gradient_field;
 pub mod harris;
 mod homography_drag;
 mod kernel_stepper;
 mod lens_bend;
+mod odometry;
 mod outlier_drag;
 mod panorama;
 mod patch_match;
@@ -36,6 +38,7 @@ mod schur;
 mod sift_descriptor;
 mod stereo_slider;
 mod tournament;
+mod track;
 mod triangulate;
 mod two_cameras;
 mod two_view_sfm;
@@ -111,6 +114,9 @@ figures![
     plane_or_not::View,
     lens_bend::View,
     calibrate::View,
+    flow_window::View,
+    track::View,
+    odometry::View,
 ];
 
 const fn entry<V: View>() -> Entry {

@@ -7,6 +7,7 @@
 //! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
 //! | [`rectified`] | a stereo pair of the still life with its true disparities |
+//! | [`sequence`] | frames of a camera that moves around the still life |
 //! | [`features`] | two photographs of the still life with their features |
 //! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
 //! | [`points`] | points that the reader drags, adds and removes |
@@ -57,6 +58,7 @@ pub(crate) mod rectified;
 pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;
+pub(crate) mod sequence;
 pub(crate) mod space;
 pub(crate) mod standing;
 pub(crate) mod tally;

@@ -5,15 +5,13 @@ mod style;
 
 use self::style::{AFTER, BEFORE, TRUTH};
 use super::model::ScaleDrift;
-use crate::canvas::{Canvas, Shape, Stroke};
-use crate::contract::{Aspect, Axis, Layout, Panel, Rect, View};
+use crate::canvas::{Canvas, Shape};
+use crate::contract::{Aspect, Layout, Panel, View};
 use crate::kit::grid::{self, Grid};
 use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::plot::{self, Ruler, decade};
 use crate::theme::Role;
 
-/// Height of the track of the handle for the distance traveled, CSS pixels.
-const TRACK: f64 = 24.0;
 /// The plot shows at least scales from 1/2 to this.
 const LEAST: f64 = 2.0;
 /// Space above and below the curves, in powers of ten.
@@ -62,19 +60,8 @@ impl View for ScaleDriftView {
         let mut grid = Grid::new(width);
         let [left, right] = grid.shares(shares, height);
         grid.strip(LEGEND_GAP + legend::height(&LEGEND, width, 0.0));
-        let cell = Rect::new(right.x, right.y, right.width, right.height - TRACK);
         let [x, y] = rulers(model);
-        let plot = plot::panel("plot", cell, &x, &y).clickable();
-        // Below the numbers, out of the way of the curves.
-        let track = Panel {
-            id: "track",
-            rect: Rect::new(plot.rect.x, cell.bottom(), plot.rect.width, TRACK),
-            y_axis: Axis {
-                start: 1.0,
-                end: -1.0,
-            },
-            ..plot
-        };
+        let [plot, track] = plot::panel_and_track("plot", right, &x, &y);
         grid.layout(vec![map::panel(model, left), plot, track])
     }
 
@@ -124,8 +111,5 @@ fn draw_plot(model: &ScaleDrift, [plot, track]: [&Panel; 2], canvas: &mut Canvas
             true,
         );
     }
-    let way = [0.0, model.num_steps() as f64];
-    let [from, to] = way.map(|frame| track.canvas_from_world((frame, 0.0)));
-    canvas.line(from, to, Stroke::solid(Role::Muted, 1.5));
-    canvas.grip(track.canvas_from_world((traveled, 0.0)), Role::Grip);
+    plot::draw_track(canvas, track, [0.0, model.num_steps() as f64], traveled);
 }

@@ -7,7 +7,7 @@ mod ruler;
 
 pub(crate) use self::ruler::{Ruler, SIGMAS, decade};
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle, text_width};
-use crate::contract::{Layout, Panel, Rect};
+use crate::contract::{Axis, Layout, Panel, Rect};
 use crate::kit::grid::{SMALL, fitting_title};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
@@ -18,6 +18,8 @@ pub(crate) const LEFT: f64 = 42.0;
 const BELOW: f64 = 22.0;
 /// Room to the right of a plot.
 const RIGHT: f64 = 6.0;
+/// Height of the track of a handle below a plot, CSS pixels.
+const TRACK: f64 = 24.0;
 /// Room for the name of the horizontal axis.
 const NAME: f64 = 17.0;
 /// Font size of exponents, CSS pixels.
@@ -70,6 +72,32 @@ pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel
         (cell.height - below).max(1.0),
     );
     Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
+}
+
+/// Creates a plot's panel and below it that of a [`track`](draw_track), with the same columns.
+pub(crate) fn panel_and_track(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> [Panel; 2] {
+    let above = Rect::new(cell.x, cell.y, cell.width, cell.height - TRACK);
+    let plot = panel(id, above, x, y).clickable();
+    // Below the numbers, out of the way of the curves.
+    let track = Panel {
+        id: "track",
+        rect: Rect::new(plot.rect.x, above.bottom(), plot.rect.width, TRACK),
+        y_axis: Axis {
+            start: 1.0,
+            end: -1.0,
+        },
+        ..plot
+    };
+    [plot, track]
+}
+
+/// Draws the track of a handle that moves along a plot's horizontal axis.
+///
+/// * `ends`: values at the ends of the track
+pub(crate) fn draw_track(canvas: &mut Canvas, track: &Panel, ends: [f64; 2], now: f64) {
+    let [from, to] = ends.map(|at| track.canvas_from_world((at, 0.0)));
+    canvas.line(from, to, Stroke::solid(Role::Muted, 1.5));
+    canvas.grip(track.canvas_from_world((now, 0.0)), Role::Grip);
 }
 
 /// Draws a plot's title, in the first wording that fits, and its axes.

@@ -1,0 +1,8 @@
+//! `track`: corners followed from frame to frame by Lucas and Kanade, with their true positions.
+
+mod model;
+mod question;
+mod view;
+mod words;
+
+pub(super) use view::TrackView as View;

@@ -1,0 +1,251 @@
+//! Frames of a video, the points followed through them, and the frame that is shown.
+
+use super::question::{Answer, MAX_STRIDE, Question, Sighting};
+use crate::contract::{
+    Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
+    Slider, Toggle, knobs,
+};
+use crate::kit::question::{Asked, carry_out};
+use crate::kit::running::Running;
+
+const STRIDE: Slider = Slider::new("stride", "Every nth frame")
+    .range(1.0, MAX_STRIDE as f64, 1.0)
+    .at(1.0);
+const LEVELS: Slider = Slider::new("levels", "Pyramid levels")
+    .range(1.0, 4.0, 1.0)
+    .at(3.0);
+const WINDOW: Slider = Slider::new("window", "Window")
+    .range(5.0, 21.0, 2.0)
+    .at(11.0)
+    .unit("px");
+const CHECK: Toggle = Toggle::new("check", "Follow back");
+const KNOBS: &[Knob] = knobs![STRIDE, LEVELS, WINDOW, CHECK];
+
+/// Handle of the frame that is shown.
+const FRAME: &str = "frame";
+/// Frames per second.
+const PACE: f64 = 8.0;
+/// Error above which a point is wrong, pixels.
+pub(super) const WRONG_PX: f64 = 2.0;
+
+/// The model of `track`.
+pub(crate) struct TrackFigure {
+    settings: Settings,
+    running: Running,
+    /// Number of the frame that is shown; `None` for the last one.
+    frame: Option<usize>,
+    pub(super) asked: Asked<Question>,
+}
+
+/// Points of one frame.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Tally {
+    pub(super) num_followed: usize,
+    pub(super) num_lost: usize,
+    pub(super) num_wrong: usize,
+    /// Median distance from the true position of those that are visible, pixels.
+    pub(super) median_px: Option<f64>,
+}
+
+impl Sighting {
+    /// Returns whether the point is not on its thing, or its thing is not visible.
+    pub(super) fn is_wrong(&self) -> bool {
+        self.error_px.is_none_or(|error| error > WRONG_PX)
+    }
+}
+
+impl TrackFigure {
+    /// Returns the answer to the current question; `None` while it is computed.
+    pub(super) fn answer(&self) -> Option<&Answer> {
+        let is_waiting = self.asked.is_waiting();
+        self.asked.answer().filter(|_| !is_waiting)
+    }
+
+    fn question(&self) -> Question {
+        Question {
+            stride: self.settings.count(&STRIDE),
+            num_levels: self.settings.count(&LEVELS),
+            half: self.settings.count(&WINDOW) / 2,
+            is_checked: self.settings.flag(&CHECK),
+        }
+    }
+
+    /// Returns the index of the last frame used.
+    pub(super) fn last(&self) -> usize {
+        self.question().num_frames() - 1
+    }
+
+    /// Returns the index of the frame that is shown, among those used.
+    pub(super) fn frame(&self) -> usize {
+        self.frame.unwrap_or(self.last()).min(self.last())
+    }
+
+    fn go_to(&mut self, frame: usize) {
+        let last = self.last();
+        self.frame = (frame < last).then_some(frame);
+        self.running.stop_if(frame >= last);
+    }
+
+    /// Counts the points of a frame.
+    pub(super) fn tally(&self, answer: &Answer, frame: usize) -> Tally {
+        let mut tally = Tally::default();
+        let mut errors = Vec::new();
+        for track in &answer.tracks {
+            match track.get(frame) {
+                None => tally.num_lost += 1,
+                Some(sighting) => {
+                    tally.num_followed += 1;
+                    tally.num_wrong += usize::from(sighting.is_wrong());
+                    errors.extend(sighting.error_px);
+                }
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        tally.median_px = errors.get(errors.len() / 2).copied();
+        tally
+    }
+}
+
+impl Declared for TrackFigure {
+    const NAME: &'static str = "track";
+    const TITLE: &'static str = "Following corners through a video";
+    const HELP: &'static str = "Press Run, or drag the handle below the plot from frame to frame. Choose how \
+        corners are followed, and see which of them stay where they belong.";
+    const COMPUTE: Compute = carry_out::<Question>;
+    const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
+
+    fn new() -> Self {
+        let mut model = Self {
+            settings: Settings::new(KNOBS),
+            running: Running::at(PACE),
+            frame: None,
+            asked: Asked::default(),
+        };
+        model.asked.ask(model.question());
+        model
+    }
+}
+
+impl Model for TrackFigure {
+    fn controls(&self) -> Vec<Control> {
+        let (frame, can_run) = (self.frame(), self.answer().is_some());
+        let mut controls = self.settings.controls();
+        controls.extend(self.running.controls(can_run, frame, frame >= self.last()));
+        controls
+    }
+
+    fn handles(&self) -> Vec<Handle> {
+        let (frame, last) = (self.frame(), self.last());
+        let range = [[0.0, last as f64], [0.0; 2]];
+        let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
+        let words = format!("frame {} of {}", frame + 1, last + 1);
+        vec![handle.told(words).step([1.0, 0.0], 0)]
+    }
+
+    fn update(&mut self, event: &Event) -> Result<(), Problem> {
+        let frame = self.frame();
+        if let Some(next) = self.running.update(event, frame, frame >= self.last()) {
+            self.go_to(next);
+            return Ok(());
+        }
+        match event {
+            Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => {
+                self.running.stop();
+                self.go_to(x.max(0.0).round() as usize);
+            }
+            _ => {
+                if self.settings.update(event)?.is_some() {
+                    self.running.stop();
+                    self.asked.ask(self.question());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn asking(&mut self) -> Option<&mut dyn Asking> {
+        Some(&mut self.asked)
+    }
+
+    fn is_running(&self) -> bool {
+        self.running.is_running()
+    }
+}
+
+const CHALLENGES: &[Challenge<TrackFigure>] = &[
+    Challenge {
+        id: "lost",
+        goal: "Skip frames until more than half of the points at the end are wrong.",
+        hint: "A pyramid makes large steps small. What if there is none?",
+        why: "Lucas and Kanade step down a slope, and the slope must lead to the right place. From too far \
+              away it leads elsewhere, and the window settles on something similar.",
+        check: |model| {
+            let tally = model
+                .answer()
+                .map(|answer| model.tally(answer, model.last()));
+            tally.is_some_and(|tally| 2 * tally.num_wrong > tally.num_followed)
+        },
+        solution: || vec![Event::set(&STRIDE, 6.0), Event::set(&LEVELS, 1.0)],
+    },
+    Challenge {
+        id: "clean",
+        goal: "Keep at least 30 points to the end, with fewer than one in seven wrong.",
+        hint: "A small window lies on one thing. And a point that went astray rarely finds its way back.",
+        why: "Following back drops points that jumped, and a small window sees fewer outlines. What slides along \
+              an outline, there and back, no check finds.",
+        check: |model| {
+            let tally = model
+                .answer()
+                .map(|answer| model.tally(answer, model.last()));
+            tally.is_some_and(|tally| {
+                tally.num_followed >= 30 && 7 * tally.num_wrong < tally.num_followed
+            })
+        },
+        solution: || vec![Event::set(&CHECK, true), Event::set(&WINDOW, 5.0)],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::question::settled;
+
+    fn at_end(events: &[Event]) -> Tally {
+        let model: TrackFigure = settled(events);
+        model.tally(model.answer().unwrap(), model.last())
+    }
+
+    #[test]
+    fn most_points_are_followed_around() {
+        let tally = at_end(&[]);
+        assert!(
+            tally.num_followed + tally.num_lost == 60 && tally.num_followed > 40,
+            "{tally:?}"
+        );
+        assert!(tally.median_px.unwrap() < 1.0, "{tally:?}");
+    }
+
+    #[test]
+    fn following_back_leaves_fewer_wrong_points() {
+        let (without, with) = (at_end(&[]), at_end(&[Event::set(&CHECK, true)]));
+        let errors = [&with, &without].map(|tally| tally.median_px.unwrap());
+        assert!(
+            with.num_wrong < without.num_wrong && errors[0] < errors[1],
+            "{without:?} {with:?}"
+        );
+    }
+
+    #[test]
+    fn a_video_runs_to_its_end_and_starts_over() {
+        let mut model: TrackFigure = settled(&[Event::moved(FRAME, 29.0, 0.0)]);
+        model.update(&Event::press("run")).unwrap();
+        for _ in 0..4 {
+            model.update(&Event::Tick { dt_s: 1.0 / PACE }).unwrap();
+        }
+        assert!(model.frame() == model.last() && !model.is_running());
+        model.update(&Event::press("restart")).unwrap();
+        assert_eq!(model.frame(), 0);
+        model.update(&Event::set(&STRIDE, 6.0)).unwrap();
+        assert_eq!(model.last(), 5);
+    }
+}
