@@ -16,6 +16,7 @@ mod ransac;
 mod rays;
 mod sfm;
 mod stereo;
+mod tracking;
 mod triangulation;
 
 use crate::problems::name_list;
@@ -35,6 +36,7 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
         sfm::ENTRIES,
         planes::ENTRIES,
         calibration::ENTRIES,
+        tracking::ENTRIES,
     ];
     rooms.into_iter().flatten()
 }

@@ -93,6 +93,30 @@ fn worked_numbers() {
         ("calibration.fisheye-px f=600 deg=60", "628"),
         // 4.25 / 5.6 · 4032
         ("calibration.exif-px mm=4.25 sensor=5.6 width=4032", "3060"),
+        // 2 · 1 + 2 · 1; 4 · 4 + 2 · 4, 3 · 3 + 2 · 4; np.linalg.solve([[20, 4], [4, 13]], [24, 17])
+        ("tracking.change u=2 v=2 du=1 dv=1", "−4"),
+        (
+            "tracking.right-u u1=4 v1=0 u2=0 v2=3 u3=2 v3=2 du=1 dv=1",
+            "24",
+        ),
+        (
+            "tracking.right-v u1=4 v1=0 u2=0 v2=3 u3=2 v3=2 du=1 dv=1",
+            "17",
+        ),
+        (
+            "tracking.found-u u1=4 v1=0 u2=0 v2=3 u3=2 v3=2 du=1 dv=1",
+            "1.0",
+        ),
+        (
+            "tracking.found-v u1=4 v1=0 u2=0 v2=3 u3=2 v3=2 du=1 dv=1",
+            "1.0",
+        ),
+        // 600 tan 1°; 24 / 8; 0.05 √900
+        ("tracking.turned-px f=600 deg=1", "10.5"),
+        ("tracking.level-px px=24 level=3", "3.0"),
+        ("tracking.levels px=20 reach=3", "4"),
+        ("tracking.levels px=3 reach=3", "1"),
+        ("tracking.drift-px sigma=0.05 steps=900", "1.5"),
         // (140 − 40) / 2, (120 − 60) / 2; √(50² + 30²); atan(30 / 50)
         ("gradients.slope before=40 after=140 digits=0", "50"),
         ("gradients.slope before=60 after=120", "30.0"),
