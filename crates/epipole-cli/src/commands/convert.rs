@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::report::Report;
 use clap::Args;
+use epipole::camera::Camera;
 use epipole_io::camera::{Cameras, NamedCamera, write_cameras};
 use epipole_io::model::{ModelFile, ModelFormat};
 use epipole_io::trajectory::{Trajectory, write_trajectory};
@@ -138,15 +139,12 @@ fn cameras_of(content: Content) -> Result<Cameras, Failure> {
     match content {
         Content::Cameras(_, cameras) => Ok(cameras),
         Content::Model(read) => {
-            let named = |(n, camera)| NamedCamera::new(format!("{}", n + 1), camera);
+            let model = &read.model;
+            let named = |(n, camera): (usize, &Camera)| {
+                NamedCamera::new(model.camera_id(n).to_string(), *camera)
+            };
             Ok(Cameras {
-                cameras: read
-                    .model
-                    .cameras
-                    .into_iter()
-                    .enumerate()
-                    .map(named)
-                    .collect(),
+                cameras: model.cameras.iter().enumerate().map(named).collect(),
                 right_from_left: None,
             })
         }
