@@ -12,11 +12,11 @@ use crate::files;
 use crate::report::Report;
 use clap::Args;
 use epipole::camera::Camera;
-use epipole_io::camera::{Cameras, NamedCamera, write_cameras};
-use epipole_io::model::{ModelFile, ModelFormat};
+use epipole_io::camera::{CameraFormat, Cameras, NamedCamera, write_cameras};
+use epipole_io::model::{ModelFile, ModelFormat, ReadModel};
 use epipole_io::trajectory::{Trajectory, write_trajectory};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Convert a model, cameras or a trajectory between formats.
 #[derive(Debug, Args)]
@@ -52,6 +52,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         (None, Some(target)) => target,
         (None, None) => Target::usual(&arguments.output, &content)?,
     };
+    check_other(arguments, &content, target)?;
     let read = content.format();
     let counts = counts(&content);
     let mut notes = Vec::new();
@@ -80,7 +81,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (format.name(), written)
         }
         (Target::Cameras(format), content) => {
-            let text = write_cameras(format, &cameras_of(content)?)?;
+            let cameras = cameras_of(content)?;
+            if format == CameraFormat::Colmap && cameras.right_from_left.is_some() {
+                notes.push("the motion between the cameras of the rig is not written".to_owned());
+            }
+            let text = write_cameras(format, &cameras)?;
             (format.name(), write_text(text)?)
         }
         (Target::Trajectory(format), content) => {
@@ -109,6 +114,25 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         report = report.row(name, count);
     }
     Ok(report.row("written", format!("{kind}: {}", written.join(", "))))
+}
+
+/// Refuses to write over what was read: a format keeps only what it has.
+fn check_other(arguments: &Arguments, content: &Content, target: Target) -> Result<(), Failure> {
+    let whole = |path: &Path| path.canonicalize().ok();
+    let (input, output) = (&arguments.input, &arguments.output);
+    let is_same = whole(input).is_some_and(|path| whole(output) == Some(path));
+    let is_format = |read: &ReadModel| target == Target::Model(read.format);
+    let is_over = match content {
+        Content::Model(read) if input.is_dir() => is_format(read),
+        _ => true,
+    };
+    match is_same && is_over && !files::is_standard(output) {
+        true => Err(Failure::usage(format!(
+            "{} would be written over what is read from it: choose another name",
+            output.display()
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// The file of a format that has one, for standard output.

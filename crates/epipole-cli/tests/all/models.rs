@@ -184,6 +184,27 @@ fn a_model_is_not_mixed_with_rigs_of_another_one() {
 }
 
 #[test]
+fn what_is_read_is_not_written_over() {
+    let folder = Folder::new("over");
+    let model = text_model(&folder, "model");
+    fails(
+        &folder,
+        &["convert", &model, &model, "--to", "colmap-text"],
+        2,
+        "would be written over",
+    );
+    let points = folder.file("points.ply");
+    json(&["convert", &model, path(&points)]);
+    fails(
+        &folder,
+        &["convert", path(&points), path(&points)],
+        2,
+        "would be written over",
+    );
+    json(&["convert", &model, &model, "--to", "colmap-binary"]);
+}
+
+#[test]
 fn cameras_keep_their_numbers() {
     let folder = Folder::new("camera-numbers");
     let model = folder.file("model");
@@ -231,6 +252,15 @@ fn a_damaged_model_is_not_taken_for_a_table() {
         1,
         "camera 0 has no rotation",
     );
+    let packed = folder.file("problem.txt.bz2");
+    std::fs::write(&packed, b"BZh91AY&SY").unwrap();
+    let out = folder.file("out.txt");
+    for arguments in [
+        vec!["inspect", path(&packed)],
+        vec!["ba", path(&packed), "-o", path(&out)],
+    ] {
+        fails(&folder, &arguments, 1, "compressed (bzip2): unpack it");
+    }
     let matrix = folder.write("K.txt", "500 0 320\n0 500 240\n0 0 1\n");
     fails(
         &folder,

@@ -107,6 +107,11 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
         OPENCV,
     ];
     const OF_XML: [Candidate; 2] = [(CameraFormat::Metashape, metashape::is_it), OPENCV];
+    if root.get("views").is_some() && root.get("poses").is_some() {
+        return Err(Error::unsupported(
+            "it is a scene of AliceVision (Meshroom), which is not read: export it as COLMAP's",
+        ));
+    }
     let candidates: &[Candidate] = match syntax {
         Syntax::Json => &OF_JSON,
         Syntax::Yaml => &OF_YAML,
@@ -148,6 +153,13 @@ mod tests {
             assert!(error.ends_with("give it as --k 500,501,320,240"), "{error}");
             assert!(is_camera_file(text.as_bytes()));
         }
+        let scene = br#"{"version": ["1"], "views": [], "intrinsics": [], "poses": []}"#;
+        assert!(
+            read_cameras(scene, None)
+                .unwrap_err()
+                .to_string()
+                .contains("AliceVision")
+        );
         assert!(!is_camera_file(b"1 2 3\n4 5 6\n7 8 9\n"));
     }
 }
