@@ -60,6 +60,9 @@ pub(super) fn associate(
     })
 }
 
+/// What two images must have in common.
+type Key<'a> = &'a dyn Fn(&String) -> Option<String>;
+
 /// Images of equal names, or else of names that differ in folder and ending only.
 fn by_name(first: &[String], second: &[String]) -> Result<Vec<(usize, usize)>, Failure> {
     let stem = |name: &String| {
@@ -67,7 +70,7 @@ fn by_name(first: &[String], second: &[String]) -> Result<Vec<(usize, usize)>, F
             .file_stem()
             .map(|stem| stem.to_string_lossy().into_owned())
     };
-    let keys: [&dyn Fn(&String) -> Option<String>; 2] = [&|name| Some(name.clone()), &stem];
+    let keys: [Key; 2] = [&|name| Some(name.clone()), &stem];
     for key in keys {
         let place_of: HashMap<String, usize> = second
             .iter()

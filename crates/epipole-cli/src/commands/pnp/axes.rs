@@ -6,6 +6,9 @@ use epipole::camera::Camera;
 use epipole::robust::RansacOptions;
 use nalgebra::{Point2, Point3};
 
+/// Change of the axes of the pixels.
+type Axes<'a> = &'a dyn Fn(&Point2<f64>) -> Point2<f64>;
+
 /// Warns if few points agree, and many would in a mirrored image.
 ///
 /// * `num_inliers`: those of the pose that was found
@@ -24,8 +27,8 @@ pub(super) fn check(
     let center = camera.intrinsics.principal_point();
     let upward = |p: &Point2<f64>| Point2::new(p.x, 2.0 * center.y - p.y);
     let exchanged = |p: &Point2<f64>| Point2::new(p.y, p.x);
-    let axes: [&dyn Fn(&Point2<f64>) -> Point2<f64>; 2] = [&upward, &exchanged];
-    let num_mirrored = |axis: &dyn Fn(&Point2<f64>) -> Point2<f64>| {
+    let axes: [Axes; 2] = [&upward, &exchanged];
+    let num_mirrored = |axis: Axes| {
         let mirrored: Vec<_> = pixels.iter().map(axis).collect();
         let report = estimate_absolute_pose(points, &mirrored, camera, options, &mut ()).ok()?;
         (!report.could_be_chance()).then_some(report.num_inliers)
