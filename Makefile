@@ -105,7 +105,7 @@ fuzz: setup-build ## random events on every figure, natively: some ten million, 
 # Optimized, where parsers are ten times as fast as in builds for tests, but with all checks.
 fuzz-files: export CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS = true
 fuzz-files: export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS = true
-fuzz-files: setup-build ## a million damaged files for every reader, ten minutes on two cores; make fuzz-files FUZZ_FILES=100000
+fuzz-files: setup-build ## a million damaged files for every reader, ten minutes of one core; make fuzz-files FUZZ_FILES=100000
 	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --release --target-dir target/fuzz --package epipole-io --lib fuzz
 	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --workspace --bins fuzz
 

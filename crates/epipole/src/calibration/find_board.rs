@@ -26,7 +26,7 @@ const FIRST_SIDE: u32 = 1300;
 /// Of a board with markers any part is enough that shows one marker and six marks in two rows and
 /// two columns: the markers tell which ones.
 ///
-/// Where nothing is found and the image has little contrast, it is stretched and searched again.
+/// An image of little contrast in which nothing is found is stretched and searched again.
 ///
 /// * `image`: gray values in [0, 1]
 /// * `monitor`: hears before each image of the pyramid that is searched, in the one stage

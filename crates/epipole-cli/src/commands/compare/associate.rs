@@ -13,8 +13,8 @@ pub(super) struct Association {
     pub(super) by: &'static str,
 }
 
-/// Nearest poses in time, images of equal names, or poses of equal number if there are neither times
-/// nor names.
+/// Nearest poses in time, images of equal names, or poses of equal number if there are neither
+/// times nor names.
 ///
 /// * `max_difference_s`: seconds; `None` for numbers in any case
 ///
@@ -60,7 +60,7 @@ pub(super) fn associate(
     })
 }
 
-/// What two images must have in common.
+/// Part of a name that two images have in common.
 type Key<'a> = &'a dyn Fn(&String) -> Option<String>;
 
 /// Images of equal names, or else of names that differ in folder and ending only.
