@@ -118,8 +118,8 @@ impl Model {
     /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
     /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
     /// more off the axis of a fisheye to be behind the camera. Points are numbered from one on. A
-    /// name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads it up to
-    /// the first blank, in text files only.
+    /// name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads it up
+    /// to the first blank, in text files only.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
