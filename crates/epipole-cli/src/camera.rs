@@ -213,6 +213,7 @@ mod tests {
         Photo {
             color: RgbImage::new(width, height),
             focal_px,
+            focal_mm: None,
             place: None,
             k: None,
             lens: None,
