@@ -102,9 +102,12 @@ monkey: setup build ## random hands on every figure: make monkey SEED=7 MONKEY_S
 fuzz: setup-build ## random events on every figure, natively: some ten million, a night's worth; make fuzz FUZZ_SEQUENCES=2000
 	FUZZ_SEQUENCES=$(FUZZ_SEQUENCES) cargo test --locked --test fuzz -- --nocapture
 
-# Without -p, as above: the other crates have no test of this name.
-fuzz-files: setup-build ## a million damaged files for every reader, hours on one core; make fuzz-files FUZZ_FILES=100000
-	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --workspace --lib --bins fuzz
+# Optimized, where parsers are ten times as fast as in builds for tests, but with all checks.
+fuzz-files: export CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS = true
+fuzz-files: export CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS = true
+fuzz-files: setup-build ## a million damaged files for every reader, ten minutes of one core; make fuzz-files FUZZ_FILES=100000
+	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --release --target-dir target/fuzz --package epipole-io --lib fuzz
+	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --workspace --bins fuzz
 
 test-hosts: setup build python-module tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh

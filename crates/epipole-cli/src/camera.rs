@@ -48,6 +48,7 @@ impl CameraArguments {
         let guess = Guess {
             focal_px: photo.focal_px.unwrap_or(1.2 * longer),
             from_exif: photo.focal_px.is_some(),
+            focal_mm: photo.focal_mm,
         };
         Ok((centered(guess.focal_px, photo)?, Some(guess)))
     }
@@ -133,6 +134,8 @@ impl PairArguments {
 pub(crate) struct Guess {
     focal_px: f64,
     from_exif: bool,
+    /// Focal length from EXIF, millimeters.
+    focal_mm: Option<f64>,
 }
 
 /// Whether some photographs say nothing of their focal length.
@@ -161,7 +164,16 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
              longer side"
         ),
     };
-    Some(format!("no --k or --focal-px: taking {focal} px, {from}"))
+    let of_mm = guesses.iter().filter(|guess| !guess.from_exif);
+    let advice = match of_mm.filter_map(|guess| guess.focal_mm).next() {
+        Some(mm) => format!(
+            " (EXIF data have {mm:.1} mm, but not the size of the sensor: give --sensor-width-mm)"
+        ),
+        None => String::new(),
+    };
+    Some(format!(
+        "no --k or --focal-px: taking {focal} px, {from}{advice}"
+    ))
 }
 
 /// The intrinsics of a photograph whose focal length was given, in pixels of its file: the
@@ -201,6 +213,7 @@ mod tests {
         Photo {
             color: RgbImage::new(width, height),
             focal_px,
+            focal_mm: None,
             place: None,
             k: None,
             lens: None,

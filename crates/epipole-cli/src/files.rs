@@ -73,16 +73,35 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// A sentence naming the file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    if is_standard(path) {
-        let mut bytes = Vec::new();
-        let read = io::stdin().lock().read_to_end(&mut bytes);
-        return match read {
-            Ok(_) => Ok(bytes),
-            Err(error) => Err(unreadable(Path::new("standard input"), &error)),
-        };
+    let bytes = match is_standard(path) {
+        true => {
+            let mut bytes = Vec::new();
+            let read = io::stdin().lock().read_to_end(&mut bytes);
+            read.map_err(|error| unreadable(Path::new("standard input"), &error))?;
+            bytes
+        }
+        false => fs::read(path).map_err(|error| unreadable(path, &error))?,
+    };
+    let packed = COMPRESSED
+        .iter()
+        .find(|(_, start)| bytes.starts_with(start));
+    match packed {
+        Some((name, _)) => {
+            let message = format!("this file is compressed ({name}): unpack it");
+            Err(Failure::new("read", message).about(path))
+        }
+        None => Ok(bytes),
     }
-    fs::read(path).map_err(|error| unreadable(path, &error))
 }
+
+/// First bytes of compressed files.
+const COMPRESSED: [(&str, &[u8]); 5] = [
+    ("gzip", b"\x1f\x8b"),
+    ("bzip2", b"BZh"),
+    ("xz", b"\xfd7zXZ"),
+    ("zstd", b"\x28\xb5\x2f\xfd"),
+    ("zip", b"PK\x03\x04"),
+];
 
 /// Error for a file that cannot be read.
 pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {

@@ -140,7 +140,7 @@ impl Found {
 }
 
 /// Order of paths in which runs of digits are numbers.
-fn natural(a: &Path, b: &Path) -> Ordering {
+pub(crate) fn natural(a: &Path, b: &Path) -> Ordering {
     let (a, b) = (a.to_string_lossy(), b.to_string_lossy());
     let order = parts(&a).cmp(parts(&b));
     // 1 and 01.

@@ -85,6 +85,14 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Reads a number.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.abs() <= *FAR.end() => Ok(value),
+        _ => Err(format!("\"{text}\" is not a number up to {:e}", FAR.end())),
+    }
+}
+
 /// Reads a number of 0 or more.
 pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -1,5 +1,7 @@
 //! A folder of results that is written again: files of the run before do not stay behind.
 
+pub(crate) mod colmap;
+
 use crate::failure::Failure;
 use crate::files;
 use std::collections::BTreeMap;
@@ -37,6 +39,11 @@ impl OutputFolder {
             before: parse(&list),
             now: BTreeMap::new(),
         }
+    }
+
+    /// Path of the folder.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Whether a file is there that this command did not write, or that was changed since.

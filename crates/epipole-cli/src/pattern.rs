@@ -62,7 +62,7 @@ impl PatternArguments {
 }
 
 /// Reads the name of a dictionary, with or without OpenCV's prefix.
-fn dictionary(text: &str) -> Result<MarkerDictionary, String> {
+pub(crate) fn dictionary(text: &str) -> Result<MarkerDictionary, String> {
     let name = text.to_ascii_lowercase();
     let name = name.trim_start_matches("dict_");
     let name = name.trim_start_matches("apriltag_");

@@ -18,6 +18,8 @@ pub(crate) struct Photo {
     pub(crate) color: RgbImage,
     /// First guess of the focal length from EXIF, pixels.
     pub(crate) focal_px: Option<f64>,
+    /// Focal length from EXIF, millimeters.
+    pub(crate) focal_mm: Option<f64>,
     /// Position from EXIF.
     pub(crate) place: Option<Geodetic>,
     /// K, if the camera is known, or if the distortion of its lens was removed.
@@ -45,6 +47,7 @@ impl From<PreparedPhoto> for Photo {
         Self {
             color: photo.image,
             focal_px: photo.focal_px,
+            focal_mm: photo.focal_mm,
             place: photo.place,
             k: photo.intrinsics,
             lens: None,
@@ -100,6 +103,7 @@ impl Photo {
         Self {
             color: RgbImage::new(0, 0),
             focal_px: None,
+            focal_mm: None,
             place: None,
             k: camera.map(|camera| camera.intrinsics),
             lens: camera.map(|camera| KeptLens {
@@ -179,6 +183,7 @@ fn prepare(
         .with_max_pixels(size.max_pixels())
         .with_max_file_pixels(size.reading.max_file_pixels())
         .with_range(size.reading.range)
+        .with_sensor_width_mm(size.sensor_width_mm)
         .with_undistortion(undistortion);
     let photo = prepare_photo(&bytes(path)?, &options)
         .map_err(|error| size.reading.failure(error, path))?;

@@ -87,6 +87,10 @@ pub(crate) struct SizeArguments {
     /// and --focal-px are of the file.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub(crate) max_megapixels: Option<f64>,
+    /// Length of the longer side of the cameras' sensors, mm, for photographs whose EXIF data have
+    /// the focal length in millimeters only.
+    #[arg(long, value_name = "W", value_parser = positive)]
+    pub(crate) sensor_width_mm: Option<f64>,
     #[command(flatten)]
     pub(crate) reading: ReadArguments,
 }
@@ -96,6 +100,7 @@ impl From<ReadArguments> for SizeArguments {
     fn from(reading: ReadArguments) -> Self {
         Self {
             max_megapixels: None,
+            sensor_width_mm: None,
             reading,
         }
     }

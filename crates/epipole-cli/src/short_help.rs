@@ -3,7 +3,7 @@
 use clap::{Arg, Command};
 
 /// Options that `-h` shows, by their long names, in the order of their definition.
-const COMMON: [&str; 56] = [
+const COMMON: [&str; 58] = [
     "align",
     "baseline-m",
     "board",
@@ -25,6 +25,7 @@ const COMMON: [&str; 56] = [
     "lenses",
     "loss",
     "marker-mm",
+    "markers",
     "matches",
     "max-difference-s",
     "max-disparity",
@@ -42,6 +43,7 @@ const COMMON: [&str; 56] = [
     "png",
     "positions",
     "projection",
+    "q",
     "ratio",
     "recursive",
     "refine-focal",

@@ -10,6 +10,20 @@ const SHARES: f64 = 2.0;
 /// A pixel this many times as far as the principal point is beyond the image.
 const BEYOND: f64 = 3.0;
 
+/// Warns of pixels that are none, where no camera is known.
+///
+/// * `max_error_px`: largest error of an inlier: who gives a small one knows of the unit
+pub(crate) fn warn_of_shares(pixels: &[&[Point2<f64>]], max_error_px: f64, context: &Context) {
+    let all = pixels.iter().copied().flatten();
+    let reach = all.map(|pixel| pixel.coords.amax()).fold(0.0, f64::max);
+    if reach > 0.0 && reach <= SHARES && max_error_px > reach / 10.0 {
+        context.warn(&format!(
+            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
+             Multiply them by its size, or give a --max-error-px of their unit"
+        ));
+    }
+}
+
 /// Warns of pixels that cannot be those of the camera.
 pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Context) {
     let center = k.principal_point();

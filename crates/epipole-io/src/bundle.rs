@@ -64,8 +64,13 @@ pub fn read_bal(text: &str) -> Result<BalProblem> {
 
 /// Whether a text is a problem by its first line, three whole numbers, right or wrong.
 pub fn is_bal(text: &str) -> bool {
-    let words = text.lines().next().unwrap_or_default().split_whitespace();
-    words.clone().count() == 3 && words.clone().all(|word| word.parse::<usize>().is_ok())
+    let mut lines = text.lines();
+    let mut words = || lines.next().unwrap_or_default().split_whitespace();
+    let (first, second) = (words(), words());
+    first.clone().count() == 3
+        && first.clone().all(|word| word.parse::<usize>().is_ok())
+        // Three numbers are a row of a matrix.
+        && second.count() != 3
 }
 
 /// Writes the format; numbers have as many digits as they need to be read back unchanged.

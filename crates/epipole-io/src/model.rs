@@ -11,6 +11,7 @@ mod format;
 #[cfg(test)]
 mod fuzz;
 mod gltf;
+mod image_size;
 mod nerfstudio;
 mod notes;
 mod openmvg;
@@ -30,6 +31,8 @@ use std::iter;
 pub struct Model {
     /// The cameras.
     pub cameras: Vec<Camera>,
+    /// Number of each camera in files that number them, no two equal; empty: counted from 1.
+    pub camera_ids: Vec<u32>,
     /// The images with a known pose.
     pub images: Vec<ModelImage>,
     /// The points.
@@ -137,8 +140,19 @@ impl ModelFile {
 
 impl Model {
     /// # Errors
-    /// [`Error::Malformed`] if an index is wrong or two images have the same number.
+    /// [`Error::Malformed`] if an index is wrong or two images or cameras have the same number.
     fn check(&self) -> Result<()> {
+        if ![0, self.cameras.len()].contains(&self.camera_ids.len()) {
+            return Err(Error::malformed(format!(
+                "{} cameras have {} IDs",
+                self.cameras.len(),
+                self.camera_ids.len()
+            )));
+        }
+        let mut ids = BTreeSet::new();
+        if let Some(id) = self.camera_ids.iter().find(|id| !ids.insert(**id)) {
+            return Err(Error::malformed(format!("two cameras have ID {id}")));
+        }
         let mut ids = BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {
@@ -164,6 +178,22 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// Number of a camera in files that number them.
+    ///
+    /// * `camera`: index
+    pub fn camera_id(&self, camera: usize) -> u32 {
+        let id = self.camera_ids.get(camera).copied();
+        id.unwrap_or(camera as u32 + 1)
+    }
+
+    /// The cameras with their numbers.
+    fn numbered_cameras(&self) -> Vec<(u32, Camera)> {
+        let cameras = self.cameras.iter().enumerate();
+        cameras
+            .map(|(n, camera)| (self.camera_id(n), *camera))
+            .collect()
     }
 
     /// Index of the point of each keypoint of each image.

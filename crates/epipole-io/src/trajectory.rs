@@ -2,12 +2,14 @@
 //!
 //! [`read_trajectory`] recognizes the format by its content; [`write_trajectory`] writes it.
 
+mod columns;
 mod euroc;
 mod format;
 mod kitti;
 mod path;
 mod read;
 mod stamp;
+mod timed;
 mod tum;
 mod words;
 mod write;

@@ -60,6 +60,11 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
     let pattern = arguments
         .pattern
         .pattern(arguments.marker_mm, arguments.square_mm);
+    if arguments.marker_mm.is_some() && !matches!(pattern, Pattern::Charuco { .. }) {
+        return Err(Failure::usage(
+            "--marker-mm is of --kind charuco: other boards have no such markers",
+        ));
+    }
     let (columns, rows) = arguments.size;
     let board = Board::new(pattern, columns, rows, arguments.square_mm / 1000.0)
         .map_err(|error| Failure::usage(error.to_string()))?;

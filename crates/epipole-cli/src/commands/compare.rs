@@ -3,10 +3,12 @@
 mod associate;
 mod errors;
 mod plot;
+mod poses;
 
 use self::associate::{Association, associate};
 use self::errors::{PoseErrors, Statistics, absolute_errors, relative_errors};
 use self::plot::Plot;
+use self::poses::Poses;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::matrices::{Motion, positive};
@@ -15,10 +17,9 @@ use crate::{files, listing};
 use clap::{Args, ValueEnum};
 use epipole::camera::RigidTransform;
 use epipole::sfm::{AlignmentKind, align_points};
-use epipole_io::trajectory::{Trajectory, read_trajectory};
 use nalgebra::{Point3, Similarity3};
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Transformation of the estimate before errors are taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -35,17 +36,18 @@ enum Align {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole compare groundtruth.txt estimate.txt --align sim3 --plot errors.svg\n\n\
-    Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), by their content. A pose\n\
-    of the trajectory with fewer poses is compared with the nearest in time of the other; without times, poses of\n\
-    equal number. Errors are those of evo: APE after the alignment, RPE over all pairs that are --step poses apart.\n\n\
+    Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), by their content, and the\n\
+    images of models (COLMAP, Bundler, nerfstudio, openMVG). A pose of the trajectory with fewer poses is compared\n\
+    with the nearest in time of the other; images of two models with that of the same name; else poses of equal\n\
+    number, images in the order of their names. Errors are those of evo: APE after the alignment, RPE over all pairs that are --step poses apart.\n\n\
     JSON: ate_rmse_m, rpe_rmse (translation), scale and truth_from_estimate of the alignment, ape and rpe\n\
     (translation_m and rotation_deg with rmse, mean, median, std, min, max, sse), num_pairs, num_poses (of both),\n\
-    associated_by (time or index), formats."
+    associated_by (time, name or index), formats."
 )]
 pub(crate) struct Arguments {
-    /// The true trajectory.
+    /// The true trajectory, or a model.
     truth: PathBuf,
-    /// The estimated trajectory.
+    /// The estimated trajectory, or a model.
     estimate: PathBuf,
     /// Alignment of the estimate.
     #[arg(long, value_enum, default_value = "se3")]
@@ -75,18 +77,22 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         )));
     }
     let paths = [&arguments.truth, &arguments.estimate];
-    let [(truth_format, truth), (format, estimate)] = [read(paths[0])?, read(paths[1])?];
+    let both = [Poses::read(paths[0])?, Poses::read(paths[1])?];
     let max_difference_s = (!arguments.by_index).then_some(arguments.max_difference_s);
-    let Association { pairs, by } = associate(&truth, &estimate, max_difference_s)?;
+    let Association { pairs, by } = associate(&both, max_difference_s)?;
+    let [truth, estimate] = both.each_ref().map(|poses| &poses.trajectory);
     let fewer = truth
         .world_from_cam
         .len()
         .min(estimate.world_from_cam.len());
     if pairs.len() < fewer {
+        let lacking = match by {
+            "name" => "image of their name".to_owned(),
+            _ => format!("other within {} s", arguments.max_difference_s),
+        };
+        let count = fewer - pairs.len();
         context.warn(&format!(
-            "{} of {fewer} poses have no other within {} s, and are left out",
-            fewer - pairs.len(),
-            arguments.max_difference_s
+            "{count} of {fewer} poses have no {lacking}, and are left out"
         ));
     }
     let truths: Vec<RigidTransform> = pairs
@@ -143,7 +149,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             [truth.world_from_cam.len(), estimate.world_from_cam.len()],
         )
         .field("associated_by", by)
-        .field("formats", json!([truth_format, format]))
+        .field("formats", json!(both.each_ref().map(|poses| poses.format)))
         .row(
             "compared",
             format!(
@@ -169,13 +175,6 @@ fn rows(report: Report, name: &str, errors: &PoseErrors) -> Report {
     report
         .row(name, row(&errors.translation_m, "m"))
         .row(&format!("{name} rotation"), row(&errors.rotation_deg, "°"))
-}
-
-fn read(path: &Path) -> Result<(&'static str, Trajectory), Failure> {
-    let bytes = files::read_bytes(path)?;
-    let read = read_trajectory(&bytes);
-    let (format, trajectory) = read.map_err(|error| Failure::from(error).about(path))?;
-    Ok((format.name(), trajectory))
 }
 
 fn centers(poses: &[RigidTransform]) -> Vec<Point3<f64>> {

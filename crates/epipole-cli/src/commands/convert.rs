@@ -11,11 +11,12 @@ use crate::failure::Failure;
 use crate::files;
 use crate::report::Report;
 use clap::Args;
-use epipole_io::camera::{Cameras, NamedCamera, write_cameras};
-use epipole_io::model::{ModelFile, ModelFormat};
+use epipole::camera::Camera;
+use epipole_io::camera::{CameraFormat, Cameras, NamedCamera, write_cameras};
+use epipole_io::model::{ModelFile, ModelFormat, ReadModel};
 use epipole_io::trajectory::{Trajectory, write_trajectory};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Convert a model, cameras or a trajectory between formats.
 #[derive(Debug, Args)]
@@ -51,6 +52,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         (None, Some(target)) => target,
         (None, None) => Target::usual(&arguments.output, &content)?,
     };
+    check_other(arguments, &content, target)?;
     let read = content.format();
     let counts = counts(&content);
     let mut notes = Vec::new();
@@ -79,7 +81,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (format.name(), written)
         }
         (Target::Cameras(format), content) => {
-            let text = write_cameras(format, &cameras_of(content)?)?;
+            let cameras = cameras_of(content)?;
+            if format == CameraFormat::Colmap && cameras.right_from_left.is_some() {
+                notes.push("the motion between the cameras of the rig is not written".to_owned());
+            }
+            let text = write_cameras(format, &cameras)?;
             (format.name(), write_text(text)?)
         }
         (Target::Trajectory(format), content) => {
@@ -110,6 +116,25 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report.row("written", format!("{kind}: {}", written.join(", "))))
 }
 
+/// Refuses to write over what was read: a format keeps only what it has.
+fn check_other(arguments: &Arguments, content: &Content, target: Target) -> Result<(), Failure> {
+    let whole = |path: &Path| path.canonicalize().ok();
+    let (input, output) = (&arguments.input, &arguments.output);
+    let is_same = whole(input).is_some_and(|path| whole(output) == Some(path));
+    let is_format = |read: &ReadModel| target == Target::Model(read.format);
+    let is_over = match content {
+        Content::Model(read) if input.is_dir() => is_format(read),
+        _ => true,
+    };
+    match is_same && is_over && !files::is_standard(output) {
+        true => Err(Failure::usage(format!(
+            "{} would be written over what is read from it: choose another name",
+            output.display()
+        ))),
+        false => Ok(()),
+    }
+}
+
 /// The file of a format that has one, for standard output.
 fn only(files: Vec<ModelFile>, format: ModelFormat) -> Result<ModelFile, Failure> {
     let [file] = <[ModelFile; 1]>::try_from(files).map_err(|files| {
@@ -138,15 +163,12 @@ fn cameras_of(content: Content) -> Result<Cameras, Failure> {
     match content {
         Content::Cameras(_, cameras) => Ok(cameras),
         Content::Model(read) => {
-            let named = |(n, camera)| NamedCamera::new(format!("{}", n + 1), camera);
+            let model = &read.model;
+            let named = |(n, camera): (usize, &Camera)| {
+                NamedCamera::new(model.camera_id(n).to_string(), *camera)
+            };
             Ok(Cameras {
-                cameras: read
-                    .model
-                    .cameras
-                    .into_iter()
-                    .enumerate()
-                    .map(named)
-                    .collect(),
+                cameras: model.cameras.iter().enumerate().map(named).collect(),
                 right_from_left: None,
             })
         }

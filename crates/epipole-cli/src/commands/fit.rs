@@ -7,7 +7,7 @@ use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
 use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
-use crate::units::warn_of_units;
+use crate::units::{warn_of_shares, warn_of_units};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
@@ -104,6 +104,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Model::Line => [match_file::points(&arguments.matches)?, Vec::new()],
         _ => match_file::matches(&arguments.matches)?,
     };
+    if arguments.k.is_none() {
+        let max_error_px = arguments.robust.options(context).max_error_px;
+        warn_of_shares(&[&pixels1, &pixels2], max_error_px, context);
+    }
     let found = fit(arguments, context, &pixels1, &pixels2)
         .map_err(|failure| with_left_out(failure, arguments.model, [&pixels1, &pixels2]))?;
     let inlier_errors: Vec<f64> = found

@@ -10,7 +10,7 @@ use crate::report::Report;
 use clap::Args;
 use epipole::camera::Camera;
 use epipole_io::camera::{Cameras, is_camera_file};
-use epipole_io::model::ReadModel;
+use epipole_io::model::{ReadModel, format_of_file};
 use epipole_io::trajectory::{Trajectory, is_trajectory};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -39,7 +39,8 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
         if let Some(described) = other::by_first_bytes(path, &bytes) {
             return described;
         }
-        let is_named = is_camera_file(&bytes) || is_trajectory(&bytes);
+        let is_named =
+            format_of_file(&bytes).is_some() || is_camera_file(&bytes) || is_trajectory(&bytes);
         match Content::of_bytes(path, &bytes) {
             Err(failure) if !is_named => return other::table(&bytes).ok_or(failure),
             content => content?,

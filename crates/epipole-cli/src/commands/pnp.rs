@@ -1,6 +1,7 @@
 //! `epipole pnp`: the pose of a camera from points of the world and their pixels.
 
 mod arguments;
+mod axes;
 mod causes;
 mod search;
 
@@ -32,6 +33,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let found = found.map_err(|failure| causes::with_advice(failure, &arguments.points))?;
     let (best, others) = (&found.best, &found.others);
     let num_inliers = found.inliers.iter().filter(|is| **is).count();
+    if let View::Camera(camera) = &view {
+        let options = arguments.robust.options(context).within(found.max_error_px);
+        axes::check(&points, &pixels, camera, num_inliers, &options, context);
+    }
     let mask: Vec<u8> = found.inliers.iter().map(|is| u8::from(*is)).collect();
     let center = center(best);
     let mut report = Report::default()

@@ -8,7 +8,7 @@ pub(crate) mod refined;
 
 use self::growth::GrowthArguments;
 use self::input::InputArguments;
-use self::output::{Pictures, write_model};
+use self::output::{Pictures, check_models, component_folder, write_model};
 use self::positions::{PositionArguments, rms_m};
 use crate::camera::{sentence, some_unknown};
 use crate::context::Context;
@@ -80,6 +80,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    let mut output = OutputFolder::new(&arguments.output, "sfm");
+    check_models(&output)?;
     let input::Input {
         mut photos,
         cameras,
@@ -150,7 +152,6 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             .collect()
     };
     let registered = registered(largest);
-    let mut output = OutputFolder::new(&arguments.output, "sfm");
     if let Some(pictures) = &pictures {
         pictures.write(&photos, &mut output)?;
         for (image, name) in input.images.iter_mut().zip(&pictures.names) {
@@ -159,7 +160,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let mut written = write_model(&mut output, "", largest, &input.images)?;
     for (index, component) in result.components.iter().enumerate().skip(1) {
-        let folder = format!("component{}/", index + 1);
+        let folder = component_folder(index + 1);
         written.extend(write_model(&mut output, &folder, component, &input.images)?);
     }
     output.finish_anew()?;

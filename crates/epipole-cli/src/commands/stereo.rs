@@ -1,19 +1,20 @@
 //! `epipole stereo`: dense disparity of a rectified pair.
 
+mod cloud;
 mod knobs;
+mod pair;
 
+use self::cloud::CloudArguments;
 use self::knobs::{BmArguments, KeepArguments, SgmArguments};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
-use crate::matrices::positive;
 use crate::photo::{Photo, check_same_size};
 use crate::progress::Progress;
 use crate::reading::ReadArguments;
 use crate::report::Report;
 use clap::{Args, ValueEnum};
-use epipole::stereo::{DisparityImage, fill_gaps, point_cloud, q_from_rig};
-use epipole_io::cloud::write_ply;
+use epipole::stereo::{DisparityImage, fill_gaps};
 use epipole_io::disparity::{write_pfm, write_png16};
 use image::GrayImage;
 use std::path::PathBuf;
@@ -32,6 +33,9 @@ enum Method {
     after_help = "Example: epipole stereo left.png right.png --max-disparity 64 -o disparity.pfm\n\n\
     A .pfm file holds pixels, NaN where there is no value; a .png file holds 256 times the\n\
     disparity in 16 bits, 0 where there is none.\n\n\
+    With a Q of the rectification:\n  \
+    epipole rectify left.jpg right.jpg --rig rig.json -o rectified --json > q.json\n  \
+    epipole stereo rectified/left.png rectified/right.png -o d.pfm --ply cloud.ply --q q.json\n\n\
     JSON: width, height, density (share of pixels with a value), min_disparity_px and\n\
     max_disparity_px (null if there is no value)."
 )]
@@ -55,15 +59,8 @@ pub(crate) struct Arguments {
     /// The file for the disparities, .pfm or .png.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Also write the points as a colored cloud; needs --focal-px and --baseline-m.
-    #[arg(long, value_name = "CLOUD.ply", requires_all = ["focal_px", "baseline_m"])]
-    ply: Option<PathBuf>,
-    /// Focal length, pixels.
-    #[arg(long, value_name = "F", value_parser = positive)]
-    focal_px: Option<f64>,
-    /// Distance of the two cameras, meters.
-    #[arg(long, value_name = "B", value_parser = positive)]
-    baseline_m: Option<f64>,
+    #[command(flatten)]
+    cloud: CloudArguments,
     #[command(flatten)]
     keep: KeepArguments,
     #[command(flatten)]
@@ -111,6 +108,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         Photo::prepared(&arguments.right, arguments.reading, None, context)?,
     ];
     check_same_size(&photos)?;
+    let q = arguments.cloud.matrix(photos[0].color.dimensions())?;
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
     let outcome = match arguments.method {
         Method::Sgm => "answers come from smoothness alone",
@@ -121,6 +119,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             context.warn(&format!("{} shows no texture: {outcome}", path.display()));
         }
     }
+    let range = (arguments.min_disparity, arguments.max_disparity);
+    pair::check(&photos, range, context)?;
     let progress = Progress::new(context, "stereo");
     let mut watch = |status| progress.show(status);
     let mut disparity = match arguments.method {
@@ -143,18 +143,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         write_pfm(&disparity)
     };
     files::write(&arguments.output, &bytes)?;
-    if let (Some(path), Some(focal_px), Some(baseline_m)) =
-        (&arguments.ply, arguments.focal_px, arguments.baseline_m)
-    {
-        let center = |side: u32| (f64::from(side) - 1.0) / 2.0;
-        let q = q_from_rig(
-            focal_px,
-            baseline_m,
-            center(left.width()),
-            center(left.height()),
-        )?;
-        let cloud = point_cloud(&disparity, &q, Some(&photos[0].color))?;
-        files::write(path, &write_ply(&cloud))?;
+    if let Some(q) = &q {
+        arguments.cloud.write(&disparity, q, &photos[0].color)?;
     }
     Ok(report(&disparity, arguments))
 }

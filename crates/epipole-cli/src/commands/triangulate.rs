@@ -9,6 +9,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::match_file;
 use crate::report::Report;
+use crate::units::warn_of_units;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -60,6 +61,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         arguments.images.as_deref(),
     )?;
     let pixels = match_file::matches(&arguments.matches)?;
+    for (pixels, camera) in pixels.iter().zip(&cameras) {
+        warn_of_units(pixels, &camera.camera.intrinsics, context);
+    }
     let found = judge::triangulate(&cameras, &pixels)
         .map_err(|failure| failure.about(&arguments.matches))?;
     let summary = Summary::new(&cameras, &found);

@@ -205,3 +205,56 @@ fn parts_of_charuco_boards_calibrate_a_camera() {
     );
     assert!(views.iter().any(|view| num_marks(view) < 24), "{result}");
 }
+
+#[test]
+fn markers_are_detected_without_a_board() {
+    let folder = Folder::new("markers");
+    let [file, marked] = ["board.png", "marked.png"].map(|name| folder.file(name));
+    for (board, options, count) in [
+        (
+            "--kind charuco --size 7x5 --dictionary 5x5_100",
+            "--markers DICT_5X5_100",
+            17,
+        ),
+        (
+            "--kind aprilgrid --size 5x4",
+            "--markers 36h11 --border-bits 2",
+            20,
+        ),
+    ] {
+        let board: Vec<&str> = board.split(' ').collect();
+        json(&[&["board", "-o", path(&file)], &board[..]].concat());
+        let options: Vec<&str> = options.split(' ').collect();
+        let found = json(
+            &[
+                &["detect", path(&file), "--png", path(&marked)],
+                &options[..],
+            ]
+            .concat(),
+        );
+        let markers = found["markers"].as_array().unwrap();
+        let ids: Vec<u64> = markers
+            .iter()
+            .map(|marker| marker["id"].as_u64().unwrap())
+            .collect();
+        assert_eq!(ids, (0..count).collect::<Vec<u64>>());
+        assert!(
+            markers
+                .iter()
+                .all(|marker| marker["corners"].as_array().unwrap().len() == 4)
+        );
+        assert!(marked.exists());
+    }
+    let arguments = [
+        "board",
+        "--size",
+        "7x5",
+        "--marker-mm",
+        "9",
+        "-o",
+        path(&file),
+    ];
+    fails(&folder, &arguments, 2, "--marker-mm is of --kind charuco");
+    let arguments = ["detect", path(&file), "--markers", "8x8"];
+    fails(&folder, &arguments, 2, "\"8x8\" is none of");
+}

@@ -232,3 +232,73 @@ fn formats_mix_and_causes_are_named() {
         "line 2: time goes backwards",
     );
 }
+
+#[test]
+fn images_of_models_are_compared_by_their_names() {
+    let folder = Folder::new("compare-models");
+    let cameras = "1 PINHOLE 640 480 500 500 320 240\n";
+    let model = |name: &str, images: &[(&str, [f64; 3])]| {
+        let at = folder.file(name);
+        std::fs::create_dir_all(&at).unwrap();
+        folder.write(&format!("{name}/cameras.txt"), cameras);
+        let lines = images.iter().enumerate().map(|(n, (name, [x, y, z]))| {
+            format!("{} 1 0 0 0 {} {} {} 1 {name}\n\n", n + 1, -x, -y, -z)
+        });
+        folder.write(&format!("{name}/images.txt"), &lines.collect::<String>());
+        at
+    };
+    let places = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.2],
+        [2.0, 1.0, 0.0],
+        [2.0, 3.0, 1.0],
+    ];
+    let truth = model(
+        "truth",
+        &["a2.jpg", "a10.jpg", "b c.jpg", "d.jpg"]
+            .into_iter()
+            .zip(places)
+            .collect::<Vec<_>>(),
+    );
+    // In another order, twice as large, moved, without one, in a folder.
+    let moved = |n: usize| places[n].map(|x| 2.0 * x + 1.0);
+    let estimate = model(
+        "estimate",
+        &[
+            ("x/d.png", moved(3)),
+            ("x/a10.png", moved(1)),
+            ("x/a2.png", moved(0)),
+        ],
+    );
+    let binary = folder.file("binary");
+    json(&[
+        "convert",
+        path(&estimate),
+        path(&binary),
+        "--to",
+        "colmap-binary",
+    ]);
+    for second in [
+        path(&estimate),
+        path(&binary),
+        path(&binary.join("images.bin")),
+    ] {
+        let result = json(&["compare", path(&truth), second, "--align", "sim3"]);
+        assert_eq!(result["associated_by"], "name");
+        assert_eq!(
+            (&result["num_pairs"], &result["num_poses"][0]),
+            (&3.into(), &4.into())
+        );
+        assert!((result["scale"].as_f64().unwrap() - 0.5).abs() < 1e-9);
+        assert!(result["ate_rmse_m"].as_f64().unwrap() < 1e-9);
+    }
+    // Against a trajectory of as many poses, in the natural order of names.
+    let kitti = folder.file("path.kitti");
+    json(&["convert", path(&truth), path(&kitti), "--to", "kitti"]);
+    let result = json(&["compare", path(&truth), path(&kitti)]);
+    assert_eq!(result["associated_by"], "index");
+    assert!(result["ate_rmse_m"].as_f64().unwrap() < 1e-9);
+    let other = model("other", &[("z.jpg", places[0])]);
+    let arguments = ["compare", path(&truth), path(&other)];
+    fails(&folder, &arguments, 1, "no image has the name of another");
+}

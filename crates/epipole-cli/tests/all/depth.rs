@@ -250,7 +250,16 @@ fn what_cannot_be_matched_is_refused() {
         1,
         "the window must be no larger than the shorter side",
     );
-    fails(&folder, &with(&["--ply", "cloud.ply"]), 2, "--focal-px");
+    fails(
+        &folder,
+        &with(&["--ply", "cloud.ply"]),
+        2,
+        "give --q, or --focal-px",
+    );
+    let no_q = folder.write("no-q.json", "{\"q\": null}");
+    let arguments = [&base[..], &["--ply", "cloud.ply", "--q", path(&no_q)]].concat();
+    fails(&folder, &arguments, 1, "no-q.json: Q is missing");
+    fails(&folder, &with(&["--doffs", "3"]), 2, "--ply");
     for wrong in ["0", "-1", "nan", "inf"] {
         let arguments = [
             "--ply",
@@ -293,4 +302,85 @@ fn what_cannot_be_matched_is_refused() {
         1,
         "cut.png: the image cannot be read",
     );
+}
+
+/// Points of a cloud, x, y, z each.
+fn read_cloud(file: &Path) -> Vec<[f32; 3]> {
+    let (cloud, _) = epipole_io::cloud::read_ply(&std::fs::read(file).unwrap()).unwrap();
+    let points = cloud.points.iter();
+    points
+        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+        .collect()
+}
+
+#[test]
+fn a_cloud_follows_from_q_or_from_its_numbers() {
+    let folder = Folder::new("stereo-q");
+    pair(&folder);
+    let [left, right, pfm, ply] =
+        ["left.png", "right.png", "d.pfm", "c.ply"].map(|name| folder.file(name));
+    let base = [
+        "stereo",
+        path(&left),
+        path(&right),
+        "-o",
+        path(&pfm),
+        "--ply",
+        path(&ply),
+    ];
+    let cloud = |more: &[&str]| {
+        json(&[&base[..], more].concat());
+        read_cloud(&ply)
+    };
+    // Z = f B/(d + doffs), X = (u − cx) Z/f.
+    let numbers = "--focal-px 300 --baseline-m 0.5 --cx 100 --cy 90 --doffs 2.5";
+    let found = cloud(&numbers.split(' ').collect::<Vec<_>>());
+    let values = read_pfm(&pfm);
+    let pixels = values.iter().enumerate().filter(|(_, d)| d.is_finite());
+    let expected = pixels.map(|(n, d)| {
+        let depth = 150.0 / (f64::from(*d) + 2.5);
+        let (u, v) = ((n as u32 % SIZE.0) as f32, (n as u32 / SIZE.0) as f32);
+        let depth = depth as f32;
+        [
+            (u - 100.0) * depth / 300.0,
+            (v - 90.0) * depth / 300.0,
+            depth,
+        ]
+    });
+    let expected: Vec<[f32; 3]> = expected.collect();
+    assert_eq!(found.len(), expected.len());
+    for (p, q) in found.iter().zip(&expected) {
+        assert!(
+            (0..3).all(|i| (p[i] - q[i]).abs() <= 1e-5 * q[2]),
+            "{p:?} {q:?}"
+        );
+    }
+    let q = folder.write(
+        "q.yml",
+        "%YAML:1.0\n---\nQ: [1,0,0,-100, 0,1,0,-90, 0,0,0,300, 0,0,2,5]\n",
+    );
+    assert_eq!(cloud(&["--q", path(&q)]), found);
+}
+
+#[test]
+fn a_pair_whose_rows_do_not_agree_is_told() {
+    let folder = Folder::new("stereo-rows");
+    pair(&folder);
+    let upper = moved(SIZE, &RigidTransform::translation(0.0, -0.06, 0.0));
+    folder.photograph("upper.png", &upper, SIZE);
+    let out = folder.file("d.pfm");
+    let said = |first: &str, second: &str, more: &[&str]| {
+        let [first, second] = [first, second].map(|name| folder.file(name));
+        let base = ["stereo", path(&first), path(&second), "-o", path(&out)];
+        let output = crate::common::epipole(&[&base[..], more].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let vertical = said("left.png", "upper.png", &[]);
+    assert!(vertical.contains("columns agree, not rows"), "{vertical}");
+    let swapped = said("right.png", "left.png", &[]);
+    assert!(swapped.contains("may be swapped"), "{swapped}");
+    let narrow = said("left.png", "right.png", &["--max-disparity", "3"]);
+    assert!(narrow.contains("set --min-disparity"), "{narrow}");
+    assert_eq!(said("left.png", "right.png", &[]), "");
 }

@@ -89,6 +89,32 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
         ["num_observations", "num_found_again"].map(|n| result[n].as_u64().unwrap());
     assert!(again * 10 > seen * 8, "{again} of {seen}");
 
+    // Of twice the size: its camera is that of the model.
+    let large = folder.file("large.png");
+    let (width, height) = (2 * SIZE.0, 2 * SIZE.1);
+    let photo = image::open(photos.join("3.png")).unwrap();
+    let filter = image::imageops::FilterType::CatmullRom;
+    photo
+        .resize_exact(width, height, filter)
+        .save(&large)
+        .unwrap();
+    let arguments = [
+        "localize",
+        path(&large),
+        path(&less),
+        "--images",
+        path(&photos),
+    ];
+    let result = json(&arguments);
+    let (focal_px, expected) = (
+        result["photos"][0]["focal_px"].as_f64().unwrap(),
+        2.0 * model.cameras[0].intrinsics.fu_px(),
+    );
+    assert!((focal_px - expected).abs() < 1e-6, "{focal_px} {expected}");
+    let pose = motion(&result["photos"][0]["cam_from_world"]);
+    let off = (pose.translation.vector - truth.translation.vector).norm() / unit;
+    assert!(off < 0.02, "{off}");
+
     // One that shows nothing of it, beside one that does.
     let blank = folder.blank("blank.png", SIZE);
     let arguments = ["localize", path(&blank), path(&new), path(&less)];

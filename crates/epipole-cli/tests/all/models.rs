@@ -80,11 +80,11 @@ fn a_model_is_converted_and_back() {
     let read = |name: &str| std::fs::read_to_string(folder.file(name)).unwrap();
     assert_eq!(
         read("text/cameras.txt").lines().last(),
-        Some("1 OPENCV 640 480 500 500 320 240 -0.1 0.02 0 0")
+        Some("5 OPENCV 640 480 500 500 320 240 -0.1 0.02 0 0")
     );
     let list = read("text/images.txt");
     let list: Vec<&str> = list.lines().skip(2).collect();
-    let renumbered = IMAGES.replace(" 5 ", " 1 ").replace(" 9", " 1");
+    let renumbered = IMAGES.replace(" 9", " 1");
     assert_eq!(list, renumbered.lines().skip(1).collect::<Vec<_>>());
     assert_eq!(
         read("text/points3D.txt").lines().last(),
@@ -145,6 +145,129 @@ fn a_folder_that_is_written_again_keeps_only_what_is_not_ours() {
     folder.write("out/cameras.bin", "mine");
     let arguments = ["convert", &model, path(&out), "--to", "colmap-text"];
     fails(&folder, &arguments, 1, "COLMAP would read this file");
+}
+
+#[test]
+fn a_model_is_not_mixed_with_rigs_of_another_one() {
+    let folder = Folder::new("rigs");
+    let model = text_model(&folder, "model");
+    for (format, name) in [
+        ("colmap-binary", "rigs.bin"),
+        ("colmap-binary", "frames.bin"),
+        ("colmap-text", "rigs.txt"),
+        ("colmap-text", "frames.txt"),
+    ] {
+        let out = folder.file(format);
+        std::fs::create_dir_all(&out).unwrap();
+        std::fs::write(out.join(name), "mine").unwrap();
+        let arguments = ["convert", &model, path(&out), "--to", format];
+        fails(
+            &folder,
+            &arguments,
+            1,
+            &format!("{name}: this file belongs to another model"),
+        );
+        std::fs::remove_file(out.join(name)).unwrap();
+        json(&arguments);
+    }
+    let out = folder.file("sfm");
+    std::fs::create_dir_all(out.join("component2")).unwrap();
+    std::fs::write(out.join("component2/frames.bin"), "mine").unwrap();
+    let photo = folder.blank("a.png", (64, 48));
+    let arguments = ["sfm", path(&photo), path(&photo), "-o", path(&out)];
+    fails(
+        &folder,
+        &arguments,
+        1,
+        "frames.bin: this file belongs to another model",
+    );
+}
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = Folder::new("over");
+    let model = text_model(&folder, "model");
+    fails(
+        &folder,
+        &["convert", &model, &model, "--to", "colmap-text"],
+        2,
+        "would be written over",
+    );
+    let points = folder.file("points.ply");
+    json(&["convert", &model, path(&points)]);
+    fails(
+        &folder,
+        &["convert", path(&points), path(&points)],
+        2,
+        "would be written over",
+    );
+    json(&["convert", &model, &model, "--to", "colmap-binary"]);
+}
+
+#[test]
+fn cameras_keep_their_numbers() {
+    let folder = Folder::new("camera-numbers");
+    let model = folder.file("model");
+    std::fs::create_dir_all(&model).unwrap();
+    folder.write(
+        "model/cameras.txt",
+        "7 PINHOLE 640 480 500 501 320 240\n3 PINHOLE 64 48 50 50 32 24\n",
+    );
+    folder.write(
+        "model/images.txt",
+        "1 1 0 0 0 0 0 0 3 a b.jpg\n\n2 1 0 0 0 1 0 0 7 c.jpg\n\n",
+    );
+    let [binary, text, cameras] = ["binary", "text", "cameras.txt"].map(|name| folder.file(name));
+    json(&[
+        "convert",
+        path(&model),
+        path(&binary),
+        "--to",
+        "colmap-binary",
+    ]);
+    json(&["convert", path(&binary), path(&text), "--to", "colmap-text"]);
+    json(&["convert", path(&binary), path(&cameras)]);
+    let ids = |file: &std::path::Path, place: usize| -> Vec<String> {
+        let text = std::fs::read_to_string(file).unwrap();
+        let lines = text
+            .lines()
+            .filter(|line| !line.starts_with('#') && !line.is_empty());
+        lines
+            .map(|line| line.split(' ').nth(place).unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(ids(&text.join("cameras.txt"), 0), ["7", "3"]);
+    assert_eq!(ids(&text.join("images.txt"), 8), ["3", "7"]);
+    assert_eq!(ids(&cameras, 0), ["7", "3"]);
+}
+
+#[test]
+fn a_damaged_model_is_not_taken_for_a_table() {
+    let folder = Folder::new("damaged-model");
+    let text = "# Bundle file v0.3\n1 0\n500 0 0\n1 0 0\n0 2 0\n0 0 1\n0 0 0\n";
+    let file = folder.write("bundle.out", text);
+    fails(
+        &folder,
+        &["inspect", path(&file)],
+        1,
+        "camera 0 has no rotation",
+    );
+    let packed = folder.file("problem.txt.bz2");
+    std::fs::write(&packed, b"BZh91AY&SY").unwrap();
+    let out = folder.file("out.txt");
+    for arguments in [
+        vec!["inspect", path(&packed)],
+        vec!["ba", path(&packed), "-o", path(&out)],
+    ] {
+        fails(&folder, &arguments, 1, "compressed (bzip2): unpack it");
+    }
+    let matrix = folder.write("K.txt", "500 0 320\n0 500 240\n0 0 1\n");
+    fails(
+        &folder,
+        &["inspect", path(&matrix)],
+        1,
+        "--k 500,500,320,240",
+    );
 }
 
 #[test]

@@ -259,3 +259,35 @@ fn photographs_are_written_as_the_model_speaks_of_them() {
         "two photographs would be written to ",
     );
 }
+
+#[test]
+fn a_sensor_width_gives_the_focal_length_of_millimeters() {
+    let folder = Folder::new("millimeters");
+    let files = three(&folder, (320, 240));
+    for file in &files {
+        let image = image::open(file).unwrap().into_rgb8();
+        exif::write_png(file, &image, exif::millimeters(5));
+    }
+    let told = |more: &[&str]| {
+        let photos = [path(&files[0]), path(&files[1])];
+        let out = folder.file("out");
+        let arguments = [&["sfm", "-o", path(&out)], &photos[..], more].concat();
+        String::from_utf8(epipole(&arguments).stderr).unwrap()
+    };
+    let without = told(&[]);
+    assert!(
+        without.contains("taking 384 px") && without.contains("have 5.0 mm"),
+        "{without}"
+    );
+    let with = told(&["--sensor-width-mm", "4"]);
+    assert!(
+        with.contains("taking 400 px, from the photograph's EXIF data"),
+        "{with}"
+    );
+    let inspected = json(&["inspect", path(&files[0])]);
+    assert!(
+        inspected["notes"]
+            .to_string()
+            .contains("give --sensor-width-mm")
+    );
+}

@@ -259,3 +259,33 @@ fn wrong_units_of_pixels_are_told() {
     folder.write("points.txt", &shares.collect::<String>());
     assert!(told(K).contains("which are no pixels"));
 }
+
+#[test]
+fn reversed_and_exchanged_axes_are_told() {
+    let folder = Folder::new("pnp-axes");
+    let file = points_file(&folder, "points.txt", 40);
+    let text = std::fs::read_to_string(&file).unwrap();
+    let told = |change: &dyn Fn([f64; 5]) -> [f64; 5]| {
+        let lines = text.lines().map(|line| {
+            let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+            let row = change(numbers.try_into().unwrap());
+            format!("{}\n", row.map(|x| x.to_string()).join(" "))
+        });
+        let file = folder.write("changed.txt", &lines.collect::<String>());
+        String::from_utf8(epipole(&["pnp", path(&file), "--k", K]).stderr).unwrap()
+    };
+    type Change = fn([f64; 5]) -> [f64; 5];
+    let mirrored: [Change; 3] = [
+        |[x, y, z, u, v]| [x, y, z, u, 479.0 - v],
+        |[x, y, z, u, v]| [x, y, -z, u, v],
+        |[x, y, z, u, v]| [x, y, z, v, u],
+    ];
+    for change in mirrored {
+        let sentence = told(&change);
+        assert!(
+            sentence.contains("where the image is mirrored"),
+            "{sentence}"
+        );
+    }
+    assert!(!told(&|row| row).contains("mirrored"));
+}

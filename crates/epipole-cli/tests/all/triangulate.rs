@@ -65,6 +65,7 @@ fn model(folder: &Folder) -> PathBuf {
         cameras: vec![camera()],
         images: poses().iter().enumerate().map(image).collect(),
         points: Vec::new(),
+        ..Model::default()
     };
     let path = folder.file("model");
     std::fs::create_dir_all(&path).unwrap();

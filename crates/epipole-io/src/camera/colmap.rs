@@ -6,6 +6,7 @@ use super::named::{Cameras, NamedCamera};
 use crate::Result;
 use crate::colmap::cameras::{read_cameras_binary, read_cameras_text, write_cameras_text};
 use epipole::camera::Camera;
+use std::collections::BTreeSet;
 
 /// Whether a first line with content is `ID MODEL WIDTH …`.
 pub(super) fn is_text(text: &str) -> bool {
@@ -43,8 +44,17 @@ fn named(cameras: Vec<(u32, Camera)>) -> Cameras {
     }
 }
 
-/// `cameras.txt`; IDs count from 1, names are lost.
+/// `cameras.txt`. Names that are IDs, no two equal, stay; others are lost, and IDs count from 1.
 pub(super) fn write(cameras: &Cameras) -> String {
-    let cameras: Vec<Camera> = cameras.cameras.iter().map(|named| named.camera).collect();
-    write_cameras_text(&cameras)
+    let named = &cameras.cameras;
+    let ids: Vec<u32> = named.iter().flat_map(|named| named.name.parse()).collect();
+    let are_distinct = ids.iter().collect::<BTreeSet<_>>().len() == named.len();
+    let numbered = named
+        .iter()
+        .enumerate()
+        .map(|(n, named)| match are_distinct {
+            true => (ids[n], named.camera),
+            false => (n as u32 + 1, named.camera),
+        });
+    write_cameras_text(&numbered.collect::<Vec<_>>())
 }

@@ -54,12 +54,17 @@ impl<'a> Keys<'a> {
 /// The camera of a frame.
 ///
 /// * `document`: the whole file, for what the frame does not have
+/// * `size`: of the images, for a file without one
 ///
 /// # Errors
 /// [`Error::Malformed`](crate::Error::Malformed) without a size or focal length,
 /// [`Error::Unsupported`](crate::Error::Unsupported) for other lenses.
-pub(crate) fn camera_of_frame(frame: &Field, document: &Field) -> Result<Camera> {
-    camera(&Keys([frame, document]), None)
+pub(crate) fn camera_of_frame(
+    frame: &Field,
+    document: &Field,
+    size: Option<(u32, u32)>,
+) -> Result<Camera> {
+    camera(&Keys([frame, document]), size)
 }
 
 fn camera(keys: &Keys, size: Option<Size>) -> Result<Camera> {

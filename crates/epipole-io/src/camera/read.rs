@@ -58,7 +58,7 @@ pub fn is_camera_file(bytes: &[u8]) -> bool {
         let whole = Field::root(&node);
         let storage = whole.get("opencv_storage");
         let root = storage.as_ref().unwrap_or(&whole);
-        recognize(syntax, root, storage.is_some()).is_ok()
+        recognize(syntax, root, storage.is_some()).is_ok() || bare_matrix(root).is_some()
     };
     let is_text = |text: &str| colmap::is_text(text) || is_tree(text);
     colmap::is_binary(bytes) || decode(bytes).is_ok_and(is_text)
@@ -83,6 +83,14 @@ fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Camera
     Ok((format, cameras))
 }
 
+/// fx, fy, cx and cy of nine numbers without keys.
+fn bare_matrix(root: &Field) -> Option<[f64; 4]> {
+    match root.numbers().ok()?[..] {
+        [fx, _, cx, _, fy, cy, 0.0, 0.0, 1.0] => Some([fx, fy, cx, cy]),
+        _ => None,
+    }
+}
+
 fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFormat> {
     type Candidate = (CameraFormat, fn(&Field) -> bool);
     const OPENCV: Candidate = (CameraFormat::OpenCv, opencv::is_it);
@@ -99,6 +107,11 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
         OPENCV,
     ];
     const OF_XML: [Candidate; 2] = [(CameraFormat::Metashape, metashape::is_it), OPENCV];
+    if root.get("views").is_some() && root.get("poses").is_some() {
+        return Err(Error::unsupported(
+            "it is a scene of AliceVision (Meshroom), which is not read: export it as COLMAP's",
+        ));
+    }
     let candidates: &[Candidate] = match syntax {
         Syntax::Json => &OF_JSON,
         Syntax::Yaml => &OF_YAML,
@@ -110,6 +123,11 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
         let keys: Vec<String> = (root.entries().iter().take(MAX_KEYS))
             .map(|(key, _)| format!("{key:.30}"))
             .collect();
+        if let Some([fx, fy, cx, cy]) = bare_matrix(root) {
+            return Error::malformed(format!(
+                "it is a matrix alone, without the size of its images: give it as --k {fx},{fy},{cx},{cy}"
+            ));
+        }
         let keys = match keys.is_empty() {
             true => "it has no keys".to_owned(),
             false => format!("its keys are {}", keys.join(", ")),
@@ -118,4 +136,30 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
             "no camera that epipole calibrate, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
         ))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_alone_is_told_as_one() {
+        for text in [
+            "500 0 320\n0 501 240\n0 0 1\n",
+            "5.0e+02,0,320\n0,501,240\n0,0,1\n",
+            "[[500, 0, 320], [0, 501, 240], [0, 0, 1]]",
+        ] {
+            let error = read_cameras(text.as_bytes(), None).unwrap_err().to_string();
+            assert!(error.ends_with("give it as --k 500,501,320,240"), "{error}");
+            assert!(is_camera_file(text.as_bytes()));
+        }
+        let scene = br#"{"version": ["1"], "views": [], "intrinsics": [], "poses": []}"#;
+        assert!(
+            read_cameras(scene, None)
+                .unwrap_err()
+                .to_string()
+                .contains("AliceVision")
+        );
+        assert!(!is_camera_file(b"1 2 3\n4 5 6\n7 8 9\n"));
+    }
 }

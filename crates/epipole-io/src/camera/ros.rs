@@ -26,17 +26,48 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
         None => size,
     };
     let (width, height) = size_or(size, "image_width and image_height")?;
+    check_whole(root)?;
+    let k = matrix.numbers()?;
+    if k.first() == Some(&0.0) {
+        return Err(
+            matrix.wrong("begins with 0: ROS says with it that the camera is not calibrated")
+        );
+    }
     let name = root.get("camera_name").and_then(|name| name.text());
     let camera = Camera {
         width,
         height,
-        intrinsics: intrinsics(&matrix, &matrix.numbers()?)?,
+        intrinsics: intrinsics(&matrix, &k)?,
         lens: lens(root)?,
     };
     Ok(Cameras {
         cameras: vec![NamedCamera::new(name.unwrap_or("camera"), camera)],
         right_from_left: None,
     })
+}
+
+/// Refuses images of a part of the sensor or with binned pixels, whose K is not that of the file.
+fn check_whole(root: &Field) -> Result<()> {
+    for key in ["binning_x", "binning_y"] {
+        if let Some(field) = root
+            .get(key)
+            .filter(|field| field.number().is_ok_and(|n| n > 1.0))
+        {
+            return Err(field.unsupported("is above 1: K is that of images without binning"));
+        }
+    }
+    let Some(roi) = root.get("roi") else {
+        return Ok(());
+    };
+    for key in ["x_offset", "y_offset"] {
+        if let Some(field) = roi
+            .get(key)
+            .filter(|field| field.number().is_ok_and(|n| n != 0.0))
+        {
+            return Err(field.unsupported("is not 0: K is that of the whole sensor"));
+        }
+    }
+    Ok(())
 }
 
 fn lens(root: &Field) -> Result<Lens> {
@@ -124,5 +155,14 @@ projection_matrix:
         assert!(matches!(error, Error::Unsupported { .. }));
         let message = "distortion_model \"omni\" is not supported: plumb_bob, rational_polynomial and equidistant are";
         assert_eq!(error.to_string(), message);
+        let of = |from: &str, to: &str| one(&MESSAGE.replace(from, to)).unwrap_err().to_string();
+        let zeros = of(
+            "414.3, 0.0, 304.8, 0.0, 414.1, 240.5, 0.0, 0.0, 1.0",
+            "0, 0, 0, 0, 0, 0, 0, 0, 1",
+        );
+        assert!(zeros.contains("K begins with 0: ROS says"), "{zeros}");
+        assert!(of("binning_x: 0", "binning_x: 2").contains("binning_x is above 1"));
+        let roi = of("binning_x: 0", "roi:\n  x_offset: 8\n  y_offset: 0");
+        assert!(roi.contains("roi.x_offset is not 0"), "{roi}");
     }
 }

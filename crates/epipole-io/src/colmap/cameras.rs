@@ -28,14 +28,16 @@ pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<(u32, Camera)>> {
     Ok(cameras)
 }
 
-/// Text of `cameras.txt`; IDs count from 1.
-pub(crate) fn write_cameras_text(cameras: &[Camera]) -> String {
+/// Text of `cameras.txt`.
+///
+/// * `cameras`: with their IDs
+pub(crate) fn write_cameras_text(cameras: &[(u32, Camera)]) -> String {
     // Writing to a string cannot fail.
     let mut text = String::from("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n");
-    for (index, camera) in cameras.iter().enumerate() {
+    for (id, camera) in cameras {
         let Camera { width, height, .. } = camera;
         let model = colmap_from_camera(camera);
-        let _ = write!(text, "{} {} {width} {height}", index + 1, model.name);
+        let _ = write!(text, "{id} {} {width} {height}", model.name);
         for param in &model.params {
             let _ = write!(text, " {param}");
         }
@@ -72,12 +74,14 @@ fn in_camera(id: u32, error: Error) -> Error {
     }
 }
 
-/// Bytes of `cameras.bin`; IDs count from 1.
-pub(crate) fn write_cameras_binary(cameras: &[Camera]) -> Vec<u8> {
+/// Bytes of `cameras.bin`.
+///
+/// * `cameras`: with their IDs
+pub(crate) fn write_cameras_binary(cameras: &[(u32, Camera)]) -> Vec<u8> {
     let mut bytes = (cameras.len() as u64).to_le_bytes().to_vec();
-    for (index, camera) in cameras.iter().enumerate() {
+    for (id, camera) in cameras {
         let model = colmap_from_camera(camera);
-        bytes.extend((index as u32 + 1).to_le_bytes());
+        bytes.extend(id.to_le_bytes());
         bytes.extend(model.id.to_le_bytes());
         bytes.extend(u64::from(camera.width).to_le_bytes());
         bytes.extend(u64::from(camera.height).to_le_bytes());

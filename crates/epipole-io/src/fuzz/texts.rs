@@ -1,6 +1,6 @@
 //! Cameras, trajectories, matches and points.
 
-use crate::camera::{CameraFormat, read_cameras};
+use crate::camera::{CameraFormat, read_cameras, read_q};
 use crate::damage::{config, damage_bytes, some_damage};
 use crate::matches::{read_matches, read_points, read_points_with_pixels};
 use crate::trajectory::read_trajectory;
@@ -14,6 +14,8 @@ const ROS: &str = "image_width: 640\nimage_height: 480\ncamera_name: a\ncamera_m
 const KALIBR: &str = "cam0: {camera_model: pinhole, intrinsics: [1,1,1,1], distortion_model: radtan, distortion_coeffs: [0,0,0,0], resolution: [752, 480]}\n\
     cam1:\n  camera_model: pinhole\n  intrinsics: [1,1,1,1]\n  distortion_model: equidistant\n  distortion_coeffs: [0,0,0,0]\n  resolution: [752, 480]\n  \
     T_cn_cnm1:\n  - [1, 0, 0, 1]\n  - [0, 1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n";
+const Q: &str = "%YAML:1.0\n---\nQ: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   \
+    data: [1, 0, 0, -319.5, 0, 1, 0, -239.5, 0, 0, 0, 700, 0, 0, 8.5, 0.25]\n";
 const COLMAP: &str = "# cameras\n1 SIMPLE_RADIAL 640 480 500 320 240 0.1\n2 FULL_OPENCV 640 480 500 500 320 240 1 2 3 4 5 6 7 8\n";
 const NERF: &str = r#"{"camera_angle_x": 0.69, "w": 800, "h": 600, "k1": 0.1, "frames": [{"file_path": "a", "fl_x": 500.5}]}"#;
 const METASHAPE: &str = "<?xml version=\"1.0\"?>\n<document><chunk><sensors>\n<sensor id=\"0\" label=\"a &amp; b\"><resolution width=\"640\" height=\"480\"/>\
@@ -41,9 +43,11 @@ const CAMERAS: [(CameraFormat, &str); 9] = [
     (CameraFormat::Epipole, EPIPOLE),
 ];
 
-const TRAJECTORIES: [&str; 3] = [
+const TRAJECTORIES: [&str; 5] = [
     "# t tx ty tz qx qy qz qw\n1305031102.175304 1.5 0 -2e-3 0 0 0 1\n1305031102.2 1 2 3 0.1 0.2 0.3 0.9\n",
     "1 0 0 0.5 0 1 0 1e-3 0 0 1 2\n0 -1 0 0.5 1 0 0 1e-3 0 0 1 2\n",
+    "num,t,x,y,z,qw,qx,qy,qz,vx\n1,0.5,1,2,3,0.8,0,0,0.6,9\n2,1.5,1,2,3,0.8,0,0,0.6,9\n",
+    "1403636579763555584.000000 1 2 3 0 0 0.6 0.8\n1403636579813555456.000000 1 2 3 0 0 0.6 0.8\n",
     "#timestamp,x,y,z,w,x,y,z\r\n1403636580838555648,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n1403636580838555649,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n",
 ];
 
@@ -68,6 +72,10 @@ fn colmap_binary() -> Vec<u8> {
 }
 
 fn check_cameras(bytes: &[u8]) {
+    match read_q(bytes) {
+        Ok(q) => assert!(q.iter().all(|entry| entry.is_finite())),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
     match read_cameras(bytes, Some((640, 480))) {
         Ok((_, cameras)) => {
             assert!(!cameras.cameras.is_empty());
@@ -127,6 +135,7 @@ fn check_matches(bytes: &[u8]) {
 
 #[test]
 fn the_files_to_damage_are_right() {
+    assert!(read_q(Q.as_bytes()).is_ok());
     for (format, text) in CAMERAS {
         assert_eq!(read_cameras(text.as_bytes(), None).unwrap().0, format);
     }
@@ -202,6 +211,7 @@ proptest! {
     #[test]
     fn damaged_cameras(which in 0..CAMERAS.len(), changes in some_damage()) {
         check_cameras(&damage_bytes(CAMERAS[which].1.as_bytes(), &changes));
+        check_cameras(&damage_bytes(Q.as_bytes(), &changes));
     }
 
     #[test]

@@ -2,10 +2,12 @@
 //!
 //! Cameras look along −z with y up; pixels are relative to the principal point, x right, y up. The
 //! file has one focal length and two radial terms a camera, neither principal point nor image size:
-//! a reader puts the principal point into the middle of an image that holds all keypoints.
+//! the principal point is the middle of the image, which its file tells, or else of the smallest
+//! image that holds all keypoints.
 //!
 //! Source: Snavely, "Bundler v0.4 User's Manual", §"Output format and scene representation".
 
+use super::image_size::image_size;
 use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
 use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
 use crate::text::number;
@@ -132,10 +134,15 @@ pub(super) fn read(
     if list.is_none() {
         notes.push(format!("{} is not there: images are numbered", lists[0]));
     }
-    let (width, height) = size(&entries)?;
-    notes.push(format!(
-        "the file has no image sizes: {width} × {height} holds all keypoints"
-    ));
+    if list.is_some() && names.len() < entries.len() {
+        notes.push(format!(
+            "the list has {} names for {} cameras: the others are numbered",
+            names.len(),
+            entries.len()
+        ));
+    }
+    let smallest = size(&entries)?;
+    let mut num_unknown = 0_usize;
     let (mut cameras, mut images) = (CameraList::default(), Vec::new());
     let mut image_of_camera = vec![0; entries.len()];
     let mut num_without = 0_usize;
@@ -144,6 +151,9 @@ pub(super) fn read(
             num_without += 1;
             continue;
         };
+        let size = names.get(index).and_then(|name| image_size(name, beside));
+        num_unknown += usize::from(size.is_none());
+        let (width, height) = size.unwrap_or(smallest);
         let [f, k1, k2] = entry.focal;
         let lens = Lens::from_coefficients(LensKind::Brown, &[k1, k2, 0.0, 0.0, 0.0])?;
         let intrinsics = Intrinsics::centered(f, width, height)?;
@@ -163,6 +173,13 @@ pub(super) fn read(
                 .map(|p| Point2::new(center.x + p.x, center.y - p.y))
                 .collect(),
         });
+    }
+    if num_unknown > 0 {
+        let (width, height) = smallest;
+        notes.push(format!(
+            "the file has no image sizes, and {num_unknown} images are not there: {width} × {height} \
+             holds all keypoints"
+        ));
     }
     if num_without > 0 {
         notes.push(format!("{num_without} images have no pose: left out"));
@@ -186,6 +203,7 @@ pub(super) fn read(
         points: points.collect(),
         cameras: cameras.into_list(),
         images,
+        ..Model::default()
     };
     Ok((model, notes))
 }
@@ -300,6 +318,30 @@ mod tests {
         assert_eq!(
             names("x 0 5\ny 1 5\nz 0 q\n\n")[..],
             ["x", "y 1 5", "z 0 q"]
+        );
+    }
+
+    #[cfg(feature = "photos")]
+    #[test]
+    fn the_middle_is_that_of_the_image_if_it_is_there() {
+        let file = |name: &str| match name {
+            "list.txt" => Some(b"./a.pgm 0 532.5\n./photos/b.pgm\n".to_vec()),
+            "photos/b.pgm" => Some(b"P5 60 120 255\n".repeat(9)),
+            _ => None,
+        };
+        let (model, notes) = read(FILE.as_bytes(), &["list.txt".to_owned()], &file).unwrap();
+        assert_eq!((model.cameras[0].width, model.cameras[0].height), (60, 120));
+        assert_eq!(
+            model.images[0].keypoints[0],
+            Point2::new(29.5 + 26.5625, 59.5 - 53.125)
+        );
+        assert_eq!(notes, ["1 images have no pose: left out"]);
+        let short = |name: &str| (name == "list.txt").then(|| b"a.jpg\n".to_vec());
+        let (model, notes) = read(FILE.as_bytes(), &["list.txt".to_owned()], &short).unwrap();
+        assert_eq!(model.images[0].name, "1");
+        assert!(
+            notes[0].starts_with("the list has 1 names for 2 cameras"),
+            "{notes:?}"
         );
     }
 

@@ -108,7 +108,7 @@ impl Model {
             );
             images.extend(image.id.to_le_bytes());
             extend(&mut images, &[q.w, q.i, q.j, q.k, t.x, t.y, t.z]);
-            images.extend((image.camera as u32 + 1).to_le_bytes());
+            images.extend(self.camera_id(image.camera).to_le_bytes());
             images.extend(image.name.replace('\0', "_").as_bytes());
             images.push(0);
             images.extend((image.keypoints.len() as u64).to_le_bytes());
@@ -132,7 +132,10 @@ impl Model {
             }
         }
         Ok(vec![
-            ModelFile::new("cameras.bin", write_cameras_binary(&self.cameras)),
+            ModelFile::new(
+                "cameras.bin",
+                write_cameras_binary(&self.numbered_cameras()),
+            ),
             ModelFile::new("images.bin", images),
             ModelFile::new("points3D.bin", points),
         ])
@@ -159,9 +162,9 @@ mod tests {
         };
         assert_eq!((id, camera.width, camera.height), (12, 640, 480));
         assert_eq!(camera.intrinsics.principal_point().y, 239.5);
-        let written = write_cameras_binary(&[camera]);
-        // ID 1, OPENCV, eight parameters.
-        assert_eq!(written[8..16], [1, 0, 0, 0, 4, 0, 0, 0]);
+        let written = write_cameras_binary(&[(7, camera)]);
+        // ID 7, OPENCV, eight parameters.
+        assert_eq!(written[8..16], [7, 0, 0, 0, 4, 0, 0, 0]);
         assert_eq!(written.len(), 8 + 24 + 8 * 8);
     }
 

@@ -47,12 +47,13 @@ impl Parts {
     pub(super) fn join(self) -> Result<(Model, Vec<String>)> {
         let mut notes = Vec::new();
         let mut camera_of_id = HashMap::new();
-        let mut cameras = Vec::new();
+        let (mut cameras, mut camera_ids) = (Vec::new(), Vec::new());
         for (id, camera) in self.cameras {
             if camera_of_id.insert(id, cameras.len()).is_some() {
                 return Err(Error::malformed(format!("two cameras have ID {id}")));
             }
             cameras.push(camera);
+            camera_ids.push(id);
         }
         let mut image_of_id = HashMap::new();
         let mut images = Vec::new();
@@ -110,6 +111,7 @@ impl Parts {
         }
         let model = Model {
             cameras,
+            camera_ids,
             images,
             points,
         };

@@ -117,9 +117,9 @@ impl Model {
     /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
     /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
     /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
-    /// more off the axis of a fisheye to be behind the camera. Cameras and points are numbered from
-    /// one on. A name takes the rest of its line, so line breaks in it become `_`; COLMAP itself
-    /// reads it up to the first blank, in text files only.
+    /// more off the axis of a fisheye to be behind the camera. Points are numbered from one on. A
+    /// name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads it up
+    /// to the first blank, in text files only.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
@@ -145,7 +145,7 @@ impl Model {
                 t.x,
                 t.y,
                 t.z,
-                image.camera + 1,
+                self.camera_id(image.camera),
                 image.name.replace(['\n', '\r'], "_")
             );
             for (n, (keypoint, point)) in image.keypoints.iter().zip(point_of_keypoint).enumerate()
@@ -180,7 +180,7 @@ impl Model {
             points.push('\n');
         }
         Ok(vec![
-            ModelFile::new("cameras.txt", write_cameras_text(&self.cameras)),
+            ModelFile::new("cameras.txt", write_cameras_text(&self.numbered_cameras())),
             ModelFile::new("images.txt", images),
             ModelFile::new("points3D.txt", points),
         ])

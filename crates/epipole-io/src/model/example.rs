@@ -68,6 +68,7 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
         });
     }
     Model {
+        camera_ids: (0..cameras.len() as u32).map(|n| 9 - 2 * n).collect(),
         cameras,
         images,
         points,

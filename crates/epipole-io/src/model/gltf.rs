@@ -252,6 +252,7 @@ mod tests {
                 error_px: None,
                 track: Vec::new(),
             }],
+            ..Model::default()
         };
         let glb = model.to_glb().unwrap();
         let (json, binary) = chunks(&glb);

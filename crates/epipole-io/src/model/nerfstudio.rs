@@ -7,6 +7,7 @@
 //! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
 //! equation of the lens.
 
+use super::image_size::image_size;
 use super::{Beside, CameraList, Model, ModelFile, ModelImage, points_of};
 use crate::camera::nerfstudio::camera_of_frame;
 use crate::cloud::read_ply;
@@ -50,6 +51,13 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
     let document = Field::root(&node);
     let (mut cameras, mut images, mut notes) = (CameraList::default(), Vec::new(), Vec::new());
     let frames = document.need("frames", "the images")?.list()?;
+    let size = match document.get("w") {
+        Some(_) => None,
+        None => (frames
+            .first()
+            .and_then(|frame| frame.get("file_path")?.text()))
+        .and_then(|name| image_size(name, beside)),
+    };
     for (index, frame) in frames.iter().enumerate() {
         images.push(ModelImage {
             id: u32::try_from(index + 1).unwrap_or(u32::MAX),
@@ -57,7 +65,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
                 .need("file_path", "the image of the frame")?
                 .word()?
                 .to_owned(),
-            camera: cameras.number_of(camera_of_frame(frame, &document)?),
+            camera: cameras.number_of(camera_of_frame(frame, &document, size)?),
             cam_from_world: cam_from_world(&frame.need("transform_matrix", "world from camera")?)?,
             keypoints: Vec::new(),
         });
@@ -91,6 +99,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
         cameras: cameras.into_list(),
         images,
         points,
+        ..Model::default()
     };
     Ok((model, notes))
 }
@@ -206,6 +215,18 @@ mod tests {
             (400.0, 410.0, 300.0)
         );
         assert_eq!(notes.len(), 2);
+    }
+
+    #[cfg(feature = "photos")]
+    #[test]
+    fn a_size_that_is_missing_is_that_of_the_image() {
+        let text = r#"{ "camera_angle_x": 1.5707963267948966, "frames": [ { "file_path": "./train/r_0",
+            "transform_matrix": [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]] } ] }"#;
+        let file = |name: &str| (name == "train/r_0.png").then(|| b"P5 8 6 255\n".repeat(9));
+        let (model, _) = read(text.as_bytes(), &file).unwrap();
+        let camera = &model.cameras[0];
+        assert_eq!((camera.width, camera.height), (8, 6));
+        assert!((camera.intrinsics.fu_px() - 4.0).abs() < 1e-12);
     }
 
     #[test]

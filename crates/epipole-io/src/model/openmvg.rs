@@ -204,6 +204,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
         cameras: cameras.into_list(),
         images,
         points,
+        ..Model::default()
     };
     Ok((model, notes))
 }

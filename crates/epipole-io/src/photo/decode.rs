@@ -33,6 +33,9 @@ pub struct DecodeOptions {
     pub apply_orientation: bool,
     /// Sample values that become black and white.
     pub range: PixelRange,
+    /// Length of the longer side of the camera's sensor, millimeters, for files that have the focal
+    /// length in millimeters only.
+    pub sensor_width_mm: Option<f64>,
 }
 
 impl Default for DecodeOptions {
@@ -42,6 +45,7 @@ impl Default for DecodeOptions {
             max_pixels: 64_000_000,
             apply_orientation: true,
             range: PixelRange::Auto,
+            sensor_width_mm: None,
         }
     }
 }
@@ -54,6 +58,8 @@ pub struct Decoded<I> {
     /// Initial guess of the focal length from the EXIF data, pixels of this image; `None` without
     /// these data. With the principal point in the middle it gives an initial K.
     pub focal_px: Option<f64>,
+    /// Focal length from the EXIF data, millimeters.
+    pub focal_mm: Option<f64>,
     /// Position of the camera, if the file has GPS data.
     pub place: Option<Geodetic>,
     /// Rotation to upright that the file asks for, applied or not.
@@ -151,7 +157,9 @@ fn decode<P: Pixel + 'static>(
     }
     Ok(Decoded {
         image,
-        focal_px: (facts.as_ref()).and_then(|facts| facts.focal_length_px(width, height)),
+        focal_px: (facts.as_ref())
+            .and_then(|facts| facts.focal_length_px(width, height, options.sensor_width_mm)),
+        focal_mm: facts.as_ref().and_then(Facts::focal_length_mm),
         place: facts.and_then(|facts| facts.place()),
         orientation,
         range,

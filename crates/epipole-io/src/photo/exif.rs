@@ -34,15 +34,30 @@ impl Facts {
         self.numbers(tag).map(|[first, ..]| first)
     }
 
+    /// Focal length in millimeters.
+    pub(crate) fn focal_length_mm(&self) -> Option<f64> {
+        self.number(Tag::FocalLength)
+            .filter(|mm| mm.is_finite() && *mm > 0.0)
+    }
+
     /// Focal length in pixels of a `width × height` image.
+    ///
+    /// * `sensor_width_mm`: length of the sensor's longer side, if it is known: with the focal
+    ///   length in millimeters it comes before all else
     ///
     /// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without
     /// it, the focal length in millimeters times the resolution of the focal plane. `None` if
     /// neither is there or they make no sense.
     ///
     /// Source: CIPA DC-008 (EXIF 2.32), §4.6.5; CIPA DCG-001 for the equivalence of diagonals.
-    pub(crate) fn focal_length_px(&self, width: u32, height: u32) -> Option<f64> {
+    pub(crate) fn focal_length_px(
+        &self,
+        width: u32,
+        height: u32,
+        sensor_width_mm: Option<f64>,
+    ) -> Option<f64> {
         let (w, h) = (f64::from(width), f64::from(height));
+        let by_width = || Some(self.focal_length_mm()? * w.max(h) / sensor_width_mm?);
         let equivalent = || {
             let f_35mm = self.number(Tag::FocalLengthIn35mmFilm)?;
             Some(f_35mm * ((w * w + h * h) / FULL_FRAME_DIAGONAL_SQ).sqrt())
@@ -69,8 +84,9 @@ impl Facts {
             let ratio = focal_px / w.max(h);
             ratio > 0.1 && ratio < 100.0
         };
-        equivalent()
+        by_width()
             .filter(plausible)
+            .or_else(|| equivalent().filter(plausible))
             .or_else(|| measured().filter(plausible))
     }
 
@@ -127,7 +143,7 @@ mod tests {
     }
 
     fn focal_length_px(data: &[u8], width: u32, height: u32) -> Option<f64> {
-        Facts::read(data)?.focal_length_px(width, height)
+        Facts::read(data)?.focal_length_px(width, height, None)
     }
 
     /// A directory with a place: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a height of
@@ -196,6 +212,17 @@ mod tests {
         // 5 mm · 1000 px/cm = 500 px.
         let focal_px = focal_length_px(&block(3, 50), 640, 480).unwrap();
         assert!((focal_px - 500.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_sensor_width_turns_millimeters_into_pixels() {
+        // 5 mm on a sensor of 8 mm, whatever the resolution of the focal plane says.
+        let facts = Facts::read(&block(3, 50)).unwrap();
+        assert_eq!(facts.focal_length_mm(), Some(5.0));
+        for (width, height) in [(640, 480), (480, 640)] {
+            let focal_px = facts.focal_length_px(width, height, Some(8.0)).unwrap();
+            assert!((focal_px - 400.0).abs() < 1e-9);
+        }
     }
 
     #[test]

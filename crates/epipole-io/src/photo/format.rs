@@ -14,7 +14,7 @@ pub(super) enum Format {
 }
 
 /// Formats that are not read: their name, and the offset and bytes that tell them.
-const UNSUPPORTED: [(&str, usize, &[u8]); 32] = [
+const UNSUPPORTED: [(&str, usize, &[u8]); 36] = [
     ("HEIC", 4, b"ftyphei"),
     ("HEIC", 4, b"ftyphev"),
     ("HEIF", 4, b"ftypmif1"),
@@ -47,9 +47,15 @@ const UNSUPPORTED: [(&str, usize, &[u8]); 32] = [
     (VIDEO, 0, b"\x1A\x45\xDF\xA3"),
     (VIDEO, 4, b"ftyp"),
     ("ZIP", 0, b"PK\x03\x04"),
+    (POINTER, 0, b"version https://git-lfs"),
+    (PAGE, 0, b"<!DOCTYPE html"),
+    (PAGE, 0, b"<!doctype html"),
+    (PAGE, 0, b"<html"),
 ];
 
 const VIDEO: &str = "video";
+const POINTER: &str = "pointer (Git LFS)";
+const PAGE: &str = "web page (HTML)";
 
 /// Formats of images in words.
 const READ: &str = "PNG, JPEG, WebP, TIFF, BMP or PNM";
@@ -85,6 +91,8 @@ pub(super) fn unsupported(name: &str) -> Error {
         VIDEO => "take single frames out of it, as JPEG or PNG files",
         name if name.starts_with("camera raw") => "develop it to TIFF, JPEG or PNG",
         "ZIP" => "unpack it",
+        POINTER => "fetch the image by git lfs pull",
+        PAGE => "download the image itself",
         _ => "convert it to JPEG or PNG",
     };
     let article = match ["AVIF", "ICO", "OpenEXR", "SVG"].contains(&name) {
@@ -134,6 +142,12 @@ mod tests {
         assert!(raw.ends_with("develop it to TIFF, JPEG or PNG"), "{raw}");
         let video = told(b"\0\0\0\x20ftypisom\0\0\x02\0");
         assert!(video.contains("a video file"), "{video}");
+        let pointer = told(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+        assert!(
+            pointer.ends_with("fetch the image by git lfs pull"),
+            "{pointer}"
+        );
+        assert!(told(b"<!DOCTYPE html><html>").contains("a web page (HTML) file"));
         assert!(told(b"Dear reader").ends_with("it is no PNG, JPEG, WebP, TIFF, BMP or PNM file"));
         assert!(told(b"").ends_with("the file is empty"));
     }

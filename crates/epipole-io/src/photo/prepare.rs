@@ -22,6 +22,9 @@ pub struct PrepareOptions<'a> {
     pub max_file_pixels: u64,
     /// Sample values that become black and white.
     pub range: PixelRange,
+    /// Length of the longer side of the camera's sensor, millimeters, for files that have the focal
+    /// length in millimeters only.
+    pub sensor_width_mm: Option<f64>,
     /// Undistortion for images of one camera, those with its sensor's size before they are turned
     /// upright.
     pub undistortion: Option<&'a Undistortion>,
@@ -37,6 +40,7 @@ impl Default for PrepareOptions<'_> {
             max_pixels: u64::MAX,
             max_file_pixels: max_pixels,
             range,
+            sensor_width_mm: None,
             undistortion: None,
         }
     }
@@ -49,6 +53,8 @@ pub struct PreparedPhoto {
     pub image: RgbImage,
     /// A first guess of the focal length from the EXIF data, pixels of `image`.
     pub focal_px: Option<f64>,
+    /// Focal length from the EXIF data, millimeters.
+    pub focal_mm: Option<f64>,
     /// Position of the camera, from the EXIF data.
     pub place: Option<Geodetic>,
     /// K, pixels of `image`, if the distortion of a known lens was removed.
@@ -125,6 +131,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
         max_pixels: options.max_file_pixels,
         apply_orientation: false,
         range: options.range,
+        sensor_width_mm: options.sensor_width_mm,
     };
     let decoded = decode_rgb(bytes, &as_stored)?;
     let sensor_size = decoded.image.dimensions();
@@ -147,6 +154,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     let mut photo = PreparedPhoto {
         image,
         focal_px: None,
+        focal_mm: decoded.focal_mm,
         place: decoded.place,
         intrinsics: intrinsics.map(|k| k.resized(full_size, size)).transpose()?,
         full_size,

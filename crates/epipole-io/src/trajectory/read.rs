@@ -1,17 +1,21 @@
 //! Recognition of trajectories.
 
+use super::columns::Columns;
 use super::format::TrajectoryFormat;
+use super::kitti;
 use super::path::Trajectory;
+use super::timed::{self, Layout, Unit};
 use super::words::words;
-use super::{euroc, kitti, tum};
 use crate::text::{decode, lines};
 use crate::{Error, Result};
 
 /// Reads a trajectory, and tells its format by its content.
 ///
-/// Twelve numbers a line are KITTI's. Eight values and more are EuRoC's if commas separate them and
-/// times are whole numbers, else TUM's: the order of the quaternion follows from that. Quaternions
-/// are normalized, matrices replaced by the nearest rotation.
+/// Columns are those that a first line or a comment names. Without names, twelve numbers a line are
+/// KITTI's; eight values and more are EuRoC's if commas separate them and times are nanoseconds,
+/// else eight are TUM's: the order of the quaternion follows from that. Times are nanoseconds where
+/// seconds were 30,000 years, or a day apart. Quaternions are normalized, matrices replaced by the
+/// nearest rotation.
 ///
 /// # Errors
 /// [`Error::Malformed`] for another file, and with the line for wrong numbers, zero quaternions,
@@ -30,11 +34,10 @@ use crate::{Error, Result};
 pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
     let text = decode(bytes)?;
     decimal_commas(text)?;
-    let format = recognize(text)?;
-    let trajectory = match format {
-        TrajectoryFormat::Tum => tum::read(text),
-        TrajectoryFormat::Kitti => kitti::read(text),
-        TrajectoryFormat::EuRoC => euroc::read(text),
+    let (format, layout) = recognize(text)?;
+    let trajectory = match layout {
+        Some(layout) => timed::read(text, &layout),
+        None => kitti::read(text),
     }?;
     match trajectory.world_from_cam.is_empty() {
         true => Err(Error::malformed("the trajectory has no poses")),
@@ -42,16 +45,16 @@ pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
     }
 }
 
-/// Refuses commas where points belong: `0,5` between blanks.
+/// Refuses commas where points belong: `0,5` between blanks or semicolons.
 fn decimal_commas(text: &str) -> Result<()> {
     for (line, content) in lines(text) {
-        let fields = content.split_whitespace();
+        let fields = content.split(|c: char| c.is_whitespace() || c == ';');
         let is_comma = |word: &&str| {
             word.split_once(',').is_some_and(|(whole, share)| {
                 whole.trim_start_matches('-').parse::<u64>().is_ok() && share.parse::<u64>().is_ok()
             })
         };
-        if fields.clone().count() >= 8
+        if fields.clone().filter(|field| !field.is_empty()).count() >= 8
             && let Some(word) = fields.clone().find(is_comma)
         {
             let message = format!("\"{word}\" has a decimal comma: write a point");
@@ -66,21 +69,58 @@ pub fn is_trajectory(bytes: &[u8]) -> bool {
     decode(bytes).is_ok_and(|text| recognize(text).is_ok())
 }
 
-/// Format of the first line of numbers.
-fn recognize(text: &str) -> Result<TrajectoryFormat> {
-    let is_header = |content: &str| content.starts_with(|c: char| c.is_alphabetic());
-    let mut rows = lines(text).skip_while(|(_, content)| is_header(content));
+/// Format by names of columns, the first row and the times; the layout of rows with times.
+fn recognize(text: &str) -> Result<(TrajectoryFormat, Option<Layout>)> {
+    let is_header = |content: &str| content.starts_with(|c: char| c.is_alphabetic() || c == '%');
+    let num_header = lines(text)
+        .take_while(|(_, content)| is_header(content))
+        .count();
+    let mut rows = lines(text).skip(num_header);
     let Some((line, content)) = rows.next() else {
         return Err(Error::malformed("the trajectory has no poses"));
     };
-    let words = words(content);
-    let is_whole = words.first().is_some_and(|t| t.parse::<i64>().is_ok());
-    let has_commas = content.contains([',', ';']);
-    match (words.len(), has_commas && is_whole) {
-        (12, false) => Ok(TrajectoryFormat::Kitti),
-        (8.., true) => Ok(TrajectoryFormat::EuRoC),
-        (8, _) => Ok(TrajectoryFormat::Tum),
-        (count, _) => Err(Error::at(
+    let named = (text.lines().take(line - 1))
+        .filter_map(Columns::of_names)
+        .last();
+    let (mut last, mut num_rows) = (content, 1);
+    for (_, row) in rows {
+        (last, num_rows) = (row, num_rows + 1);
+    }
+    let place = named.map_or(0, |columns| columns.time);
+    let time = |row: &str| {
+        let word = words(row).get(place).copied().unwrap_or("");
+        word.parse().unwrap_or(0.0)
+    };
+    let unit = Unit::of_times(time(content), time(last), num_rows);
+    let is_euroc = content.contains([',', ';']) && unit == Unit::Nanoseconds;
+    let layout = |columns: Columns, max_width: usize, expected: &'static str| {
+        let format = match is_euroc && columns == Columns::EUROC {
+            true => TrajectoryFormat::EuRoC,
+            false => TrajectoryFormat::Tum,
+        };
+        let layout = Layout {
+            columns,
+            unit,
+            num_header,
+            max_width,
+            expected,
+        };
+        (format, Some(layout))
+    };
+    match (named, words(content).len()) {
+        (Some(columns), _) => Ok(layout(columns, usize::MAX, "values that the header names")),
+        (None, 8..) if is_euroc => Ok(layout(
+            Columns::EUROC,
+            usize::MAX,
+            "eight values t, px, py, pz, qw, qx, qy, qz",
+        )),
+        (None, 12) => Ok((TrajectoryFormat::Kitti, None)),
+        (None, 8) => Ok(layout(
+            Columns::TUM,
+            8,
+            "eight values t tx ty tz qx qy qz qw",
+        )),
+        (None, count) => Err(Error::at(
             line,
             format!(
                 "{count} values are no pose: 8 are expected of TUM (t tx ty tz qx qy qz qw) and EuRoC, 12 of KITTI"
@@ -157,6 +197,35 @@ mod tests {
     }
 
     #[test]
+    fn order_and_unit_follow_from_names_and_times() {
+        // Whole seconds between commas are TUM's.
+        let (format, path) = read("0,1,2,3,0,0,0.6,0.8\n1,1,2,3,0,0,0,1\n").unwrap();
+        assert_eq!(format, TrajectoryFormat::Tum);
+        assert_eq!(path.stamps_ns, Some(vec![0, 1_000_000_000]));
+        assert!((path.world_from_cam[0].rotation.w - 0.8).abs() < 1e-15);
+        // Nanoseconds that begin at 0.
+        let (format, path) = read("0,0,0,0,0.8,0,0,0.6\n5000000,0,0,0,1,0,0,0\n").unwrap();
+        assert_eq!(format, TrajectoryFormat::EuRoC);
+        assert_eq!(path.stamps_ns, Some(vec![0, 5_000_000]));
+        assert!((path.world_from_cam[0].rotation.k - 0.6).abs() < 1e-15);
+        // As ORB-SLAM3 writes EuRoC's: TUM's columns, nanoseconds.
+        let slam = "1403636579763555584.000000 1 2 3 0 0 0.6 0.8\n1403636579813555456.000000 1 2 3 0 0 0.6 0.8\n";
+        let (format, path) = read(slam).unwrap();
+        assert_eq!(format, TrajectoryFormat::Tum);
+        assert_eq!(path.stamps_ns.unwrap()[0], 1_403_636_579_763_555_584);
+        assert!((path.world_from_cam[0].rotation.w - 0.8).abs() < 1e-15);
+        // A numbered table, w first, velocities behind.
+        let table = "num,t,x,y,z,qw,qx,qy,qz,vx\n1,0.5,1,2,3,0.8,0,0,0.6,9\n";
+        let (_, path) = read(table).unwrap();
+        assert_eq!(path.stamps_ns, Some(vec![500_000_000]));
+        assert_eq!(path.world_from_cam[0].translation.z, 3.0);
+        assert!((path.world_from_cam[0].rotation.k - 0.6).abs() < 1e-15);
+        // KITTI's matrices between commas.
+        let (format, _) = read("1,0,0,0,0,1,0,0,0,0,1,5\n").unwrap();
+        assert_eq!(format, TrajectoryFormat::Kitti);
+    }
+
+    #[test]
     fn errors_name_the_line() {
         for (text, message) in [
             ("", "the trajectory has no poses"),
@@ -172,6 +241,10 @@ mod tests {
                 "0 0 0 0 0 0 0 1\n1 -0,5 0 0 0 0 0 1\n",
                 "line 2: \"-0,5\" has a decimal comma: write a point",
             ),
+            (
+                "0;0,5;0;0;0;0;0;1\n",
+                "line 1: \"0,5\" has a decimal comma: write a point",
+            ),
             ("0 0 0 x 0 0 0 1\n", "line 1: \"x\" is not a number"),
             (
                 "0 0 0 0 0 0 0 0\n",
@@ -186,8 +259,12 @@ mod tests {
                 "line 1: columns 1 to 3, 5 to 7 and 9 to 11 are not a rotation",
             ),
             (
-                "5,0,0,0,1,0,0,0\n6.5,0,0,0,1,0,0,0\n",
-                "line 2: \"6.5\" is not a whole number of nanoseconds",
+                "5.5,0,0,0,1,0,0,0\n5000000000,0,0,0,1,0,0,0\n",
+                "line 1: \"5.5\" is not a whole number of nanoseconds",
+            ),
+            (
+                "num t x y z qx qy qz qw\n1 0 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n",
+                "line 3: not the values that the header names: \"2 0 0 0 0 0 0 1\"",
             ),
         ] {
             assert_eq!(read(text).unwrap_err().to_string(), message, "{text}");

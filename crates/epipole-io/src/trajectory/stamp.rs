@@ -26,6 +26,26 @@ pub(super) fn from_seconds(line: usize, word: &str) -> Result<i64> {
     Ok(stamp as i64)
 }
 
+/// Whole nanoseconds, which may have a point: `1403636579763555584.000000`.
+pub(super) fn from_nanoseconds(line: usize, word: &str) -> Result<i64> {
+    let (whole, share) = word.split_once('.').unwrap_or((word, ""));
+    let is_whole = share.bytes().all(|b| b == b'0');
+    if let (true, Ok(stamp)) = (is_whole, whole.parse()) {
+        return Ok(stamp);
+    }
+    // `1.403636579763555584e+18`: as many digits as an f64 has.
+    let stamp = word
+        .parse::<f64>()
+        .ok()
+        .filter(|stamp| word.contains(['e', 'E']) && stamp.abs() < 9e18);
+    stamp.map(|stamp| stamp.round() as i64).ok_or_else(|| {
+        Error::at(
+            line,
+            format!("\"{word:.40}\" is not a whole number of nanoseconds"),
+        )
+    })
+}
+
 /// A decimal without exponent that fits.
 fn decimal(word: &str) -> Option<i64> {
     let (sign, digits) = match word.strip_prefix('-') {

@@ -4,29 +4,8 @@
 //! Source: Computer Vision Group TUM, "RGB-D SLAM dataset and benchmark", File formats.
 
 use super::path::Trajectory;
-use super::stamp::{check_order, from_seconds, to_seconds};
-use super::words::{pose, words};
-use crate::text::lines;
-use crate::{Error, Result};
+use super::stamp::to_seconds;
 use std::fmt::Write;
-
-pub(super) fn read(text: &str) -> Result<Trajectory> {
-    let mut stamps = Vec::new();
-    let mut world_from_cam = Vec::new();
-    for (line, content) in lines(text) {
-        let [t, x, y, z, qx, qy, qz, qw] = words(content)[..] else {
-            let message = format!("not the eight values t tx ty tz qx qy qz qw: \"{content:.60}\"");
-            return Err(Error::at(line, message));
-        };
-        stamps.push((line, from_seconds(line, t)?));
-        world_from_cam.push(pose(line, &[x, y, z], [qx, qy, qz, qw])?);
-    }
-    check_order(&stamps)?;
-    Ok(Trajectory {
-        stamps_ns: Some(stamps.iter().map(|(_, stamp)| *stamp).collect()),
-        world_from_cam,
-    })
-}
 
 pub(super) fn write(stamps_ns: &[i64], trajectory: &Trajectory) -> String {
     // Writing to a string cannot fail.

@@ -8,10 +8,12 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 /// Smallest norm of a quaternion that has a direction.
 const MIN_NORM: f64 = 1e-6;
 
-/// Words between blanks, or else between commas and semicolons, where a word may be empty.
+/// Words between semicolons, or else between commas, where a word may be empty, or else between
+/// blanks.
 pub(super) fn words(line: &str) -> Vec<&str> {
-    let fields = line.split([',', ';']).map(str::trim);
-    match line.contains([',', ';']) {
+    let separator = if line.contains(';') { ';' } else { ',' };
+    let fields = line.split(separator).map(str::trim);
+    match line.contains(separator) {
         // `1, 2, 3,` has three fields.
         true => {
             let mut fields: Vec<&str> = fields.collect();
@@ -60,7 +62,7 @@ mod tests {
     fn words_are_between_blanks_or_commas() {
         assert_eq!(words(" 1  2\t3 "), ["1", "2", "3"]);
         assert_eq!(words("1, 2,3,"), ["1", "2", "3"]);
-        assert_eq!(words("1;;3"), ["1", "", "3"]);
+        assert_eq!(words("1;;3,5"), ["1", "", "3,5"]);
     }
 
     #[test]

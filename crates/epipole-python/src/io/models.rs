@@ -167,6 +167,7 @@ impl Model {
             cameras: cameras.into_iter().map(|camera| camera.0).collect(),
             images: images.into_iter().map(|image| image.0).collect(),
             points,
+            ..model::Model::default()
         }))
     }
 

@@ -190,6 +190,7 @@ impl PreparedPhoto {
         Ok(Self(photo::PreparedPhoto {
             image: rgb("image", image)?,
             focal_px,
+            focal_mm: None,
             place: place.map(|place| place.0),
             intrinsics: intrinsics.map(|intrinsics| intrinsics.0),
             full_size,

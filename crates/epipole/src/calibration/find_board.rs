@@ -3,6 +3,7 @@
 use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
+use super::contrast::stretched;
 use super::crossing::edges_through;
 use super::marker_board::find_marker_board;
 use super::refine_mark::{CLEAR_SQUARES, refine_mark};
@@ -24,6 +25,8 @@ const FIRST_SIDE: u32 = 1300;
 ///
 /// Of a board with markers any part is enough that shows one marker and six marks in two rows and
 /// two columns: the markers tell which ones.
+///
+/// An image of little contrast in which nothing is found is stretched and searched again.
 ///
 /// * `image`: gray values in [0, 1]
 /// * `monitor`: hears before each image of the pyramid that is searched, in the one stage
@@ -62,6 +65,17 @@ pub fn find_board(
     monitor: &mut dyn Monitor,
 ) -> Result<BoardSearch> {
     check_range(image)?;
+    let found = search(image, board, monitor)?;
+    if found == BoardSearch::Nothing
+        && let Some(stretched) = stretched(image)
+    {
+        return search(&stretched, board, monitor);
+    }
+    Ok(found)
+}
+
+/// Finds a board in an image of usual contrast.
+fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Result<BoardSearch> {
     if board.pattern().has_markers() {
         return find_marker_board(image, board, monitor);
     }
@@ -223,6 +237,23 @@ mod tests {
         }
         println!("{num_found} of {num_poses}");
         assert!(num_poses >= 8 && num_found == num_poses);
+    }
+
+    /// Sixteen gray values of an 8-bit image, as thermal cameras give them.
+    #[test]
+    fn a_board_of_little_contrast_is_found() {
+        let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
+        let [camera, ..] = cameras();
+        for pose in poses(&board, 3, 17.0, 3) {
+            let truth = true_view(&board, &camera, &pose);
+            let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1);
+            for Luma([value]) in image.pixels_mut() {
+                *value = (100.0 + (*value * 15.0).round()) / 255.0;
+            }
+            let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
+            let (largest, rms) = errors(&view, &truth);
+            assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
+        }
     }
 
     #[test]

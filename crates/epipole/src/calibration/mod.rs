@@ -22,6 +22,7 @@ mod calibrated_view;
 mod chessboard;
 mod circle_grid;
 mod closed_form;
+mod contrast;
 mod coverage;
 mod crossing;
 mod drawing;

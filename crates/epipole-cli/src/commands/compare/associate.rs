@@ -1,27 +1,37 @@
 //! Poses of two trajectories that belong together.
 
+use super::poses::Poses;
 use crate::failure::Failure;
-use epipole_io::trajectory::Trajectory;
+use std::collections::HashMap;
+use std::path::Path;
 
 /// Pairs of poses.
 pub(super) struct Association {
     /// Indices into truth and estimate.
     pub(super) pairs: Vec<(usize, usize)>,
-    /// `time` or `index`.
+    /// `time`, `name` or `index`.
     pub(super) by: &'static str,
 }
 
-/// Nearest poses in time, or poses of equal number if a trajectory has no times.
+/// Nearest poses in time, images of equal names, or poses of equal number if there are neither
+/// times nor names.
 ///
 /// * `max_difference_s`: seconds; `None` for numbers in any case
 ///
 /// # Errors
-/// A sentence, if no times are near, or numbers of poses differ.
+/// A sentence, if no times are near, no names are equal, or numbers of poses differ.
 pub(super) fn associate(
-    truth: &Trajectory,
-    estimate: &Trajectory,
+    both: &[Poses; 2],
     max_difference_s: Option<f64>,
 ) -> Result<Association, Failure> {
+    let [truth, estimate] = both.each_ref().map(|poses| &poses.trajectory);
+    if let ([Some(first), Some(second)], Some(_)) = (
+        both.each_ref().map(|poses| poses.names.as_deref()),
+        max_difference_s,
+    ) {
+        let pairs = by_name(first, second)?;
+        return Ok(Association { pairs, by: "name" });
+    }
     let times = (&truth.stamps_ns, &estimate.stamps_ns, max_difference_s);
     if let (Some(truth), Some(estimate), Some(max_difference_s)) = times {
         let max_ns = max_difference_s * 1e9;
@@ -48,6 +58,38 @@ pub(super) fn associate(
         pairs: (0..first).map(|i| (i, i)).collect(),
         by: "index",
     })
+}
+
+/// Part of a name that two images have in common.
+type Key<'a> = &'a dyn Fn(&String) -> Option<String>;
+
+/// Images of equal names, or else of names that differ in folder and ending only.
+fn by_name(first: &[String], second: &[String]) -> Result<Vec<(usize, usize)>, Failure> {
+    let stem = |name: &String| {
+        Path::new(name)
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+    };
+    let keys: [Key; 2] = [&|name| Some(name.clone()), &stem];
+    for key in keys {
+        let place_of: HashMap<String, usize> = second
+            .iter()
+            .enumerate()
+            .filter_map(|(j, name)| Some((key(name)?, j)))
+            .collect();
+        let pairs: Vec<(usize, usize)> = (first.iter().enumerate())
+            .filter_map(|(i, name)| Some((i, *place_of.get(&key(name)?)?)))
+            .collect();
+        if !pairs.is_empty() {
+            return Ok(pairs);
+        }
+    }
+    let message = format!(
+        "no image has the name of another: \"{}\" and others, \"{}\" and others (--by-index compares \
+         images of equal number)",
+        first[0], second[0]
+    );
+    Err(Failure::new("too-few", message))
 }
 
 /// The nearest of `long` for each of `short`, if it is near enough; the earlier of two.

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::output_folder::OutputFolder;
+use crate::output_folder::colmap::check_foreign;
 use epipole_io::model::{ModelFile, ModelFormat};
 use std::path::{Path, PathBuf};
 
@@ -34,15 +35,7 @@ pub(super) fn write_folder(
         other => other.name(),
     };
     let mut output = OutputFolder::new(folder, owner);
-    // COLMAP reads binary files first, whatever is beside them.
-    if format == ModelFormat::ColmapText && output.holds_foreign("cameras.bin") {
-        return Err(Failure::new(
-            "write",
-            "COLMAP would read this file and not the text beside it: choose another folder, or \
-             --to colmap-binary",
-        )
-        .about(&folder.join("cameras.bin")));
-    }
+    check_foreign(&output, "", format)?;
     let mut written = Vec::new();
     for file in &files {
         let path = output.write(&file.name, &file.bytes)?;

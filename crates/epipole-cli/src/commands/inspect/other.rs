@@ -104,7 +104,12 @@ fn of_photo(bytes: &[u8]) -> Result<Found> {
     }
     notes.push(match decoded.focal_px {
         Some(focal_px) => format!("EXIF gives a focal length of {focal_px:.1} px"),
-        None => "no EXIF focal length".to_owned(),
+        None => match decoded.focal_mm {
+            Some(mm) => format!(
+                "EXIF gives a focal length of {mm:.1} mm, but not the size of the sensor: give --sensor-width-mm"
+            ),
+            None => "no EXIF focal length".to_owned(),
+        },
     });
     if decoded.place.is_some() {
         notes.push("EXIF gives the position of the camera".to_owned());

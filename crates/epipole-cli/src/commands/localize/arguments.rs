@@ -20,8 +20,8 @@ const EXAMPLE: &str = "Example: epipole localize new.jpg reconstruction/ --image
     The model is one of COLMAP (text, binary), Bundler or openMVG, with observations of its points. Features are found\n\
     in the images of the model and in the new photos; those of an image that are where it observes a point stand for\n\
     the point.\n\n\
-    A new photo has the camera of --k, --focal-px or --camera; else that camera of the model that has its size; else the\n\
-    focal length of its EXIF data, or 1.2 times the longer side.\n\n\
+    A new photo has the camera of --k, --focal-px or --camera; else that camera of the model that has its size, or the\n\
+    only one of its shape; else the focal length of its EXIF data, or 1.2 times the longer side.\n\n\
     JSON: photos (name; cam_from_world and center, null where it was not found; num_inliers, num_matches, focal_px;\n\
     reason, null where it was found), num_localized, num_observations (of points in the images of the model),\n\
     num_found_again (those where a feature is)."

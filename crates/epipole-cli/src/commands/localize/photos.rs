@@ -38,6 +38,40 @@ impl Localized {
     }
 }
 
+/// The camera of a model that has the size of a photo, or else the only one that has its shape: the
+/// model may be of downscaled images.
+fn of_model(
+    cameras: &[Camera],
+    size: (u32, u32),
+    name: &str,
+    context: &Context,
+) -> Result<Option<Camera>, Failure> {
+    let size_of = |camera: &Camera| (camera.width, camera.height);
+    if let Some(camera) = cameras.iter().find(|camera| size_of(camera) == size) {
+        return Ok(Some(*camera));
+    }
+    let (width, height) = (f64::from(size.0), f64::from(size.1));
+    // Sides of downscaled images are rounded.
+    let has_shape = |camera: &&Camera| {
+        let scale = f64::from(camera.width) / width;
+        (height * scale - f64::from(camera.height)).abs() <= 0.5 + scale / 2.0
+    };
+    let mut shaped = cameras.iter().filter(has_shape);
+    let (Some(camera), None) = (shaped.next(), shaped.next()) else {
+        return Ok(None);
+    };
+    context.warn(&format!(
+        "{name}: taking the camera of the model, which is of {} × {}, for {} × {}",
+        camera.width, camera.height, size.0, size.1
+    ));
+    Ok(Some(Camera {
+        width: size.0,
+        height: size.1,
+        intrinsics: camera.intrinsics.resized(size_of(camera), size)?,
+        lens: camera.lens,
+    }))
+}
+
 impl NewPhoto {
     /// Reads a photo and finds its features.
     ///
@@ -59,11 +93,10 @@ impl NewPhoto {
                 Some(camera)
             }
             None if arguments.camera.is_given() => None,
-            None => {
-                let size = lens::size_of(path);
-                let fits = |camera: &&Camera| size == Some((camera.width, camera.height));
-                cameras.iter().find(fits).copied()
-            }
+            None => match lens::size_of(path) {
+                Some(size) => of_model(cameras, size, &listed.name, context)?,
+                None => None,
+            },
         };
         let photo = match &own {
             Some(camera) => Photo::by_camera(path, arguments.size, camera, context)?,

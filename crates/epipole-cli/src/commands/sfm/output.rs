@@ -3,10 +3,12 @@
 use super::input::Used;
 use crate::failure::Failure;
 use crate::output_folder::OutputFolder;
+use crate::output_folder::colmap::check_foreign;
 use crate::{photo, picture};
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use epipole_io::model::{Model, ModelFormat};
 use std::collections::BTreeSet;
+use std::iter;
 use std::path::{Path, PathBuf};
 
 /// Folder of the images below the output.
@@ -80,6 +82,26 @@ fn with_jpg(name: &str) -> String {
         "" => format!("{stem}.jpg"),
         folders => format!("{folders}/{stem}.jpg"),
     }
+}
+
+/// Refuses a folder with files of another COLMAP model, where models of this run will be.
+///
+/// # Errors
+/// A sentence naming the file.
+pub(super) fn check_models(output: &OutputFolder) -> Result<(), Failure> {
+    let further = (2..).map(component_folder);
+    let further = further.take_while(|below| output.folder().join(below).is_dir());
+    for below in iter::once(String::new()).chain(further) {
+        for format in [ModelFormat::ColmapText, ModelFormat::ColmapBinary] {
+            check_foreign(output, &below, format)?;
+        }
+    }
+    Ok(())
+}
+
+/// Folder of a further component, which counts from 2.
+pub(super) fn component_folder(number: usize) -> String {
+    format!("component{number}/")
 }
 
 /// Writes a reconstruction and returns the files.

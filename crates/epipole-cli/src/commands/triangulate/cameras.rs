@@ -119,6 +119,10 @@ fn of_model(model: &Model, images: Option<&str>) -> Result<Pair, Failure> {
             return Err(Failure::usage(message));
         }
     };
+    if std::ptr::eq(pair[0], pair[1]) {
+        let message = format!("--images names {} twice: name two images", pair[0].name);
+        return Err(Failure::usage(message));
+    }
     Ok((
         pair.map(|image| camera_of(model, image)),
         Some(pair.map(|image| image.name.clone())),

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::features::matched_pixels;
 use crate::match_file;
 use crate::photo::Photo;
+use crate::units::{warn_of_shares, warn_of_units};
 use nalgebra::Point2;
 
 /// Two photographs and their matches.
@@ -30,9 +31,23 @@ impl Input {
             _ => without_photos(arguments, context)?,
         };
         if let Some(path) = &arguments.matches {
+            let pixels = match_file::matches(path)?;
+            let known = match arguments.camera.given(&photos)? {
+                Some(known) => known.map(Some),
+                None => photos.each_ref().map(|photo| photo.k),
+            };
+            for (pixels, known) in pixels.iter().zip(known) {
+                match known {
+                    Some(k) => warn_of_units(pixels, &k, context),
+                    None => {
+                        let max_error_px = arguments.robust.options(context).max_error_px;
+                        warn_of_shares(&[pixels], max_error_px, context);
+                    }
+                }
+            }
             return Ok(Self {
                 photos,
-                pixels: match_file::matches(path)?,
+                pixels,
                 nums_keypoints: None,
             });
         }

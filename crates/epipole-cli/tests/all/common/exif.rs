@@ -65,6 +65,17 @@ pub(crate) fn place(place: &Geodetic) -> Vec<u8> {
     data
 }
 
+/// EXIF block with a focal length in millimeters, and no more.
+pub(crate) fn millimeters(mm: u32) -> Vec<u8> {
+    let start = 8 + 2 + 12 + 4;
+    let mut data = block(0x8769, LONG, start);
+    directory(&mut data, &[(0x920A, RATIONAL, 1, start + 2 + 12 + 4)]);
+    for number in [mm, 1] {
+        data.extend(number.to_le_bytes());
+    }
+    data
+}
+
 /// Writes a PNG file with EXIF data.
 pub(crate) fn write_png(file: &Path, image: &RgbImage, exif: Vec<u8>) {
     let mut bytes = Vec::new();

@@ -1,0 +1,141 @@
+//! Warnings about a pair that is not rectified, or whose disparities are outside of the range.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::Photo;
+use epipole::feature::{FeatureOptions, MatchOptions, detect_features, match_descriptors};
+use epipole::imaging::resize;
+
+/// Pixels of the images in which features are looked for.
+const MAX_PIXELS: f64 = 4e5;
+
+/// Largest distance between the rows of a match of a rectified pair, pixels of these images.
+const TOLERANCE_PX: f64 = 1.5;
+
+/// Matches from which on they are representative.
+const MIN_MATCHES: usize = 30;
+
+/// From the left to the right pixel of a match.
+type Move = [f64; 2];
+
+/// Warns, from the features of both images, if rows do not agree or if most disparities are not
+/// looked for.
+///
+/// * `range`: smallest and largest disparity, pixels
+///
+/// # Errors
+/// As the core's detector.
+pub(super) fn check(
+    photos: &[Photo; 2],
+    range: (i32, i32),
+    context: &Context,
+) -> Result<(), Failure> {
+    let (moves, scale) = moves(photos)?;
+    if let Some(sentence) = sentence(&moves, TOLERANCE_PX / scale, range) {
+        context.warn(&sentence);
+    }
+    Ok(())
+}
+
+/// Moves of the matches, and the scale of the images in which they were found.
+fn moves(photos: &[Photo; 2]) -> Result<(Vec<Move>, f64), Failure> {
+    let (width, height) = photos[0].color.dimensions();
+    let scale = (MAX_PIXELS / (f64::from(width) * f64::from(height)))
+        .sqrt()
+        .min(1.0);
+    let side = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
+    let options = FeatureOptions::default().with_max_features(2000);
+    let features = |photo: &Photo| -> Result<_, Failure> {
+        let gray = match scale < 1.0 {
+            true => resize(&photo.gray(), side(width), side(height))?,
+            false => photo.gray(),
+        };
+        Ok(detect_features(&gray, &options, &mut ())?)
+    };
+    let [left, right] = [features(&photos[0])?, features(&photos[1])?];
+    let matching = MatchOptions::default()
+        .with_max_ratio(Some(0.8))
+        .with_mutual(true);
+    let matches = match_descriptors(&left.descriptors, &right.descriptors, &matching, &mut ())?;
+    let moves = matches.iter().map(|found| {
+        let (a, b) = (
+            &left.keypoints[found.index1],
+            &right.keypoints[found.index2],
+        );
+        [(b.u - a.u) / scale, (b.v - a.v) / scale]
+    });
+    Ok((moves.collect(), scale))
+}
+
+fn sentence(moves: &[Move], tolerance_px: f64, (low, high): (i32, i32)) -> Option<String> {
+    let count = moves.len();
+    if count < MIN_MATCHES {
+        return None;
+    }
+    let stays = |axis: usize| moves.iter().filter(move |m| m[axis].abs() <= tolerance_px);
+    let (num_columns, num_rows) = (stays(0).count(), stays(1).count());
+    if 10 * num_rows < 3 * count {
+        let found = format!("{num_rows} of {count} matches are in one row");
+        return Some(match 2 * num_columns > count {
+            true => format!(
+                "columns agree, not rows: {found}, {num_columns} in one column; disparities are \
+                 looked for along rows, so turn both images by 90°"
+            ),
+            false => format!(
+                "rows do not agree: {found}; rectify the pair first (epipole rectify), or the \
+                 disparities mean nothing"
+            ),
+        });
+    }
+    let mut disparities: Vec<f64> = stays(1).map(|m| -m[0]).collect();
+    disparities.sort_by(f64::total_cmp);
+    let (low, high) = (
+        f64::from(low) - tolerance_px,
+        f64::from(high) + tolerance_px,
+    );
+    let num_missed = disparities
+        .iter()
+        .filter(|d| !(low..=high).contains(*d))
+        .count();
+    if 10 * num_missed <= num_rows {
+        return None;
+    }
+    let at = |share: f64| disparities[(share * (num_rows - 1) as f64).round() as usize];
+    let (first, last) = (at(0.02).floor(), at(0.98).ceil());
+    let found = format!(
+        "{num_missed} of {num_rows} matches have disparities that are not looked for: they are {first} to {last} px"
+    );
+    Some(match last < low {
+        true => format!("{found}; left and right may be swapped"),
+        false => format!("{found}; set --min-disparity and --max-disparity"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    /// Moves by `of` for 0 to 99.
+    fn of(of: impl Fn(f64) -> Move) -> Vec<Move> {
+        (0..100).map(|n| of(f64::from(n))).collect()
+    }
+
+    #[test]
+    fn a_good_pair_is_not_commented() {
+        let good = of(|n| [-n / 2.0, if n > 70.0 { n } else { 0.3 }]);
+        assert_eq!(sentence(&good, 1.5, (0, 64)), None);
+        assert_eq!(sentence(&good[..20], 1.5, (0, 4)), None);
+    }
+
+    #[test]
+    fn each_cause_has_its_sentence() {
+        let told = |moves: &[Move]| sentence(moves, 1.5, (0, 64)).unwrap();
+        assert!(told(&of(|n| [0.2, 5.0 + n])).starts_with("columns agree, not rows: 0 of 100"));
+        assert!(told(&of(|n| [n + 3.0, 5.0 + n])).starts_with("rows do not agree"));
+        assert!(told(&of(|n| [n + 3.0, 0.0])).ends_with("left and right may be swapped"));
+        let far = told(&of(|n| [-60.0 - n, 0.0]));
+        assert!(far.contains("they are 61 to 158 px; set --min"), "{far}");
+    }
+}

@@ -1,0 +1,111 @@
+//! The matrix Q of a rectified pair, from pixels with disparities to points.
+//!
+//! Source: OpenCV's documentation of `calib3d`, `stereoRectify` and `reprojectImageTo3D`.
+
+use crate::text::decode;
+use crate::tree::{Field, Syntax};
+use crate::{Error, Result};
+use nalgebra::Matrix4;
+
+/// Reads Q: the key `Q` of JSON, YAML or XML, such as OpenCV writes, or sixteen numbers row by row.
+///
+/// # Errors
+/// [`Error::Malformed`] without sixteen finite numbers, and if the last row does not depend on the
+/// disparity.
+///
+/// ```
+/// use epipole_io::camera::read_q;
+/// let q = read_q(b"1 0 0 -320\n0 1 0 -240\n0 0 0 700\n0 0 8 0\n")?;
+/// assert_eq!((q[(2, 3)], q[(3, 2)]), (700.0, 8.0));
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
+    let text = decode(bytes)?;
+    let numbers = match plain(text) {
+        Some(numbers) => numbers,
+        None => keyed(text)?,
+    };
+    let entries: [f64; 16] = (numbers.try_into()).map_err(|numbers: Vec<f64>| {
+        Error::malformed(format!("Q has {} numbers, not 16", numbers.len()))
+    })?;
+    let q = Matrix4::from_row_slice(&entries);
+    if !q.iter().all(|entry| entry.is_finite()) {
+        return Err(Error::malformed("Q has entries that are not finite"));
+    }
+    match q[(3, 2)] == 0.0 || q[(2, 3)] == 0.0 {
+        true => Err(Error::malformed(
+            "this is no Q: row 4, column 3 is ±1 over the baseline and row 3, column 4 the focal \
+             length, neither can be 0",
+        )),
+        false => Ok(q),
+    }
+}
+
+/// Numbers of a text that has nothing else.
+fn plain(text: &str) -> Option<Vec<f64>> {
+    let between = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '[' | ']');
+    let words = text.split(between).filter(|word| !word.is_empty());
+    let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    numbers.filter(|numbers| !numbers.is_empty())
+}
+
+/// Numbers of the key `Q`.
+fn keyed(text: &str) -> Result<Vec<f64>> {
+    let tree = Syntax::of(text).parse(text)?;
+    let whole = Field::root(&tree);
+    let root = whole.get("opencv_storage").unwrap_or(whole);
+    let field = root.any(&["q", "disparitytodepthmatrix"]);
+    match field {
+        Some(field) => field.numbers(),
+        None => Err(root.missing(
+            "Q",
+            "16 numbers; `epipole rectify --json` with known cameras prints one",
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NUMBERS: &str = "1, 0, 0, -319.5, 0, 1, 0, -239.5, 0, 0, 0, 700, 0, 0, 8.5, 0.25";
+
+    #[test]
+    fn q_of_each_syntax() {
+        let yaml = format!(
+            "%YAML:1.0\n---\nQ: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ {NUMBERS} ]\n"
+        );
+        let xml = format!(
+            "<?xml version=\"1.0\"?>\n<opencv_storage><Q type_id=\"opencv-matrix\"><rows>4</rows><cols>4</cols>\
+             <dt>d</dt><data>{}</data></Q></opencv_storage>\n",
+            NUMBERS.replace(',', "")
+        );
+        for text in [
+            format!("{{\"q\": [{NUMBERS}], \"num_inliers\": 7}}"),
+            yaml,
+            xml,
+            NUMBERS.replace(", 0, 1,", "\n0, 1,"),
+            format!("[[{NUMBERS}]]"),
+        ] {
+            let q = read_q(text.as_bytes()).unwrap();
+            assert_eq!(
+                (q[(0, 3)], q[(2, 3)], q[(3, 2)], q[(3, 3)]),
+                (-319.5, 700.0, 8.5, 0.25)
+            );
+        }
+    }
+
+    #[test]
+    fn a_wrong_q_is_named() {
+        for (text, message) in [
+            ("1 2 3", "Q has 3 numbers, not 16"),
+            ("{\"q\": null}", "Q is missing"),
+            ("{\"k\": [1]}", "Q is missing"),
+            ("1 0 0 0 0 1 0 0 0 0 0 nan 0 0 1 0", "not finite"),
+            ("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "this is no Q"),
+        ] {
+            let error = read_q(text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(message), "{error}");
+        }
+    }
+}
