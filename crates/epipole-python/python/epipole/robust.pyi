@@ -350,7 +350,7 @@ class Trial:
     model
         Best of them, or None.
     score
-        Its score. An upper bound if the model could not win, unless ``score_every_trial`` is set.
+        Its score. An upper bound if it could not win, unless ``score_every_trial`` is set.
     num_inliers
         Number of its inliers. A lower bound in the same case.
     required_iterations
@@ -358,7 +358,7 @@ class Trial:
     is_best
         Whether the best model so far came out of this step.
     refined
-        That model after local optimization, or None if it was not improved.
+        Best model after local optimization, or None if it was not improved.
     """
     def __new__(
         cls,
@@ -386,7 +386,7 @@ class Trial:
         """Best of them, or None."""
     @property
     def score(self) -> float:
-        """Its score. An upper bound if the model could not win, unless ``score_every_trial`` is set."""
+        """Its score. An upper bound if it could not win, unless ``score_every_trial`` is set."""
     @property
     def num_inliers(self) -> int:
         """Number of its inliers. A lower bound in the same case."""
@@ -398,7 +398,7 @@ class Trial:
         """Whether the best model so far came out of this step."""
     @property
     def refined(self) -> Any:
-        """That model after local optimization, or None if it was not improved."""
+        """Best model after local optimization, or None if it was not improved."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 

@@ -1,7 +1,7 @@
 //! Functions of single points, for arrays of points.
 //!
-//! Points go to the function in blocks that stay in the cache. A fast function reads them where they
-//! are; the GIL, which it holds, keeps other threads from changing them. For a slow one a block is
+//! Points go to the function in blocks that stay in the cache. A fast function reads them in place;
+//! the GIL, which it holds, keeps other threads from changing them. For a slow one a block is
 //! copied and the GIL released: both cost little beside the function.
 
 use super::{Numbers, wrong_shape};

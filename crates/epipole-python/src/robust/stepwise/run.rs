@@ -22,7 +22,7 @@ record! {
         num_models: usize,
         /// Best of them, or None.
         model: Option<Py<PyAny>>,
-        /// Its score. An upper bound if the model could not win, unless ``score_every_trial`` is set.
+        /// Its score. An upper bound if it could not win, unless ``score_every_trial`` is set.
         score: f64,
         /// Number of its inliers. A lower bound in the same case.
         num_inliers: usize,
@@ -30,7 +30,7 @@ record! {
         required_iterations: Option<u64>,
         /// Whether the best model so far came out of this step.
         is_best: bool,
-        /// That model after local optimization, or None if it was not improved.
+        /// Best model after local optimization, or None if it was not improved.
         refined: Option<Py<PyAny>>,
     }
 }
