@@ -145,9 +145,11 @@ audit: setup-build ## known holes in what we build from; asks the registries, so
 bench: setup target/peers/.installed tests/bench/node_modules/.installed ## us and our peers on the same work
 	tests/bench.sh
 
-bench-python: python target/peers/.installed ## the Python package beside OpenCV, PoseLib and scikit-image: milliseconds and quality
+bench-python: python target/peers/.installed ## the Python package beside OpenCV, PoseLib and scikit-image, and beside the library itself
 	target/peers/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall target/wheels/epipole-*.whl
 	target/peers/bin/python tests/peers/time_python.py $${EPIPOLE_DATA:-../shared/data}
+	cargo build --release --locked --manifest-path $(PACKAGE)/Cargo.toml --example native_times
+	target/peers/bin/python tests/peers/time_calls.py target/release/examples/native_times
 
 bench-lab: setup build ## what the Lab costs in a browser: seconds, frames, memory
 	$(BOOK) lab

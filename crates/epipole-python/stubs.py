@@ -52,6 +52,8 @@ SPECIAL = {
     "__bool__": "(self) -> bool",
     "__class_getitem__": "(cls, model: Any) -> Any",
     "__contains__": "(self, item: object, /) -> bool",
+    "__iter__": "(self, /) -> Ransac",
+    "__next__": "(self, /) -> Trial",
     "__getnewargs_ex__": "(self, /) -> tuple[tuple[Any, ...], dict[str, Any]]",
 }
 # Those that `object` has.
@@ -336,7 +338,7 @@ class Room:
             return [f"{indent}# {self.fail('there is no signature')}"]
         if is_special:
             signature = renamed(signature, rust)
-        parts = self.parameters(signature, rust, doc, owner, owner is None)
+        parts = self.parameters(signature, rust, doc, owner, not is_special)
         if owner is None and not section(doc, "Returns") and returned != "PyResult<()>":
             self.fail("the docstring does not list the result")
         result = self.result(returned, doc, owner)
@@ -397,12 +399,11 @@ class Room:
             self.where = f"{name}.__new__"
             rust = {f: k for (c, f), k in self.rust.fields.items() if c == name}
             # A record takes objects of any kind where it has them.
-            rust = {f: "Any" if k == "Py<PyAny>" else k for f, k in rust.items()}
+            rust = {f: k.replace("Py<PyAny>", "Any") for f, k in rust.items()}
             if name in GENERIC:
                 rust[GENERIC[name]] = "_Model"
             rust |= self.rust.functions.get((name, "new"), ({}, None, ""))[0]
-            is_strict = bool(section(doc, "Parameters"))
-            parts = self.parameters(inspect.signature(cls), rust, doc, name, is_strict)
+            parts = self.parameters(inspect.signature(cls), rust, doc, name, True)
             made = f"{name}[_Model]" if name in GENERIC else name
             lines += definition("__new__", ["cls", *parts], made, "    ", "")
         for key in sorted(names, key=lambda key: self.place(name, key)):

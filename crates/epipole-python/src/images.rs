@@ -10,7 +10,7 @@ pub(crate) use elements::{column, dtype, elements, kind, table, wrong_shape};
 use crate::arrays::as_array;
 use crate::errors::OrRaise;
 use crate::{options, progress};
-use elements::{real_array, require_finite, shape_text};
+use elements::{finite_elements, first, real_array, shape_text};
 use epipole::image::{GrayImage, ImageBuffer, Pixel, RgbImage};
 use epipole::imaging::{self, Border, GrayImage32};
 use epipole::stereo::DisparityImage;
@@ -72,8 +72,7 @@ impl Image {
         };
         let (width, height) = (side(name, width, &array)?, side(name, height, &array)?);
         Ok(if !is_bytes {
-            let values: Vec<f32> = elements(&array, "float32")?;
-            require_finite(name, &values, width as usize)?;
+            let values = finite_elements(name, &array, width as usize)?;
             Self::Gray32(filled(width, height, values))
         } else if is_color {
             Self::Rgb8(filled(width, height, elements(&array, "uint8")?))
@@ -199,9 +198,9 @@ pub(crate) fn rgb(name: &str, value: &Bound<'_, PyAny>) -> PyResult<RgbImage> {
 /// # Errors
 /// As [`Image::read`].
 pub(crate) fn field(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
-    let field = real_field(name, value)?;
-    require_finite(name, field.as_raw(), field.width() as usize)?;
-    Ok(field)
+    let (array, width, height) = grid(name, value)?;
+    let values = finite_elements(name, &array, width as usize)?;
+    Ok(filled(width, height, values))
 }
 
 /// Reads disparities, shape `(H, W)`, NaN where unknown.
@@ -217,18 +216,21 @@ pub(crate) fn disparity(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Dispar
             dtype(&array)?
         )));
     }
-    let image = real_field(name, value)?;
-    let (width, height) = image.dimensions();
-    DisparityImage::from_raw(width, height, image.into_raw()).or_raise()
+    let (array, width, height) = grid(name, &array)?;
+    DisparityImage::from_raw(width, height, elements(&array, "float32")?).or_raise()
 }
 
-fn real_field(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32> {
+/// Array of real numbers of shape `(H, W)`, with W and H.
+fn grid<'py>(
+    name: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<(Bound<'py, PyUntypedArray>, u32, u32)> {
     let array = real_array(name, value, "(H, W)")?;
     let [height, width] = *array.shape() else {
         return Err(wrong_shape(name, "(H, W)", &array)?);
     };
     let (width, height) = (side(name, width, &array)?, side(name, height, &array)?);
-    Ok(filled(width, height, elements(&array, "float32")?))
+    Ok((array, width, height))
 }
 
 /// Array of shape `(H, W)`.
@@ -292,10 +294,11 @@ fn side(name: &str, length: usize, array: &Bound<'_, PyUntypedArray>) -> PyResul
 
 fn require_unit(name: &str, image: &GrayImage32) -> PyResult<()> {
     let range = -OVERSHOOT..=1.0 + OVERSHOOT;
-    match image.as_raw().iter().find(|value| !range.contains(value)) {
+    match first(image.as_raw(), |value| !range.contains(&value)) {
         None => Ok(()),
-        Some(value) => Err(PyValueError::new_err(format!(
-            "{name} must have gray values in [0, 1], but has {value}; divide by the value of white"
+        Some(place) => Err(PyValueError::new_err(format!(
+            "{name} must have gray values in [0, 1], but has {}; divide by the value of white",
+            image.as_raw()[place]
         ))),
     }
 }

@@ -34,6 +34,7 @@ mod progress;
 mod record;
 mod robust;
 mod sfm;
+mod steps;
 mod stereo;
 mod stitch;
 mod synthetic;

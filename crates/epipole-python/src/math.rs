@@ -265,6 +265,11 @@ impl Random {
     }
 
     /// Integer below a bound, which is > 0.
+    ///
+    /// Parameters
+    /// ----------
+    /// bound : int
+    ///     Upper end, > 0.
     fn below(&self, bound: usize) -> PyResult<usize> {
         if bound == 0 {
             return Err(PyValueError::new_err("bound must be greater than 0"));
@@ -278,6 +283,11 @@ impl Random {
     }
 
     /// Number in [low, high).
+    ///
+    /// Parameters
+    /// ----------
+    /// low, high : float
+    ///     Ends of the interval.
     fn uniform(&self, low: f64, high: f64) -> f64 {
         self.stream().uniform(low, high)
     }

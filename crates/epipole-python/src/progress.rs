@@ -2,13 +2,18 @@
 
 use crate::errors::OrRaise;
 use crate::{fork, threads};
-use epipole::progress::{Monitor, Status};
+use epipole::progress::{Monitor, Stage, Status};
 use pyo3::prelude::*;
 use rayon::ThreadPool;
 use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+/// Interval between two looks at the clock, which costs as much as a sample of RANSAC does.
+const TICK: Duration = Duration::from_millis(1);
+/// Maximum number of reports between two looks at the clock.
+const MAX_STRIDE: u32 = 256;
 
 /// Interval between two looks at Python. Ctrl-C and the callback wait no longer than this.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -27,6 +32,10 @@ pub(crate) fn run<T: Send>(
     let signal = Mutex::new(None);
     let mut watch = Watch {
         callback: progress,
+        stage: None,
+        skipped: 0,
+        stride: 1,
+        clock: Instant::now(),
         last: None,
         raised: None,
         signal: &signal,
@@ -80,9 +89,22 @@ pub(crate) fn detach<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -
     })
 }
 
+/// Runs `work` without the GIL in this thread: short work that needs no others.
+pub(crate) fn release<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    py.detach(work)
+}
+
 /// Monitor that looks at Python from time to time.
 struct Watch<'a> {
     callback: Option<Py<PyAny>>,
+    /// Stage of the last report.
+    stage: Option<Stage>,
+    /// Reports since the last look at the clock, and their number between two looks.
+    skipped: u32,
+    stride: u32,
+    /// Time of the last look at the clock.
+    clock: Instant,
+    /// Time of the last look at Python.
     last: Option<Instant>,
     raised: Option<PyErr>,
     /// Exception of a signal that the thread of Python received.
@@ -90,6 +112,25 @@ struct Watch<'a> {
 }
 
 impl Watch<'_> {
+    /// The time, if enough reports of a stage have come to look at the clock.
+    fn time(&mut self, stage: Stage) -> Option<Instant> {
+        if self.stage != Some(stage) {
+            (self.stage, self.stride) = (Some(stage), 1);
+        }
+        self.skipped += 1;
+        if self.skipped < self.stride {
+            return None;
+        }
+        let now = Instant::now();
+        self.stride = if now - self.clock < TICK {
+            MAX_STRIDE.min(2 * self.stride)
+        } else {
+            1
+        };
+        (self.skipped, self.clock) = (0, now);
+        Some(now)
+    }
+
     fn look(&self, status: Status) -> PyResult<()> {
         if let Some(raised) = lock(self.signal).take() {
             return Err(raised);
@@ -106,7 +147,10 @@ impl Watch<'_> {
 
 impl Monitor for Watch<'_> {
     fn report(&mut self, status: Status) -> ControlFlow<()> {
-        if self.last.is_some_and(|last| last.elapsed() < INTERVAL) {
+        let Some(now) = self.time(status.stage) else {
+            return ControlFlow::Continue(());
+        };
+        if self.last.is_some_and(|last| now - last < INTERVAL) {
             return ControlFlow::Continue(());
         }
         let looked = self.look(status);

@@ -124,7 +124,8 @@ macro_rules! plain_class {
     };
 }
 
-/// Defines a class of named attributes: constructor, getters, and all of `plain_class`.
+/// Defines a class of named attributes: constructor, getters, and all of `plain_class`. Its
+/// docstring lists them as the parameters of the constructor.
 macro_rules! record {
     (
         $(#[doc = $doc:literal])*
@@ -133,6 +134,13 @@ macro_rules! record {
         }
     ) => {
         $(#[doc = $doc])*
+        ///
+        /// Parameters
+        /// ----------
+        $(
+            #[doc = stringify!($field)]
+            $(#[doc = concat!("   ", $field_doc)])*
+        )+
         #[pyclass(frozen, get_all, module = $module)]
         pub(crate) struct $class {
             $($(#[doc = $field_doc])* pub(crate) $field: $type,)+

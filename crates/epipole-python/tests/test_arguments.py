@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import epipole
+from conftest import make_world
 from epipole import epipolar
 
 SHAPE = r"pixels1 must be an array of shape \(N, 2\)"
@@ -110,3 +111,27 @@ def test_nested_options(outliers):
     assert report.max_error_px == 0.25
     with pytest.raises(TypeError, match=r"unknown option ransac\.sed"):
         epipole.estimate_two_view(*outliers, ransac={"sed": 0.25})
+
+
+@pytest.mark.parametrize("count", [1023, 1024, 1025, 30_000])
+def test_long_arrays_are_computed_as_single_points(count):
+    """Blocks of rows: fast functions read them where they are, slow ones copies of them."""
+    world = make_world(count)
+    p1, p2 = (camera.projection_matrix() for camera in world.posed)
+    some = np.r_[0:3, count // 2, count - 3 : count]
+    lines = epipolar.epipolar_line2(world.fundamental, world.pixels1)
+    points = epipole.triangulate_dlt(p1, p2, world.pixels1, world.pixels2)
+    errors = epipole.sampson_px(world.fundamental, world.pixels1, world.pixels2)
+    for i in some:
+        one, two = world.pixels1[i], world.pixels2[i]
+        np.testing.assert_array_equal(lines[i], epipolar.epipolar_line2(world.fundamental, one))
+        np.testing.assert_array_equal(points[i], epipole.triangulate_dlt(p1, p2, one, two))
+        assert errors[i] == epipole.sampson_px(world.fundamental, one, two)
+    bad = world.pixels1.copy()
+    bad[-1, 1] = np.nan
+    for call in (
+        lambda: epipole.triangulate_dlt(p1, p2, bad, world.pixels2),
+        lambda: epipole.sampson_px(world.fundamental, bad, world.pixels2),
+    ):
+        with pytest.raises(ValueError, match=f"pixel1 contains NaN in row {count - 1}"):
+            call()

@@ -1,8 +1,10 @@
-"""Cameras and poses of other libraries: round trips, and equal pixels on both sides."""
+"""Cameras, poses and clouds of other libraries: round trips, and equal pixels on both sides."""
 
 import numpy as np
 import pytest
-from epipole import Camera, Intrinsics, Lens, RigidTransform, convert
+from epipole import Camera, Intrinsics, Lens, PosedCamera, RigidTransform, convert
+from epipole.sfm import Reconstruction
+from epipole.stereo import PointCloud
 
 K = Intrinsics(500.0, 510.0, 320.0, 240.0)
 LENSES = {
@@ -102,3 +104,56 @@ def test_a_division_lens_is_refused():
 def test_models_without_an_equal_are_refused():
     with pytest.raises(ValueError, match="FOV"):
         convert.from_poselib({"model": "FOV", "width": 1, "height": 1, "params": [1] * 5})
+
+
+def test_cameras_of_open3d():
+    open3d = pytest.importorskip("open3d")
+    other = convert.to_open3d(camera("none"))
+    assert isinstance(other, open3d.camera.PinholeCameraIntrinsic)
+    assert convert.from_open3d(other) == camera("none")
+    with pytest.raises(ValueError, match="brown lens"):
+        convert.to_open3d(camera("brown"))
+    # Open3D's own projection: a depth image with one pixel gives the point that is seen there.
+    depth = np.zeros((480, 640), np.float32)
+    depth[100, 200] = 2.0
+    cloud = open3d.geometry.PointCloud.create_from_depth_image(
+        open3d.geometry.Image(depth), other, depth_scale=1.0, depth_trunc=10.0
+    )
+    assert np.allclose(camera("none").project(np.asarray(cloud.points)), [[200, 100]], atol=1e-5)
+
+
+def test_posed_cameras_of_open3d():
+    pytest.importorskip("open3d")
+    posed = PosedCamera(camera("none"), POSE)
+    other = convert.to_open3d(posed)
+    assert np.allclose(other.extrinsic, POSE.matrix(), atol=1e-12)
+    back = convert.from_open3d(other)
+    assert np.allclose(back.project(POINTS), posed.project(POINTS), atol=1e-9)
+
+
+@pytest.mark.parametrize("colors", [None, np.arange(60, dtype=np.uint8).reshape(20, 3) * 4])
+def test_clouds_of_open3d(colors):
+    open3d = pytest.importorskip("open3d")
+    cloud = PointCloud(POINTS, colors)
+    other = convert.to_open3d(cloud)
+    assert isinstance(other, open3d.geometry.PointCloud)
+    assert np.array_equal(np.asarray(other.points), POINTS)
+    assert convert.from_open3d(other) == cloud
+    empty = convert.from_open3d(open3d.geometry.PointCloud())
+    assert empty.points.shape == (0, 3) and empty.colors is None
+
+
+def test_a_reconstruction_goes_to_open3d():
+    pytest.importorskip("open3d")
+    made = Reconstruction([PosedCamera(camera("none"), POSE)], POINTS, np.zeros((0, 3), int))
+    other = convert.to_open3d(made)
+    assert np.array_equal(np.asarray(other.points), POINTS)
+    assert np.allclose(np.asarray(other.colors) * 255, made.colors)
+
+
+def test_other_classes_of_open3d_are_refused():
+    open3d = pytest.importorskip("open3d")
+    with pytest.raises(TypeError, match="RigidTransform"):
+        convert.to_open3d(POSE)
+    with pytest.raises(TypeError, match="TriangleMesh"):
+        convert.from_open3d(open3d.geometry.TriangleMesh())

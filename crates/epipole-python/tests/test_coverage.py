@@ -29,12 +29,11 @@ LEFT_OUT = {
         stereo::StereoPaths stereo::StereoPrefilter stitch::Blend stitch::Surface synthetic::Path
         robust::Budget robust::SamplerKind robust::ScoreKind robust::StopReason
         robust::ThresholdKind two_view::Configuration two_view::TwoViewModel""",
-    "traits and parts of Rust estimators; in Python, ransac takes callables": """
+    "traits and parts of Rust estimators; in Python, ransac and Ransac take callables": """
         absolute_pose::AbsolutePoseEstimator epipolar::EssentialEstimator
         epipolar::FundamentalEstimator epipolar::GravityEstimator homography::HomographyEstimator
         robust::Data robust::Estimator robust::Evidence robust::MatchSet
-        robust::Problem robust::Ransac robust::SimilarityEstimator robust::Step robust::Support
-        robust::Trial robust::Unique two_view::RotationEstimator optim::DenseProblem
+        robust::Problem robust::SimilarityEstimator robust::Step robust::Support robust::Unique two_view::RotationEstimator optim::DenseProblem
         optim::EdgeTerms sfm::GraphPose""",
     "robust.estimate_line runs it": "robust::LineEstimator",
     "numpy.linalg.svd does the same": "math::right_singular_vectors",

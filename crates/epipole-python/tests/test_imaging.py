@@ -270,3 +270,19 @@ def test_opencv(gray, photo):
     expected = cv2.warpPerspective(smooth, h, (56, 40))
     found = imaging.warp_perspective(smooth, h)
     assert np.abs(found - expected)[5:-5, 5:-5].max() < 0.02
+
+
+def test_samples_read_the_part_of_an_image_that_they_need():
+    """Equal bits, whether a part is read or the whole image, which far pixels need."""
+    image = np.random.default_rng(6).integers(0, 255, (40, 60)).astype(np.uint8)
+    pixels = np.array([[20.25, 11.5], [21.0, 12.75], [3.0, 3.5], [55.9, 35.1]])
+    corners = np.array([[0.0, 0.0], [59.0, 39.0]])
+    for array in (image, image / np.float32(255), image.astype(float)[::-1, ::-1]):
+        for sample in (imaging.sample_bilinear, imaging.sample_bicubic):
+            whole = sample(array, np.r_[pixels, corners])
+            for i, pixel in enumerate(pixels):
+                assert sample(array, pixel) == whole[i]
+            np.testing.assert_array_equal(sample(array, pixels[:2]), whole[:2])
+    assert imaging.sample_bilinear(image, np.empty((0, 2))).shape == (0,)
+    with pytest.raises(ValueError, match="image"):
+        imaging.sample_bilinear(np.zeros(5), (1, 1))

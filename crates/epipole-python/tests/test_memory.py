@@ -61,6 +61,9 @@ FUNCTIONS = {
         max_error_px=5.0,
         **few,
     ),
+    "ransac by steps": lambda: sum(
+        trial.is_best for trial in epipole.robust.Ransac.fundamental(*few_matches, **few)
+    ),
     "transfer": lambda: epipole.homography.transfer(np.eye(3), world.pixels1),
     "pose_p3p": lambda: epipole.absolute_pose.pose_p3p(world.rays1[:3], world.points[:3]),
     "reprojection_error_px": lambda: epipole.absolute_pose.reprojection_error_px(

@@ -102,3 +102,109 @@ def test_numbers_of_samples():
     assert robust.log10_false_alarms(90, 100, 7, 3, 0.01) < 0
     with pytest.raises(ValueError, match="confidence"):
         robust.num_trials_with_replacement(0.5, 2, 1.5)
+
+
+def test_ransac_by_steps_is_ransac(points):
+    other = points + [4, -2]
+    other[20:] += 50
+    runs = [
+        (robust.Ransac.line(points, seed=3), robust.estimate_line(points, seed=3)),
+        (robust.Ransac.similarity(points, other), robust.estimate_similarity(points, other)),
+        (robust.Ransac.homography(points, other), epipole.estimate_homography(points, other)),
+    ]
+    for run, expected in runs:
+        trials = list(run)
+        assert [trial.iteration for trial in trials] == list(range(1, expected.iterations + 1))
+        assert run.iterations == expected.iterations
+        assert any(trial.is_best for trial in trials)
+        assert run.finish() == expected
+
+
+def test_fundamental_matrix_by_steps(outliers):
+    run = robust.Ransac.fundamental(*outliers, max_error_px=0.5)
+    for trial in run:
+        assert len(set(trial.sample)) == 7 and trial.num_models <= 3
+        assert trial.model is None or trial.model.shape == (3, 3)
+    assert run.finish() == epipole.estimate_fundamental(*outliers, max_error_px=0.5)
+
+
+def line_problem(points):
+    def fit(sample):
+        p, q = points[sample]
+        return None if q[0] == p[0] else np.polyfit(*points[sample].T, 1)
+
+    return len(points), 2, fit, lambda line: points[:, 1] - np.polyval(line, points[:, 0])
+
+
+def test_a_model_of_your_own_by_steps(points):
+    problem = line_problem(points)
+    run = robust.Ransac(*problem, max_error_px=0.1)
+    assert run.best_model is None and run.best_score is None and run.required_iterations is None
+    best = None
+    for trial in run:
+        if trial.is_best:
+            best = trial.model if trial.refined is None else trial.refined
+            assert run.best_model is best
+            assert run.required_iterations == trial.required_iterations
+    np.testing.assert_allclose(best, (0.5, 2), atol=1e-9)
+    assert run.step() is None
+    report, expected = run.finish(), epipole.ransac(*problem, max_error_px=0.1)
+    np.testing.assert_array_equal(report.model, expected.model)
+    assert report.iterations == expected.iterations and report.stop == expected.stop
+    with pytest.raises(RuntimeError, match="finished"):
+        run.step()
+
+
+def test_a_run_ends_when_its_caller_has_enough(points):
+    run = robust.Ransac.line(points, max_error_px=0.1)
+    while not run.best_score or run.best_score < 15:
+        run.step()
+    assert run.iterations < run.expected_iterations
+    report = run.finish()
+    assert report.stop == "interrupted" and report.num_inliers == 20
+    unstarted = robust.Ransac.line(points)
+    with pytest.raises(epipole.NoConsensusError):
+        unstarted.finish()
+
+
+def test_a_run_starts_from_a_model(points):
+    run = robust.Ransac.line(points, max_error_px=0.5)
+    run.start_from(np.array([-0.5, 1, -2.2]) / np.hypot(0.5, 1))
+    assert run.finish().num_inliers == 20
+    similarity = robust.Ransac.similarity(points, points)
+    similarity.start_from(robust.PlaneSimilarity(1, 0, 0, 0))
+    assert similarity.required_iterations == 1
+    own = robust.Ransac(*line_problem(points), max_error_px=0.1)
+    own.start_from((0.5, 2))
+    assert own.best_model == (0.5, 2)
+    with pytest.raises(TypeError, match="PlaneSimilarity, but is tuple"):
+        similarity.start_from((1, 0, 0, 0))
+    with pytest.raises(ValueError, match=r"model must be an array of shape \(3,\)"):
+        run = robust.Ransac.line(points)
+        run.start_from(np.eye(3))
+
+
+def test_exceptions_of_callables_are_raised_by_the_step(points):
+    num_data, size, fit, errors = line_problem(points)
+    is_broken = True
+
+    def broken(sample):
+        if is_broken:
+            raise KeyError("fit")
+        return fit(sample)
+
+    run = robust.Ransac(num_data, size, broken, errors)
+    with pytest.raises(KeyError, match="fit"):
+        run.step()
+    is_broken = False
+    assert run.step().iteration == 2
+    run = robust.Ransac(num_data, size, fit, lambda model: errors(model)[1:])
+    with pytest.raises(ValueError, match=r"shape \(25,\)"):
+        run.start_from((0.5, 2))
+    run = robust.Ransac(num_data, size, lambda sample: run.step(), errors)
+    with pytest.raises(RuntimeError, match="another thread"):
+        run.step()
+    with pytest.raises(epipole.TooFewError):
+        robust.Ransac(1, 2, fit, errors)
+    with pytest.raises(TypeError, match="unknown option sed"):
+        robust.Ransac.line(points, sed=3)

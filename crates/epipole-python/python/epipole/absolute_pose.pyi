@@ -28,7 +28,17 @@ __all__ = [
 
 @final
 class AbsolutePoseWithFocal:
-    """Pose of a camera with its focal length."""
+    """Pose of a camera with its focal length.
+
+    Parameters
+    ----------
+    cam_from_world
+        Pose.
+    focal_px
+        Focal length, pixels.
+    focal_std_px
+        Standard deviation of the focal length, pixels; None if it makes no difference.
+    """
     def __new__(
         cls,
         cam_from_world: RigidTransform,

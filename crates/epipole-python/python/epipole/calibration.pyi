@@ -83,7 +83,13 @@ class Board:
     def num_marks(self) -> int:
         """Number of marks."""
     def mark(self, index: int) -> NDArray[np.float64]:
-        """Place of a mark on the board, meters, shape (2,). Marks are counted row by row."""
+        """Place of a mark on the board, meters, shape (2,). Marks are counted row by row.
+
+        Parameters
+        ----------
+        index : int
+            Number of the mark, from 0.
+        """
     def marks(self) -> NDArray[np.float64]:
         """Places of all marks on the board, meters, shape (N, 2)."""
     def drawing(self) -> BoardDrawing:
@@ -98,7 +104,17 @@ class Board:
 
 @final
 class BoardDrawing:
-    """Black shapes of a board, in squares; the first mark is at the origin, y points down."""
+    """Black shapes of a board, in squares; the first mark is at the origin, y points down.
+
+    Parameters
+    ----------
+    rectangles
+        Upper left and lower right corner of each rectangle, shape (N, 2, 2).
+    disks
+        Centers of disks, shape (M, 2).
+    disk_radius
+        Radius of the disks.
+    """
     def __new__(
         cls,
         rectangles: NDArray[np.float64],
@@ -145,7 +161,26 @@ class BoardView:
 
 @final
 class BoardSearch:
-    """Result of a search for a board."""
+    """Result of a search for a board.
+
+    Parameters
+    ----------
+    kind
+        "found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        "nothing".
+    view
+        Marks, if the board was found.
+    columns
+        Marks along the longer side of a partial board.
+    rows
+        Marks along the shorter side of a partial board.
+    num_seen
+        Number of marks seen of a partial board.
+    num_of_board
+        Number of markers that are placed as on the board.
+    num_others
+        Number of other markers of the dictionary.
+    """
     def __new__(
         cls,
         kind: str,
@@ -181,12 +216,29 @@ class BoardSearch:
         """Number of other markers of the dictionary."""
     def __eq__(self, other: object, /) -> bool: ...
     def problem(self, board: Board) -> str | None:
-        """Why the board was not found, as a sentence; None if it was."""
+        """Why the board was not found, as a sentence; None if it was.
+
+        Parameters
+        ----------
+        board : Board
+            Board that was searched.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Marker:
-    """Square marker in a photo."""
+    """Square marker in a photo.
+
+    Parameters
+    ----------
+    id
+        Number in the dictionary.
+    corners
+        Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
+        left in an upright marker.
+    hamming
+        Number of bits that differ from the dictionary's.
+    """
     def __new__(cls, id: int, corners: NDArray[np.float64], hamming: int) -> Marker: ...
     @property
     def id(self) -> int:
@@ -273,7 +325,15 @@ class CalibratedView:
 
 @final
 class CalibrationWarning:
-    """Cause of uncertainty that the errors of a calibration do not show."""
+    """Cause of uncertainty that the errors of a calibration do not show.
+
+    Parameters
+    ----------
+    kind
+        "parallel", "uncertain_focal", "low_coverage" or "bad_view".
+    message
+        Cause as a sentence.
+    """
     def __new__(cls, kind: str, message: str) -> CalibrationWarning: ...
     @property
     def kind(self) -> str:
@@ -286,7 +346,25 @@ class CalibrationWarning:
 
 @final
 class Calibration:
-    """Calibrated camera and its uncertainty."""
+    """Calibrated camera and its uncertainty.
+
+    Parameters
+    ----------
+    camera
+        Camera.
+    rms_px
+        Root mean square of all reprojection errors: distances, in pixels.
+    std_dev_k
+        Standard deviation of fu, fv, cu, cv, pixels, shape (4,).
+    std_dev_lens
+        Standard deviation of each coefficient of the lens.
+    coverage
+        Share of the image's area inside the marks of some view, 0 to 1.
+    views
+        For each view given a `CalibratedView`, or None where none was given.
+    warnings
+        List of `CalibrationWarning`.
+    """
     def __new__(
         cls,
         camera: Camera,
@@ -323,7 +401,24 @@ class Calibration:
 
 @final
 class RigCalibration:
-    """Two cameras mounted on a rig."""
+    """Two cameras mounted on a rig.
+
+    Parameters
+    ----------
+    right_from_left
+        ``x_in_right = right_from_left @ x_in_left``, meters.
+    baseline_m
+        Distance between the cameras, meters.
+    rms_px
+        Root mean square of the reprojection errors in both cameras, pixels.
+    std_dev_rotation_rad
+        Standard deviation of the rotation about the axes of the right camera, radians,
+        shape (3,).
+    std_dev_translation_m
+        Standard deviation of the translation, meters, shape (3,).
+    pairs_rms_px
+        Root mean square of each pair, pixels; None where not both cameras see the board.
+    """
     def __new__(
         cls,
         right_from_left: RigidTransform,

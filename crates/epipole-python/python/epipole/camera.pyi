@@ -148,7 +148,13 @@ class Intrinsics:
         """
     @staticmethod
     def from_colmap(parameters: Sequence[float]) -> Intrinsics:
-        """Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves."""
+        """Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+
+        Parameters
+        ----------
+        parameters : sequence of float
+            fx, fy, cx, cy, pixels.
+        """
     def to_colmap(self) -> tuple[float, float, float, float]:
         """COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves."""
     def principal_point(self) -> NDArray[np.float64]:
@@ -181,11 +187,29 @@ class Intrinsics:
         ndarray, shape (3,) or (N, 3)
         """
     def scaled(self, factor: float) -> Intrinsics:
-        """Intrinsics after the image is resized by a factor; 0.5 halves both sides."""
+        """Intrinsics after the image is resized by a factor; 0.5 halves both sides.
+
+        Parameters
+        ----------
+        factor : float
+            Scale of the image, > 0.
+        """
     def zoomed(self, factor: float) -> Intrinsics:
-        """Intrinsics with both focal lengths multiplied by a factor."""
+        """Intrinsics with both focal lengths multiplied by a factor.
+
+        Parameters
+        ----------
+        factor : float
+            Factor of the focal lengths, > 0.
+        """
     def resized(self, old: tuple[int, int], new: tuple[int, int]) -> Intrinsics:
-        """Intrinsics after the image is resized from one (width, height) to another, pixels."""
+        """Intrinsics after the image is resized from one (width, height) to another, pixels.
+
+        Parameters
+        ----------
+        old, new : tuple of int
+            Width and height before and after, pixels.
+        """
     def turned(self, quarters: int, size: tuple[int, int]) -> Intrinsics:
         """Intrinsics after the image is turned clockwise by quarter turns.
 
@@ -247,7 +271,13 @@ class Lens:
         ndarray, shape (3,) or (N, 3)
         """
     def turned(self, quarters: int) -> Lens:
-        """Lens after the image is turned clockwise by quarter turns."""
+        """Lens after the image is turned clockwise by quarter turns.
+
+        Parameters
+        ----------
+        quarters : int
+            Number of quarter turns.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final

@@ -1,7 +1,8 @@
-"""Cameras, poses and key points of OpenCV, pycolmap and PoseLib, in both directions.
+"""Cameras, poses, key points and clouds of OpenCV, pycolmap, PoseLib and Open3D, in both directions.
 
 Each function imports the other library when it is called. Pixel centers are at integers in
-Epipole and OpenCV, and at halves in COLMAP; these functions shift principal points accordingly.
+Epipole, OpenCV and Open3D, and at halves in COLMAP; these functions shift principal points
+accordingly.
 """
 
 from __future__ import annotations
@@ -9,14 +10,18 @@ from __future__ import annotations
 from typing import Any, Sequence
 
 import numpy as np
-from epipole.camera import Camera, Intrinsics, Lens, RigidTransform
+from epipole.camera import Camera, Intrinsics, Lens, PosedCamera, RigidTransform
+from epipole.sfm import Reconstruction
+from epipole.stereo import PointCloud
 
 __all__ = [
+    "from_open3d",
     "from_opencv",
     "from_poselib",
     "from_pycolmap",
     "points_from_opencv",
     "points_to_opencv",
+    "to_open3d",
     "to_opencv",
     "to_poselib",
     "to_pycolmap",
@@ -26,11 +31,20 @@ __all__ = [
 def to_opencv(camera: Camera) -> tuple[Any, Any]:
     """Camera matrix and distortion coefficients of OpenCV.
 
+    Parameters
+    ----------
+    camera : Camera
+
     Returns
     -------
     camera_matrix : ndarray, shape (3, 3)
     dist_coeffs : ndarray, shape (5,), (8,) or (4,)
         The last for a fisheye, which takes the functions of ``cv2.fisheye``.
+
+    Raises
+    ------
+    ValueError
+        If its lens is a division model, which OpenCV does not have.
     """
     if camera.lens.kind == "division":
         raise ValueError("OpenCV has no division model")
@@ -51,6 +65,15 @@ def from_opencv(
         Image size, pixels.
     fisheye : bool
         Whether the coefficients are those of ``cv2.fisheye``.
+
+    Returns
+    -------
+    Camera
+
+    Raises
+    ------
+    ValueError
+        If no lens has the coefficients.
     """
     numbers = np.zeros(0) if dist_coeffs is None else np.asarray(dist_coeffs, float).ravel()
     if not np.isfinite(numbers).all():
@@ -71,7 +94,16 @@ def from_opencv(
 
 
 def points_from_opencv(keypoints: Sequence[Any]) -> Any:
-    """Pixels of ``cv2.KeyPoint``, shape (N, 2)."""
+    """Pixels of key points.
+
+    Parameters
+    ----------
+    keypoints : sequence of cv2.KeyPoint
+
+    Returns
+    -------
+    ndarray, shape (N, 2)
+    """
     return np.array([keypoint.pt for keypoint in keypoints], float).reshape(-1, 2)
 
 
@@ -83,6 +115,10 @@ def points_to_opencv(points: Any, size_px: float = 1.0) -> list[Any]:
     points : array_like, shape (N, 2)
     size_px : float
         Diameter of the key points, pixels.
+
+    Returns
+    -------
+    list of cv2.KeyPoint
     """
     import cv2
 
@@ -90,7 +126,21 @@ def points_to_opencv(points: Any, size_px: float = 1.0) -> list[Any]:
 
 
 def to_pycolmap(value: Camera | RigidTransform) -> Any:
-    """``pycolmap.Camera`` of a camera, ``pycolmap.Rigid3d`` of a transform."""
+    """``pycolmap.Camera`` of a camera, ``pycolmap.Rigid3d`` of a transform.
+
+    Parameters
+    ----------
+    value : Camera or RigidTransform
+
+    Returns
+    -------
+    pycolmap.Camera or pycolmap.Rigid3d
+
+    Raises
+    ------
+    ValueError
+        If its lens is a division model, which COLMAP does not have.
+    """
     import pycolmap
 
     if isinstance(value, RigidTransform):
@@ -101,7 +151,21 @@ def to_pycolmap(value: Camera | RigidTransform) -> Any:
 
 
 def from_pycolmap(value: Any) -> Camera | RigidTransform:
-    """Camera of a ``pycolmap.Camera``, transform of a ``pycolmap.Rigid3d``."""
+    """Camera of a ``pycolmap.Camera``, transform of a ``pycolmap.Rigid3d``.
+
+    Parameters
+    ----------
+    value : pycolmap.Camera or pycolmap.Rigid3d
+
+    Returns
+    -------
+    Camera or RigidTransform
+
+    Raises
+    ------
+    ValueError
+        If no lens has the camera's model.
+    """
     if hasattr(value, "translation"):
         x, y, z, w = value.rotation.quat
         return RigidTransform.from_quaternion(np.array([w, x, y, z]), value.translation)
@@ -110,7 +174,21 @@ def from_pycolmap(value: Any) -> Camera | RigidTransform:
 
 
 def to_poselib(value: Camera | RigidTransform) -> Any:
-    """PoseLib's dictionary of a camera, ``poselib.CameraPose`` of a transform."""
+    """PoseLib's dictionary of a camera, ``poselib.CameraPose`` of a transform.
+
+    Parameters
+    ----------
+    value : Camera or RigidTransform
+
+    Returns
+    -------
+    dict or poselib.CameraPose
+
+    Raises
+    ------
+    ValueError
+        If its lens is a division model, which PoseLib does not have.
+    """
     if isinstance(value, RigidTransform):
         import poselib
 
@@ -124,11 +202,102 @@ def to_poselib(value: Camera | RigidTransform) -> Any:
 
 
 def from_poselib(value: Any) -> Camera | RigidTransform:
-    """Camera of PoseLib's dictionary, transform of a ``poselib.CameraPose``."""
+    """Camera of PoseLib's dictionary, transform of a ``poselib.CameraPose``.
+
+    Parameters
+    ----------
+    value : dict or poselib.CameraPose
+
+    Returns
+    -------
+    Camera or RigidTransform
+
+    Raises
+    ------
+    ValueError
+        If no lens has the camera's model.
+    """
     if isinstance(value, dict):
         k, lens = _from_colmap_model(value["model"], list(value["params"]))
         return Camera(value["width"], value["height"], Intrinsics(*k), lens)
     return RigidTransform.from_quaternion(np.asarray(value.q), np.asarray(value.t))
+
+
+def to_open3d(value: Camera | PosedCamera | PointCloud | Reconstruction) -> Any:
+    """Camera, posed camera or cloud of Open3D. Transforms of Open3D are matrices.
+
+    Parameters
+    ----------
+    value : Camera, PosedCamera, epipole.stereo.PointCloud or epipole.sfm.Reconstruction
+        Cameras without distortion; of a reconstruction its points.
+
+    Returns
+    -------
+    open3d.camera.PinholeCameraIntrinsic, PinholeCameraParameters or open3d.geometry.PointCloud
+
+    Raises
+    ------
+    ValueError
+        If a camera has distortion, which Open3D does not have.
+    TypeError
+        If Open3D has no such class.
+    """
+    import open3d
+
+    if isinstance(value, Camera):
+        if not value.is_pinhole():
+            raise ValueError(
+                f"Open3D has no lens, but the camera has a {value.lens.kind} lens; undistort first"
+            )
+        k = value.intrinsics
+        numbers = (value.width, value.height, k.fu_px, k.fv_px, k.cu_px, k.cv_px)
+        return open3d.camera.PinholeCameraIntrinsic(*numbers)
+    if isinstance(value, PosedCamera):
+        posed = open3d.camera.PinholeCameraParameters()
+        posed.intrinsic = to_open3d(value.camera)
+        posed.extrinsic = value.cam_from_world.matrix()
+        return posed
+    if isinstance(value, (PointCloud, Reconstruction)):
+        cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(value.points))
+        if value.colors is not None:
+            cloud.colors = open3d.utility.Vector3dVector(value.colors / 255.0)
+        return cloud
+    raise TypeError(f"Open3D has no class for {type(value).__name__}; it takes transforms as matrix()")
+
+
+def from_open3d(value: Any) -> Camera | PosedCamera | PointCloud:
+    """Camera, posed camera or cloud of Open3D's.
+
+    Parameters
+    ----------
+    value : open3d.camera.PinholeCameraIntrinsic, PinholeCameraParameters or open3d.geometry.PointCloud
+
+    Returns
+    -------
+    Camera, PosedCamera or epipole.stereo.PointCloud
+        Colors of a cloud are rounded to uint8.
+
+    Raises
+    ------
+    TypeError
+        If it is of another class.
+    """
+    import open3d
+
+    if isinstance(value, open3d.camera.PinholeCameraIntrinsic):
+        intrinsics = Intrinsics.from_matrix(value.intrinsic_matrix)
+        return Camera.pinhole(intrinsics, value.width, value.height)
+    if isinstance(value, open3d.camera.PinholeCameraParameters):
+        extrinsic = np.asarray(value.extrinsic)
+        camera = from_open3d(value.intrinsic)
+        assert isinstance(camera, Camera)
+        return PosedCamera(camera, RigidTransform(extrinsic[:3, :3], extrinsic[:3, 3]))
+    if isinstance(value, open3d.geometry.PointCloud):
+        colors = None
+        if value.has_colors():
+            colors = np.rint(255 * np.clip(np.asarray(value.colors), 0, 1)).astype(np.uint8)
+        return PointCloud(np.array(value.points), colors)
+    raise TypeError(f"value must be a camera or a cloud of Open3D, but is {type(value).__name__}")
 
 
 def _colmap_model(

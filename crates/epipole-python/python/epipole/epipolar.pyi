@@ -74,18 +74,41 @@ class RelativePose:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_motion(cam2_from_cam1: RigidTransform) -> RelativePose:
-        """Relative pose of a motion, whose length is dropped."""
+        """Relative pose of a motion, whose length is dropped.
+
+        Parameters
+        ----------
+        cam2_from_cam1 : epipole.camera.RigidTransform
+        """
     def essential(self) -> NDArray[np.float64]:
         """E, shape (3, 3)."""
     def fundamental(self, k1: Intrinsics, k2: Intrinsics) -> NDArray[np.float64]:
-        """F of the pixels of two pinhole cameras, shape (3, 3)."""
+        """F of the pixels of two pinhole cameras, shape (3, 3).
+
+        Parameters
+        ----------
+        k1, k2 : epipole.camera.Intrinsics
+            Intrinsics of the two cameras.
+        """
     def cam2_from_cam1(self) -> RigidTransform:
         """The motion as a rigid transform."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PoseWithFocal:
-    """Relative pose with the focal length of both cameras."""
+    """Relative pose with the focal length of both cameras.
+
+    Parameters
+    ----------
+    pose
+        Motion.
+    fundamental
+        F of the pixels, shape (3, 3).
+    focal_px
+        Focal length of both cameras, pixels.
+    focal_std_px
+        Standard deviation of the focal length, pixels; None if it makes no difference.
+    """
     def __new__(
         cls,
         pose: RelativePose,
@@ -112,7 +135,15 @@ class PoseWithFocal:
 
 @final
 class EssentialWithFocal:
-    """Essential matrix with the focal length of both cameras."""
+    """Essential matrix with the focal length of both cameras.
+
+    Parameters
+    ----------
+    essential
+        E, shape (3, 3).
+    focal_px
+        Focal length of both cameras, pixels.
+    """
     def __new__(cls, essential: NDArray[np.float64], focal_px: float) -> EssentialWithFocal: ...
     @property
     def essential(self) -> NDArray[np.float64]:
@@ -125,7 +156,17 @@ class EssentialWithFocal:
 
 @final
 class SelectedPose:
-    """Motion of an essential matrix that puts most points in front of both cameras."""
+    """Motion of an essential matrix that puts most points in front of both cameras.
+
+    Parameters
+    ----------
+    cam2_from_cam1
+        Motion, with a translation of length 1.
+    num_in_front
+        Number of points in front of both cameras.
+    second_num_in_front
+        Number of points in front of both cameras for the second best motion.
+    """
     def __new__(
         cls,
         cam2_from_cam1: RigidTransform,
@@ -146,7 +187,19 @@ class SelectedPose:
 
 @final
 class EightPoint:
-    """Fundamental matrix by the eight-point method, with its intermediate results."""
+    """Fundamental matrix by the eight-point method, with its intermediate results.
+
+    Parameters
+    ----------
+    fundamental
+        F of rank 2, shape (3, 3).
+    full_rank
+        Least-squares solution before its rank was lowered to 2, shape (3, 3).
+    singular_values
+        Singular values of the linear system, largest first, shape (9,).
+    condition_number
+        Largest singular value by the eighth: amplification of errors of the data.
+    """
     def __new__(
         cls,
         fundamental: NDArray[np.float64],

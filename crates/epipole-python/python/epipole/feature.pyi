@@ -135,7 +135,18 @@ class Features:
 
 @final
 class Matches:
-    """Matches between two lists of features."""
+    """Matches between two lists of features.
+
+    Parameters
+    ----------
+    indices
+        Rows of the first and the second list, int64 of shape (M, 2).
+    distances
+        Distance of the descriptors: Euclidean, or the number of bits that differ, float32 of
+        shape (M,).
+    ratios
+        Distance over that of the second nearest, in [0, 1], float32 of shape (M,).
+    """
     def __new__(
         cls,
         indices: NDArray[np.int64],
@@ -159,7 +170,17 @@ class Matches:
 
 @final
 class Neighbors:
-    """The two nearest descriptors of each descriptor."""
+    """The two nearest descriptors of each descriptor.
+
+    Parameters
+    ----------
+    indices
+        Row of the nearest, int64 of shape (N,).
+    distances
+        Distance of the nearest, float32 of shape (N,).
+    second_distances
+        Distance of the second nearest, float32 of shape (N,); infinity if there is none.
+    """
     def __new__(
         cls,
         indices: NDArray[np.int64],
@@ -181,7 +202,23 @@ class Neighbors:
 
 @final
 class ScaleOctave:
-    """Layers of a scale space with samples at the same places."""
+    """Layers of a scale space with samples at the same places.
+
+    Parameters
+    ----------
+    octave
+        Binary logarithm of the pixels per sample.
+    step_px
+        Pixels of the image per sample.
+    origin
+        Place of the first sample, pixels of the image, shape (2,).
+    blurred
+        Blurred images, float32 of shape (L, h, w).
+    sigmas_px
+        Standard deviation of each one's blur, pixels of the image, shape (L,).
+    differences
+        Each blurred image minus the previous one, float32 of shape (L - 1, h, w).
+    """
     def __new__(
         cls,
         octave: int,
@@ -242,7 +279,17 @@ class ScaleSpace:
 
 @final
 class StructureTensor:
-    """Matrix ``M = sum w [[Iu*Iu, Iu*Iv], [Iu*Iv, Iv*Iv]]`` at each pixel."""
+    """Matrix ``M = sum w [[Iu*Iu, Iu*Iv], [Iu*Iv, Iv*Iv]]`` at each pixel.
+
+    Parameters
+    ----------
+    uu
+        ``sum w Iu*Iu``, float32 of shape (H, W).
+    uv
+        ``sum w Iu*Iv``, float32 of shape (H, W).
+    vv
+        ``sum w Iv*Iv``, float32 of shape (H, W).
+    """
     def __new__(
         cls,
         uu: NDArray[np.float32],
@@ -260,14 +307,33 @@ class StructureTensor:
         """``sum w Iv*Iv``, float32 of shape (H, W)."""
     def __eq__(self, other: object, /) -> bool: ...
     def eigenvalues(self, u: int, v: int) -> tuple[float, float] | None:
-        """Eigenvalues at a pixel, the larger first; None outside the image."""
+        """Eigenvalues at a pixel, the larger first; None outside the image.
+
+        Parameters
+        ----------
+        u, v : int
+            Column and row.
+        """
     def at(self, u: int, v: int) -> WindowTensor | None:
-        """Tensor at a pixel; None outside the image."""
+        """Tensor at a pixel; None outside the image.
+
+        Parameters
+        ----------
+        u, v : int
+            Column and row.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class ShiftSurface:
-    """Change of a window under every shift by whole pixels up to a reach."""
+    """Change of a window under every shift by whole pixels up to a reach.
+
+    Parameters
+    ----------
+    values
+        Squared change under the shift (du, dv) at ``[reach + dv, reach + du]``, shape
+        (2 * reach + 1, 2 * reach + 1).
+    """
     def __new__(cls, values: NDArray[np.float64]) -> ShiftSurface: ...
     @property
     def values(self) -> NDArray[np.float64]:
@@ -279,12 +345,28 @@ class ShiftSurface:
         """Largest shift to each side, pixels."""
     def __eq__(self, other: object, /) -> bool: ...
     def at(self, du: int, dv: int) -> float | None:
-        """Squared change under the shift by `du` columns and `dv` rows; None beyond the reach."""
+        """Squared change under the shift by `du` columns and `dv` rows; None beyond the reach.
+
+        Parameters
+        ----------
+        du, dv : int
+            Shift along columns and rows, pixels.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class WindowTensor:
-    """Matrix ``M = sum [[Iu*Iu, Iu*Iv], [Iu*Iv, Iv*Iv]]`` of one window."""
+    """Matrix ``M = sum [[Iu*Iu, Iu*Iv], [Iu*Iv, Iv*Iv]]`` of one window.
+
+    Parameters
+    ----------
+    uu
+        ``sum Iu*Iu``.
+    uv
+        ``sum Iu*Iv``.
+    vv
+        ``sum Iv*Iv``.
+    """
     def __new__(cls, uu: float, uv: float, vv: float) -> WindowTensor: ...
     @property
     def uu(self) -> float:
@@ -330,7 +412,13 @@ class WindowTensor:
     def direction_rad(self) -> float:
         """Direction of the larger eigenvalue's eigenvector, ``arctan2(v, u)`` with v down, radians."""
     def harris(self, k: float) -> float:
-        """Harris response ``det M - k * trace(M)**2``."""
+        """Harris response ``det M - k * trace(M)**2``.
+
+        Parameters
+        ----------
+        k : float
+            Weight of the squared trace, such as 0.04.
+        """
     def change(self, shift: ArrayLike) -> float:
         """Approximate squared change of the window under a small shift.
 
@@ -343,7 +431,21 @@ class WindowTensor:
 
 @final
 class Tracks:
-    """Points that were tracked from one image to the next; row k belongs to point k."""
+    """Points that were tracked from one image to the next; row k belongs to point k.
+
+    Parameters
+    ----------
+    points
+        Positions in the second image, pixels, shape (N, 2); NaN for lost points.
+    found
+        Whether each point was tracked, boolean array of shape (N,).
+    residuals
+        Mean absolute difference of gray values between the two windows, float32 of shape
+        (N,); NaN for lost points.
+    forward_backward_px
+        Distance between each point and itself tracked back, pixels, shape (N,); NaN for lost
+        points, and without that check.
+    """
     def __new__(
         cls,
         points: NDArray[np.float64],

@@ -29,7 +29,15 @@ __all__ = [
 
 @final
 class PlaneMotion:
-    """Motion and plane of a homography."""
+    """Motion and plane of a homography.
+
+    Parameters
+    ----------
+    cam2_from_cam1
+        Motion; the translation is in units of the plane's distance from camera 1.
+    normal_in_cam1
+        Unit normal of the plane in the frame of camera 1, shape (3,).
+    """
     def __new__(
         cls,
         cam2_from_cam1: RigidTransform,

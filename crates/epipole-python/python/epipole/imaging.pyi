@@ -47,7 +47,15 @@ BT601_WEIGHTS: tuple
 BT709_WEIGHTS: tuple
 @final
 class Gradient:
-    """Partial derivatives of an image, in units of the filter."""
+    """Partial derivatives of an image, in units of the filter.
+
+    Parameters
+    ----------
+    du
+        Derivative along u, to the right, float32 of shape (H, W).
+    dv
+        Derivative along v, downwards, float32 of shape (H, W).
+    """
     def __new__(cls, du: NDArray[np.float32], dv: NDArray[np.float32]) -> Gradient: ...
     @property
     def du(self) -> NDArray[np.float32]:
@@ -74,9 +82,21 @@ class IntegralImage:
     def __new__(cls, image: ArrayLike) -> IntegralImage: ...
     def __eq__(self, other: object, /) -> bool: ...
     def sum(self, u0: int, v0: int, u1: int, v1: int) -> float:
-        """Sum over ``image[v0:v1, u0:u1]``."""
+        """Sum over ``image[v0:v1, u0:u1]``.
+
+        Parameters
+        ----------
+        u0, v0, u1, v1 : int
+            Columns u0 to u1 - 1 and rows v0 to v1 - 1.
+        """
     def mean(self, u0: int, v0: int, u1: int, v1: int) -> float:
-        """Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty."""
+        """Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
+
+        Parameters
+        ----------
+        u0, v0, u1, v1 : int
+            Columns u0 to u1 - 1 and rows v0 to v1 - 1.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def gray_to_f32(image: ArrayLike) -> NDArray[np.float32]:

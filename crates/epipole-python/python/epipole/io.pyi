@@ -105,12 +105,29 @@ class Cameras:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def of(camera: Camera) -> Cameras:
-        """Content with one camera."""
+        """Content with one camera.
+
+        Parameters
+        ----------
+        camera : epipole.camera.Camera
+        """
     @staticmethod
     def of_rig(cameras: Sequence[Camera], right_from_left: RigidTransform) -> Cameras:
-        """Content with the two cameras of a rig."""
+        """Content with the two cameras of a rig.
+
+        Parameters
+        ----------
+        cameras : sequence of epipole.camera.Camera
+            Left and right camera.
+        right_from_left : epipole.camera.RigidTransform
+        """
     def named(self, name: str) -> Camera:
-        """Camera of a name; `KeyError` without one."""
+        """Camera of a name; `KeyError` without one.
+
+        Parameters
+        ----------
+        name : str
+        """
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -147,7 +164,21 @@ def write_cameras(
     """
 @final
 class Decoded:
-    """Image and its file's data about the camera."""
+    """Image and its file's data about the camera.
+
+    Parameters
+    ----------
+    image
+        Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1].
+    focal_px
+        First guess of the focal length from the EXIF data, pixels of this image, or None.
+    place
+        Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
+    orientation
+        EXIF orientation of the file, 1 to 8, applied or not.
+    range
+        Sample values that became black and white, if not those of the format.
+    """
     def __new__(
         cls,
         image: Any,
@@ -230,9 +261,20 @@ class PreparedPhoto:
         """Whether the pixels are those of the file."""
     def __eq__(self, other: object, /) -> bool: ...
     def reduced_focal_px(self, focal_px: float) -> float:
-        """Focal length in pixels of `image`, from one in pixels before it was reduced."""
+        """Focal length in pixels of `image`, from one in pixels before it was reduced.
+
+        Parameters
+        ----------
+        focal_px : float
+            Focal length in the file, pixels.
+        """
     def camera(self, of_sensor: Camera) -> Camera | None:
-        """Camera of `image`, from that of the sensor; None for another size or a mirrored photo."""
+        """Camera of `image`, from that of the sensor; None for another size or a mirrored photo.
+
+        Parameters
+        ----------
+        of_sensor : epipole.camera.Camera
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def decode_rgb(
@@ -416,7 +458,14 @@ class Model:
         reconstruction: Reconstruction,
         images: Sequence[SfmImage],
     ) -> Model:
-        """Model of a reconstruction; `images` are those that it was made from."""
+        """Model of a reconstruction; `images` are those that it was made from.
+
+        Parameters
+        ----------
+        reconstruction : epipole.sfm.Reconstruction
+        images : list of epipole.sfm.SfmImage
+            Images of the input.
+        """
     def to_reconstruction(self) -> tuple[Reconstruction, list[SfmImage]]:
         """Reconstruction and its images."""
     def cloud(self) -> PointCloud:
@@ -433,7 +482,13 @@ class Model:
     def oddities(self) -> list[str]:
         """Oddities of the model, such as points behind cameras, a sentence each."""
     def losses(self, format: str) -> list[str]:
-        """Losses of a format, a sentence each."""
+        """Losses of a format, a sentence each.
+
+        Parameters
+        ----------
+        format : str
+            Format of a file.
+        """
     def to_files(self, format: str) -> dict[str, Any]:
         """Files of the model.
 
@@ -465,7 +520,17 @@ class Model:
 
 @final
 class ReadModel:
-    """Model that was read."""
+    """Model that was read.
+
+    Parameters
+    ----------
+    format
+        Format: "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg" or "ply".
+    model
+        Model.
+    notes
+        Sentences on what was left out or assumed.
+    """
     def __new__(cls, format: str, model: Model, notes: Sequence[str]) -> ReadModel: ...
     @property
     def format(self) -> str:

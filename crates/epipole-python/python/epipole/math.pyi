@@ -107,7 +107,17 @@ class Line2:
 
 @final
 class Svd3:
-    """Singular value decomposition: ``A = u @ diag(singular_values) @ v.T``."""
+    """Singular value decomposition: ``A = u @ diag(singular_values) @ v.T``.
+
+    Parameters
+    ----------
+    u
+        Left singular vectors in its columns, shape (3, 3).
+    singular_values
+        Largest first, none negative, shape (3,).
+    v
+        Right singular vectors in its columns, shape (3, 3).
+    """
     def __new__(
         cls,
         u: NDArray[np.float64],
@@ -176,10 +186,22 @@ class Random:
     """
     def __new__(cls, seed: int) -> Random: ...
     def below(self, bound: int) -> int:
-        """Integer below a bound, which is > 0."""
+        """Integer below a bound, which is > 0.
+
+        Parameters
+        ----------
+        bound : int
+            Upper end, > 0.
+        """
     def unit(self) -> float:
         """Number in [0, 1)."""
     def uniform(self, low: float, high: float) -> float:
-        """Number in [low, high)."""
+        """Number in [low, high).
+
+        Parameters
+        ----------
+        low, high : float
+            Ends of the interval.
+        """
     def normal(self) -> float:
         """Number of the standard normal distribution."""

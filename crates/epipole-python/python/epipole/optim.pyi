@@ -18,7 +18,19 @@ __all__ = [
 
 @final
 class Iteration:
-    """One tried step."""
+    """One tried step.
+
+    Parameters
+    ----------
+    index
+        Counted from 1; 0 is the start.
+    cost
+        Best cost so far.
+    damping
+        Damping of this step.
+    accepted
+        Whether the step lowered the cost and was kept.
+    """
     def __new__(cls, index: int, cost: float, damping: float, accepted: bool) -> Iteration: ...
     @property
     def index(self) -> int:
@@ -37,7 +49,24 @@ class Iteration:
 
 @final
 class LmReport:
-    """Outcome of a minimization."""
+    """Outcome of a minimization.
+
+    Parameters
+    ----------
+    initial_cost
+        Cost of the starting parameters.
+    final_cost
+        Cost of the parameters returned.
+    iterations
+        Steps tried.
+    accepted
+        Steps kept.
+    termination
+        Why the loop ended: "small_gradient", "small_step", "small_cost_change",
+        "max_iterations" or "stuck".
+    history
+        The start and every step tried, a list of `Iteration`.
+    """
     def __new__(
         cls,
         initial_cost: float,

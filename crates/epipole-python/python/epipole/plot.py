@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 
 from epipole import sfm
-from epipole._orbit import orbit
+from epipole._orbit import orbit as _orbit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,6 +56,12 @@ def matches(
         Inliers are drawn in blue, outliers dashed in vermilion and below them.
     max_lines : int
         Maximum number of lines, spread evenly over the list.
+    ax : Axes, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes
     """
     one, two = _image("image1", image1), _image("image2", image2)
     first, second = _points("points1", points1), _points("points2", points2)
@@ -103,6 +109,12 @@ def epipolar_lines(
         Lines a u + b v + c = 0, as from ``epipolar_line2``.
     points : array, shape (N, 2), optional
         Pixels drawn in the color of their line.
+    ax : Axes, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes
     """
     picture = _image("image", image)
     coefficients = _finite("lines", lines)
@@ -140,6 +152,12 @@ def disparity(
     values : array, shape (H, W)
     label : str
         Text beside the color bar.
+    ax : Axes, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes
     """
     image = np.asarray(values, dtype=float)
     if image.ndim != 2:
@@ -176,6 +194,12 @@ def cameras(
         Colors of the points: 0 to 1, or whole numbers to 255.
     size : float, optional
         Depth of the pyramids, units of the world [default: a tenth of the extent].
+    ax : Axes3D, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes3D
     """
     poses = [_pose(f"cam_from_world[{n}]", pose) for n, pose in enumerate(cam_from_world)]
     centers = np.array([-r.T @ t for r, t in poses]).reshape(-1, 3)
@@ -210,6 +234,12 @@ def reconstruction(result: sfm.Reconstruction, *, ax: Axes3D | None = None) -> A
     Parameters
     ----------
     result : epipole.sfm.Reconstruction
+    ax : Axes3D, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes3D
     """
     poses = [camera.cam_from_world for camera in result.cameras if camera is not None]
     return cameras(poses, points=result.points, colors=result.colors, ax=ax)
@@ -226,6 +256,12 @@ def residuals(
         Residuals, pixels.
     max_error_px : float, optional
         Inlier threshold, drawn as a line.
+    ax : Axes, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes
     """
     errors = _finite("errors_px", errors_px).ravel()
     if (errors < 0).any():
@@ -256,6 +292,12 @@ def coverage(
         Pixels of the marks of each image; rows with NaN are marks that were not found.
     width, height : int
         Size of the images, pixels.
+    ax : Axes, optional
+        Axes to draw in [default: new ones].
+
+    Returns
+    -------
+    Axes
     """
     ax = _axes(ax)
     for n, (view, color) in enumerate(zip(views, _distinct(len(views)))):
@@ -359,7 +401,7 @@ def _html_picture(result: object) -> str:
     """View of a result in a notebook, as HTML; empty for results that have none."""
     if not isinstance(result, sfm.Reconstruction):
         return ""
-    return orbit(result, _still(result))
+    return _orbit(result, _still(result))
 
 
 def _still(result: sfm.Reconstruction) -> str:

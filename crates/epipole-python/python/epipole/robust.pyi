@@ -15,7 +15,9 @@ __all__ = [
     "FARTHEST_PX",
     "LeastMedian",
     "PlaneSimilarity",
+    "Ransac",
     "RansacReport",
+    "Trial",
     "estimate_line",
     "estimate_similarity",
     "fit_line_huber",
@@ -31,7 +33,35 @@ __all__ = [
 FARTHEST_PX: float
 @final
 class RansacReport(Generic[_Model]):
-    """Result of a robust estimation."""
+    """Result of a robust estimation.
+
+    Parameters
+    ----------
+    model
+        Best model.
+    inliers
+        Whether each datum is an inlier, boolean array of shape (N,).
+    num_inliers
+        Number of inliers.
+    num_unique_inliers
+        Number of inliers, equal data counted once: the support of the model.
+    num_left_out
+        Number of data left out: a coordinate that is infinite or beyond 1e9 pixels.
+    iterations
+        Samples drawn.
+    required_iterations
+        Number of samples required by the final inlier ratio.
+    max_error_px
+        Threshold of inliers, pixels.
+    score
+        Score of the model.
+    log10_false_alarms
+        Expected number of such models in data without structure, as log10; None if unknown.
+    refinements
+        Number of times a model was improved from its inliers.
+    stop
+        Why the search ended: "confident", "exhausted" or "interrupted".
+    """
     def __new__(
         cls,
         model: _Model,
@@ -92,7 +122,19 @@ class RansacReport(Generic[_Model]):
 
 @final
 class LeastMedian(Generic[_Model]):
-    """Result of `least_median`."""
+    """Result of `least_median`.
+
+    Parameters
+    ----------
+    model
+        Model, fitted to its inliers.
+    median_px
+        Median error of the best model of a sample, in the unit of the errors.
+    sigma_px
+        Standard deviation of the noise that follows from the median, in the same unit.
+    num_inliers
+        Number of data within 2.5 standard deviations of the model.
+    """
     def __new__(
         cls,
         model: _Model,
@@ -118,8 +160,263 @@ class LeastMedian(Generic[_Model]):
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
+class Ransac:
+    """RANSAC, one sample at a time: to show it, or to end it by a rule of your own.
+
+    The constructor takes a model of your own; `line`, `similarity`, `fundamental` and
+    `homography` start runs for models of the library.
+
+    Parameters
+    ----------
+    num_data : int
+        Number of data.
+    sample_size : int
+        Number of data in a minimal sample.
+    fit : callable
+        ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+    errors : callable
+        ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+        ``max_error_px``.
+    refine : callable, optional
+        ``refine(model, indices)`` returns a better model from the inliers, or None.
+    **options : RansacOptions
+        Those of `ransac`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        If there are fewer data than a sample has.
+
+    Notes
+    -----
+    An exception in a callable is raised by the step; the next step continues.
+
+    Examples
+    --------
+    >>> run = Ransac.line([[0, 2], [1, 2], [2, 2], [3, 2], [4, 9]])
+    >>> trial = run.step()
+    >>> trial.iteration, trial.num_models, len(trial.sample)
+    (1, 1, 2)
+    >>> sum(trial.is_best for trial in run) <= 199  # draws the other samples
+    True
+    >>> run.finish().num_inliers
+    4
+    """
+    def __new__(
+        cls,
+        num_data: int,
+        sample_size: int,
+        fit: Callable[..., Any],
+        errors: Callable[..., Any],
+        refine: Callable[..., Any] | None = None,
+        **options: Unpack[option_types.RansacOptions],
+    ) -> Ransac: ...
+    @property
+    def best_model(self) -> Any:
+        """Best model so far, or None.
+
+        Returns
+        -------
+        Any
+        """
+    @property
+    def best_score(self) -> float | None:
+        """Score of the best model so far, or None."""
+    @property
+    def iterations(self) -> int:
+        """Number of samples drawn so far."""
+    @property
+    def required_iterations(self) -> int | None:
+        """Number of samples required by the best model so far; None before there is one."""
+    @property
+    def expected_iterations(self) -> int:
+        """Number of samples after which the run ends if no better model is found."""
+    @staticmethod
+    def line(points: ArrayLike, **options: Unpack[option_types.RansacOptions]) -> Ransac:
+        """Start for a line through points; see `estimate_line`.
+
+        Parameters
+        ----------
+        points : array_like, shape (N, 2)
+            Pixels.
+        **options : RansacOptions
+            Those of `ransac`.
+
+        Returns
+        -------
+        Ransac
+            Its models are lines (a, b, c).
+        """
+    @staticmethod
+    def similarity(
+        pixels1: ArrayLike,
+        pixels2: ArrayLike,
+        **options: Unpack[option_types.RansacOptions],
+    ) -> Ransac:
+        """Start for a similarity of the plane; see `estimate_similarity`.
+
+        Parameters
+        ----------
+        pixels1, pixels2 : array_like, shape (N, 2)
+            Matches.
+        **options : RansacOptions
+            Those of `ransac`.
+
+        Returns
+        -------
+        Ransac
+            Its models are `PlaneSimilarity`.
+        """
+    @staticmethod
+    def fundamental(
+        pixels1: ArrayLike,
+        pixels2: ArrayLike,
+        **options: Unpack[option_types.RansacOptions],
+    ) -> Ransac:
+        """Start for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
+
+        Parameters
+        ----------
+        pixels1, pixels2 : array_like, shape (N, 2)
+            Matches.
+        **options : RansacOptions
+            Those of `ransac`.
+
+        Returns
+        -------
+        Ransac
+            Its models are F, shape (3, 3).
+        """
+    @staticmethod
+    def homography(
+        pixels1: ArrayLike,
+        pixels2: ArrayLike,
+        **options: Unpack[option_types.RansacOptions],
+    ) -> Ransac:
+        """Start for a homography; see `epipole.homography.estimate_homography`.
+
+        Parameters
+        ----------
+        pixels1, pixels2 : array_like, shape (N, 2)
+            Matches.
+        **options : RansacOptions
+            Those of `ransac`.
+
+        Returns
+        -------
+        Ransac
+            Its models are H, shape (3, 3).
+        """
+    def start_from(self, model: object) -> None:
+        """Improves a model that is known, such as that of the frame before, and starts from it.
+
+        Parameters
+        ----------
+        model : object
+            Of the kind that the run estimates.
+        """
+    def step(self) -> Trial | None:
+        """Draws a sample and returns a `Trial`; None once enough samples were drawn."""
+    def __iter__(self, /) -> Ransac: ...
+    def __next__(self, /) -> Trial: ...
+    def finish(self) -> RansacReport[Any]:
+        """Improves the best model one last time. Ends the run.
+
+        Returns
+        -------
+        RansacReport of Any
+            Its ``stop`` is "interrupted" if more samples were required.
+
+        Raises
+        ------
+        epipole.NoConsensusError
+            If no sample gave a model with support.
+        RuntimeError
+            If the run is finished already.
+        """
+
+@final
+class Trial:
+    """One sample of `Ransac` and its outcome.
+
+    Parameters
+    ----------
+    iteration
+        Number of the sample, from 1.
+    sample
+        Indices of the data drawn, int64 array of shape (sample_size,).
+    num_models
+        Number of models of the sample.
+    model
+        Best of them, or None.
+    score
+        Its score. An upper bound if it could not win, unless ``score_every_trial`` is set.
+    num_inliers
+        Number of its inliers. A lower bound in the same case.
+    required_iterations
+        Number of samples required by the best model so far; None before there is one.
+    is_best
+        Whether the best model so far came out of this step.
+    refined
+        Best model after local optimization, or None if it was not improved.
+    """
+    def __new__(
+        cls,
+        iteration: int,
+        sample: NDArray[np.int64],
+        num_models: int,
+        model: Any | None,
+        score: float,
+        num_inliers: int,
+        required_iterations: int | None,
+        is_best: bool,
+        refined: Any | None,
+    ) -> Trial: ...
+    @property
+    def iteration(self) -> int:
+        """Number of the sample, from 1."""
+    @property
+    def sample(self) -> NDArray[np.int64]:
+        """Indices of the data drawn, int64 array of shape (sample_size,)."""
+    @property
+    def num_models(self) -> int:
+        """Number of models of the sample."""
+    @property
+    def model(self) -> Any:
+        """Best of them, or None."""
+    @property
+    def score(self) -> float:
+        """Its score. An upper bound if it could not win, unless ``score_every_trial`` is set."""
+    @property
+    def num_inliers(self) -> int:
+        """Number of its inliers. A lower bound in the same case."""
+    @property
+    def required_iterations(self) -> int | None:
+        """Number of samples required by the best model so far; None before there is one."""
+    @property
+    def is_best(self) -> bool:
+        """Whether the best model so far came out of this step."""
+    @property
+    def refined(self) -> Any:
+        """Best model after local optimization, or None if it was not improved."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
 class PlaneSimilarity:
-    """Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``."""
+    """Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
+
+    Parameters
+    ----------
+    a
+        Scale times the cosine of the turn.
+    b
+        Scale times the sine of the turn.
+    tu
+        Shift along u, pixels.
+    tv
+        Shift along v, pixels.
+    """
     def __new__(cls, a: float, b: float, tu: float, tv: float) -> PlaneSimilarity: ...
     @property
     def a(self) -> float:
@@ -387,5 +684,5 @@ def ransac(
 
     Notes
     -----
-    An exception in a callable ends the run and is raised.
+    An exception in a callable ends the run and is raised. `Ransac` runs step by step.
     """

@@ -121,7 +121,19 @@ class Similarity3:
 
 @final
 class ErrorStatistics:
-    """Statistics of non-negative errors."""
+    """Statistics of non-negative errors.
+
+    Parameters
+    ----------
+    rmse
+        Root of the mean square.
+    mean
+        Mean.
+    median
+        Median, the lower one of an even number.
+    max
+        Largest.
+    """
     def __new__(cls, rmse: float, mean: float, median: float, max: float) -> ErrorStatistics: ...
     @property
     def rmse(self) -> float:
@@ -140,7 +152,15 @@ class ErrorStatistics:
 
 @final
 class RelativePoseError:
-    """Errors of the motion between frames."""
+    """Errors of the motion between frames.
+
+    Parameters
+    ----------
+    translation
+        `ErrorStatistics` of the translation, in the unit of the trajectories.
+    rotation_deg
+        `ErrorStatistics` of the rotation, degrees.
+    """
     def __new__(
         cls,
         translation: ErrorStatistics,
@@ -240,7 +260,13 @@ class Bundle:
         """Sensor of each observation, int64 array; 0 for the camera itself."""
     def __eq__(self, other: object, /) -> bool: ...
     def residual_px(self, observation: int) -> NDArray[np.float64]:
-        """Reprojection error of an observation, predicted minus observed pixel, shape (2,)."""
+        """Reprojection error of an observation, predicted minus observed pixel, shape (2,).
+
+        Parameters
+        ----------
+        observation : int
+            Index of the observation.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -535,7 +561,12 @@ class Reconstruction:
     def num_observations(self) -> int:
         """Number of observations of all points."""
     def moved(self, to_from_world: Similarity3) -> Reconstruction:
-        """The same in another world, moved by ``to_from_world``."""
+        """The same in another world, moved by ``to_from_world``.
+
+        Parameters
+        ----------
+        to_from_world : Similarity3
+        """
     def project(self, image: int, point: ArrayLike) -> NDArray[np.float64] | None:
         """Pixel of a point in an image.
 
@@ -551,7 +582,13 @@ class Reconstruction:
             None if the camera does not see it.
         """
     def mean_reprojection_px(self, images: Sequence[SfmImage]) -> float:
-        """Mean length of all reprojection errors, pixels."""
+        """Mean length of all reprojection errors, pixels.
+
+        Parameters
+        ----------
+        images : list of SfmImage
+            Images of the input.
+        """
     def to_bundle(self, images: Sequence[SfmImage]) -> tuple[Bundle, NDArray[np.int64]]:
         """The same for bundle adjustment.
 
@@ -600,7 +637,18 @@ class Reconstruction:
 
 @final
 class Localization:
-    """Photo localized in a reconstruction."""
+    """Photo localized in a reconstruction.
+
+    Parameters
+    ----------
+    cam_from_world
+        Pose of its camera.
+    inliers
+        Points that agree with the pose: index of the point and of the photo's keypoint, int64
+        of shape (M, 2).
+    num_matches
+        Number of matches between keypoints of the photo and points.
+    """
     def __new__(
         cls,
         cam_from_world: RigidTransform,
@@ -732,7 +780,16 @@ class IncrementalReconstruction:
 
 @final
 class WhyUnregistered:
-    """Why an image is in no reconstruction."""
+    """Why an image is in no reconstruction.
+
+    Parameters
+    ----------
+    kind
+        "few_features", "few_matches", "no_motion", "no_baseline", "no_start", "few_points",
+        "no_pose" or "not_tried".
+    message
+        Reason as a sentence.
+    """
     def __new__(cls, kind: str, message: str) -> WhyUnregistered: ...
     @property
     def kind(self) -> str:
@@ -944,7 +1001,21 @@ class PoseGraph:
 
 @final
 class PoseGraphReport:
-    """Report of the optimization of a pose graph."""
+    """Report of the optimization of a pose graph.
+
+    Parameters
+    ----------
+    initial_chi2
+        Sum of the weighted squared errors at the start.
+    final_chi2
+        Sum of the weighted squared errors at the end.
+    iterations
+        Steps tried.
+    termination
+        Why the loop ended, as in `epipole.optim.LmReport`.
+    num_components
+        Number of connected parts.
+    """
     def __new__(
         cls,
         initial_chi2: float,
@@ -1008,7 +1079,17 @@ class LoopClosure:
 
 @final
 class ClosedPath:
-    """Path after its loops were closed."""
+    """Path after its loops were closed.
+
+    Parameters
+    ----------
+    world_from_cam
+        ``world_from_cam`` of each frame, a list of `RigidTransform`.
+    scale
+        Factor of lengths around each frame, shape (N,).
+    report
+        `PoseGraphReport` of the optimization.
+    """
     def __new__(
         cls,
         world_from_cam: Sequence[RigidTransform],
@@ -1029,7 +1110,20 @@ class ClosedPath:
 
 @final
 class VerifiedPair:
-    """Pair of images that passed the test of epipolar geometry."""
+    """Pair of images that passed the test of epipolar geometry.
+
+    Parameters
+    ----------
+    pair
+        Matches that passed.
+    cam2_from_cam1
+        Motion of the camera, ``|t| == 1``.
+    median_angle_rad
+        Median angle between the two rays of a match, radians: small for pure rotations and far
+        scenes; 0 if a plane and a pure rotation explain the matches.
+    is_flat
+        Whether a homography explains most matches: a flat scene, or a pure rotation.
+    """
     def __new__(
         cls,
         pair: PairMatches,
@@ -1056,7 +1150,27 @@ class VerifiedPair:
 
 @final
 class TwoViewReconstruction:
-    """Two cameras and their points, in the frame of camera 1; the cameras have distance 1."""
+    """Two cameras and their points, in the frame of camera 1; the cameras have distance 1.
+
+    Parameters
+    ----------
+    cam2_from_cam1
+        Refined motion, ``|t| == 1``.
+    points
+        Points, shape (P, 3).
+    triangulated
+        The same points as first triangulated, shape (P, 3).
+    match_of_point
+        Index of the match of each point, increasing, int64 of shape (P,).
+    num_in_front
+        Number of matches in front of both cameras by each of the four motions of E, most first.
+    rms_before_px
+        Root mean square of the reprojection errors as first triangulated, pixels.
+    rms_px
+        Root mean square after the refinement, pixels.
+    report
+        `epipole.optim.LmReport` of the last refinement.
+    """
     def __new__(
         cls,
         cam2_from_cam1: RigidTransform,

@@ -110,7 +110,15 @@ class StereoSgm:
 
 @final
 class DepthInterval:
-    """Depths that an uncertain disparity allows."""
+    """Depths that an uncertain disparity allows.
+
+    Parameters
+    ----------
+    near_m
+        Smallest depth, meters.
+    far_m
+        Largest depth, meters; None if the interval reaches infinity.
+    """
     def __new__(cls, near_m: float, far_m: float | None) -> DepthInterval: ...
     @property
     def near_m(self) -> float:
@@ -123,7 +131,15 @@ class DepthInterval:
 
 @final
 class PointCloud:
-    """Points in space."""
+    """Points in space.
+
+    Parameters
+    ----------
+    points
+        Points, shape (N, 3).
+    colors
+        Colors, uint8 of shape (N, 3), or None.
+    """
     def __new__(
         cls,
         points: NDArray[np.float64],
@@ -171,7 +187,13 @@ class PixelMap:
             Pixels of the source to pixels of the result, up to scale.
         """
     def source(self, u: int, v: int) -> NDArray[np.float64] | None:
-        """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None."""
+        """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
+
+        Parameters
+        ----------
+        u, v : int
+            Column and row of the result.
+        """
     def warp(self, source: ArrayLike) -> NDArray[Any]:
         """Redrawn image, bilinear, 0 where nothing is read.
 
@@ -185,12 +207,30 @@ class PixelMap:
             uint8 for uint8, else float32.
         """
     def mask(self, source_width: int, source_height: int) -> NDArray[np.uint8]:
-        """Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0."""
+        """Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
+
+        Parameters
+        ----------
+        source_width, source_height : int
+            Size of the image, pixels.
+        """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PixelRect:
-    """Rectangle of pixel coordinates."""
+    """Rectangle of pixel coordinates.
+
+    Parameters
+    ----------
+    u_min
+        Left end.
+    v_min
+        Upper end.
+    u_max
+        Right end.
+    v_max
+        Lower end.
+    """
     def __new__(cls, u_min: float, v_min: float, u_max: float, v_max: float) -> PixelRect: ...
     @property
     def u_min(self) -> float:
@@ -310,7 +350,13 @@ class Rectification:
             `DegenerateError`.
         """
     def map(self, index: int) -> PixelMap:
-        """Map that redraws photo 0 or 1."""
+        """Map that redraws photo 0 or 1.
+
+        Parameters
+        ----------
+        index : int
+            0 for the first camera, 1 for the second.
+        """
     def disparity_of(self, place: ArrayLike) -> NDArray[np.float64]:
         """Pixels of the first rectified image that show points, and their disparities.
 
@@ -415,7 +461,19 @@ class RectifiedPair:
 
 @final
 class UncalibratedRectification:
-    """Homographies that put matches into the same row, or column."""
+    """Homographies that put matches into the same row, or column.
+
+    Parameters
+    ----------
+    homographies
+        Homographies from pixels of the photos to rectified pixels, shape (2, 3, 3).
+    is_vertical
+        Whether matches share a column instead of a row.
+    disparity_range_px
+        Smallest and largest disparity among the matches, pixels.
+    outlines
+        Smallest rectangles around the rectified photos, a pair.
+    """
     def __new__(
         cls,
         homographies: NDArray[np.float64],

@@ -92,7 +92,17 @@ class MultiViewProblem:
 
 @final
 class Sightings:
-    """Points seen by cameras; row k of each array belongs to observation k."""
+    """Points seen by cameras; row k of each array belongs to observation k.
+
+    Parameters
+    ----------
+    indices
+        Index of the camera and of the point, int64 of shape (M, 2).
+    pixels
+        Measured pixels, shape (M, 2).
+    is_inlier
+        Whether an observation is right up to noise, boolean array of shape (M,).
+    """
     def __new__(
         cls,
         indices: NDArray[np.int64],

@@ -25,7 +25,15 @@ __all__ = [
 
 @final
 class NviewPoint:
-    """Point of several views."""
+    """Point of several views.
+
+    Parameters
+    ----------
+    point_in_world
+        Point, shape (3,).
+    rms_error_px
+        Root mean square of the distances between projections and pixels.
+    """
     def __new__(cls, point_in_world: NDArray[np.float64], rms_error_px: float) -> NviewPoint: ...
     @property
     def point_in_world(self) -> NDArray[np.float64]:

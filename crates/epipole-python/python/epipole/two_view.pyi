@@ -30,7 +30,43 @@ __all__ = [
 PHOTO_MAX_ERROR_PX: float
 @final
 class TwoViewReport:
-    """Geometry of two views."""
+    """Geometry of two views.
+
+    Parameters
+    ----------
+    configuration
+        "general", "planar", "panoramic" or "degenerate".
+    kind
+        Kind of the model: "fundamental", "essential" or "homography".
+    model
+        Chosen matrix, shape (3, 3).
+    is_of_rays
+        Whether model and homography are of rays, not of pixels: lenses with distortion.
+    fundamental
+        F, shape (3, 3), or None.
+    homography
+        H, shape (3, 3), or None.
+    cam2_from_cam1
+        Motion of calibrated views, translation of length 1, or 0 for a rotation; or None.
+    other_cam2_from_cam1
+        Second motion that explains a plane as well, or None.
+    inliers
+        Whether each match is an inlier, boolean array of shape (N,).
+    num_inliers
+        Number of inliers.
+    num_left_out
+        Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels.
+    max_error_px
+        Threshold of F and E, pixels.
+    iterations
+        Samples drawn, over all models tried.
+    required_iterations
+        Number of samples required for the model.
+    stop
+        Why the search ended: "confident", "exhausted" or "interrupted".
+    median_triangulation_angle_rad
+        Median angle at which rays of inliers meet, radians, or None.
+    """
     def __new__(
         cls,
         configuration: str,
@@ -103,7 +139,17 @@ class TwoViewReport:
 
 @final
 class ExplainingTurn:
-    """Rotation that explains nearly all inliers."""
+    """Rotation that explains nearly all inliers.
+
+    Parameters
+    ----------
+    cam2_from_cam1
+        Rotation, with a translation of 0.
+    num_explained
+        Number of inliers that it explains.
+    num_inliers
+        Number of inliers.
+    """
     def __new__(
         cls,
         cam2_from_cam1: RigidTransform,
@@ -124,7 +170,19 @@ class ExplainingTurn:
 
 @final
 class TurnAndFocal:
-    """Rotation and change of the focal length that explain nearly all inliers."""
+    """Rotation and change of the focal length that explain nearly all inliers.
+
+    Parameters
+    ----------
+    cam2_from_cam1
+        Rotation, with a translation of 0.
+    focal_factor
+        Factor by which both focal lengths differ from those given.
+    num_explained
+        Number of different matches that it explains.
+    num_inliers
+        Number of different matches.
+    """
     def __new__(
         cls,
         cam2_from_cam1: RigidTransform,
@@ -149,7 +207,17 @@ class TurnAndFocal:
 
 @final
 class Degeneracy:
-    """Why inliers do not determine F."""
+    """Why inliers do not determine F.
+
+    Parameters
+    ----------
+    kind
+        "unmoved" or "homography".
+    num_explained
+        Number of inliers that did not move, or that a homography explains.
+    num_inliers
+        Number of inliers.
+    """
     def __new__(cls, kind: str, num_explained: int, num_inliers: int) -> Degeneracy: ...
     @property
     def kind(self) -> str:

@@ -90,6 +90,11 @@ impl Board {
     }
 
     /// Place of a mark on the board, meters, shape (2,). Marks are counted row by row.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : int
+    ///     Number of the mark, from 0.
     fn mark<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let count = self.board.num_marks();
         if index >= count {

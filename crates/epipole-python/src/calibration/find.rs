@@ -36,6 +36,11 @@ record! {
 #[pymethods]
 impl BoardSearch {
     /// Why the board was not found, as a sentence; None if it was.
+    ///
+    /// Parameters
+    /// ----------
+    /// board : Board
+    ///     Board that was searched.
     fn problem(&self, board: &Board) -> PyResult<Option<String>> {
         use calibration::BoardSearch as Search;
         let search = match (&*self.kind, &self.view) {

@@ -71,6 +71,11 @@ impl Intrinsics {
     }
 
     /// Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+    ///
+    /// Parameters
+    /// ----------
+    /// parameters : sequence of float
+    ///     fx, fy, cx, cy, pixels.
     #[staticmethod]
     fn from_colmap(parameters: [f64; 4]) -> PyResult<Self> {
         Ok(Self(
@@ -152,16 +157,31 @@ impl Intrinsics {
     }
 
     /// Intrinsics after the image is resized by a factor; 0.5 halves both sides.
+    ///
+    /// Parameters
+    /// ----------
+    /// factor : float
+    ///     Scale of the image, > 0.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.scaled(factor).or_raise()?))
     }
 
     /// Intrinsics with both focal lengths multiplied by a factor.
+    ///
+    /// Parameters
+    /// ----------
+    /// factor : float
+    ///     Factor of the focal lengths, > 0.
     fn zoomed(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.zoomed(factor).or_raise()?))
     }
 
     /// Intrinsics after the image is resized from one (width, height) to another, pixels.
+    ///
+    /// Parameters
+    /// ----------
+    /// old, new : tuple of int
+    ///     Width and height before and after, pixels.
     #[pyo3(signature = (old, new))]
     fn resized(&self, old: (u32, u32), new: (u32, u32)) -> PyResult<Self> {
         Ok(Self(self.0.resized(old, new).or_raise()?))

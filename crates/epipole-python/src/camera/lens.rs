@@ -92,6 +92,11 @@ impl Lens {
     }
 
     /// Lens after the image is turned clockwise by quarter turns.
+    ///
+    /// Parameters
+    /// ----------
+    /// quarters : int
+    ///     Number of quarter turns.
     fn turned(&self, quarters: u8) -> Self {
         self.0.turned(quarters).into()
     }

@@ -52,6 +52,10 @@ impl RelativePose {
     }
 
     /// Relative pose of a motion, whose length is dropped.
+    ///
+    /// Parameters
+    /// ----------
+    /// cam2_from_cam1 : epipole.camera.RigidTransform
     #[staticmethod]
     fn from_motion(cam2_from_cam1: &RigidTransform) -> PyResult<Self> {
         let pose = epipolar::RelativePose::from_motion(&cam2_from_cam1.0);
@@ -76,6 +80,11 @@ impl RelativePose {
     }
 
     /// F of the pixels of two pinhole cameras, shape (3, 3).
+    ///
+    /// Parameters
+    /// ----------
+    /// k1, k2 : epipole.camera.Intrinsics
+    ///     Intrinsics of the two cameras.
     fn fundamental<'py>(
         &self,
         py: Python<'py>,

@@ -101,7 +101,7 @@ pub(crate) fn descriptors(name: &str, value: &Bound<'_, PyAny>) -> PyResult<feat
     let array = as_array(name, value, "(N, D)")?;
     if dtype(&array)? != "uint8" {
         let (values, dimension) = table(name, &array)?;
-        let is_byte = |value: &f32| value.fract() == 0.0 && (0.0..=255.0).contains(value);
+        let is_byte = |&value: &f32| f32::from(value as u8) == value;
         // Whole numbers, as of SIFT, are compared faster.
         if values.iter().all(is_byte) {
             let bytes = values.iter().map(|&value| value as u8).collect();

@@ -26,6 +26,11 @@ record! {
 #[pymethods]
 impl StructureTensor {
     /// Eigenvalues at a pixel, the larger first; None outside the image.
+    ///
+    /// Parameters
+    /// ----------
+    /// u, v : int
+    ///     Column and row.
     fn eigenvalues(&self, py: Python<'_>, u: u32, v: u32) -> PyResult<Option<(f32, f32)>> {
         Ok(self
             .pixel(py, u, v)?
@@ -33,6 +38,11 @@ impl StructureTensor {
     }
 
     /// Tensor at a pixel; None outside the image.
+    ///
+    /// Parameters
+    /// ----------
+    /// u, v : int
+    ///     Column and row.
     fn at(&self, py: Python<'_>, u: u32, v: u32) -> PyResult<Option<WindowTensor>> {
         let at = self.pixel(py, u, v)?.and_then(|pixel| pixel.at(0, 0));
         Ok(at.map(WindowTensor::from))

@@ -99,6 +99,11 @@ impl WindowTensor {
     }
 
     /// Harris response ``det M - k * trace(M)**2``.
+    ///
+    /// Parameters
+    /// ----------
+    /// k : float
+    ///     Weight of the squared trace, such as 0.04.
     fn harris(&self, k: f64) -> f64 {
         self.core().harris(k)
     }
@@ -132,6 +137,11 @@ impl ShiftSurface {
     }
 
     /// Squared change under the shift by `du` columns and `dv` rows; None beyond the reach.
+    ///
+    /// Parameters
+    /// ----------
+    /// du, dv : int
+    ///     Shift along columns and rows, pixels.
     fn at(&self, py: Python<'_>, du: i32, dv: i32) -> Option<f64> {
         let reach = i32::try_from(self.reach(py)).ok()?;
         let place = |shift: i32| usize::try_from(shift.checked_add(reach)?).ok();

@@ -1,11 +1,14 @@
 //! NumPy arrays of numbers to vectors, by dtype.
 
-use crate::arrays::as_array;
+use crate::arrays::{as_array, is_aligned};
 use numpy::prelude::*;
 use numpy::{Element, PyArrayDyn, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+
+/// Number of elements that are tested together.
+const BLOCK: usize = 1024;
 
 /// Reads finite numbers of shape `(N,)`.
 ///
@@ -16,9 +19,7 @@ pub(crate) fn column(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f32>>
     if array.ndim() != 1 {
         return Err(wrong_shape(name, "(N,)", &array)?);
     }
-    let values: Vec<f32> = elements(&array, "float32")?;
-    require_finite(name, &values, 1)?;
-    Ok(values)
+    finite_elements(name, &array, 1)
 }
 
 /// Reads finite numbers of shape `(N, D)`: the numbers and D.
@@ -30,9 +31,7 @@ pub(crate) fn table(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<f32>,
     let [_, columns] = *array.shape() else {
         return Err(wrong_shape(name, "(N, D)", &array)?);
     };
-    let values: Vec<f32> = elements(&array, "float32")?;
-    require_finite(name, &values, columns)?;
-    Ok((values, columns))
+    Ok((finite_elements(name, &array, columns)?, columns))
 }
 
 /// Array of real numbers.
@@ -56,26 +55,47 @@ pub(crate) fn elements<T: Element + Copy>(
     array: &Bound<'_, PyUntypedArray>,
     dtype: &str,
 ) -> PyResult<Vec<T>> {
+    Ok(tested_elements(array, dtype, |_| false)?.0)
+}
+
+/// As [`elements`], with the place of the first that is wrong.
+fn tested_elements<T: Element + Copy>(
+    array: &Bound<'_, PyUntypedArray>,
+    dtype: &str,
+    is_wrong: impl Fn(T) -> bool,
+) -> PyResult<(Vec<T>, Option<usize>)> {
     let typed = match array.cast::<PyArrayDyn<T>>() {
-        Ok(typed) if array.getattr("flags")?.getattr("aligned")?.extract()? => typed.clone(),
+        Ok(typed) if is_aligned(array)? => typed.clone(),
         _ => (array.call_method1("astype", (dtype,))?).cast_into::<PyArrayDyn<T>>()?,
     };
     let typed = typed.readonly();
     let view = typed.as_array();
     // The slice of the view is row-major; that of the array may be column-major.
-    Ok(match view.as_slice() {
-        Some(slice) => slice.to_vec(),
-        None => view.iter().copied().collect(),
-    })
+    let Some(slice) = view.as_slice() else {
+        let values: Vec<T> = view.iter().copied().collect();
+        let place = first(&values, is_wrong);
+        return Ok((values, place));
+    };
+    let (mut values, mut place) = (Vec::with_capacity(slice.len()), None);
+    for block in slice.chunks(BLOCK) {
+        place = place.or_else(|| Some(values.len() + first(block, &is_wrong)?));
+        values.extend_from_slice(block);
+    }
+    Ok((values, place))
 }
 
-/// Refuses NaN and infinity, naming the row.
+/// Finite numbers in row-major order; rows have the given length.
 ///
 /// # Errors
-/// `ValueError` naming the argument.
-pub(super) fn require_finite(name: &str, values: &[f32], columns: usize) -> PyResult<()> {
-    let Some(place) = values.iter().position(|value| !value.is_finite()) else {
-        return Ok(());
+/// `ValueError` naming the argument and the row of NaN or infinity.
+pub(super) fn finite_elements(
+    name: &str,
+    array: &Bound<'_, PyUntypedArray>,
+    columns: usize,
+) -> PyResult<Vec<f32>> {
+    let (values, place) = tested_elements(array, "float32", |x: f32| !x.is_finite())?;
+    let Some(place) = place else {
+        return Ok(values);
     };
     let what = if values[place].is_nan() {
         "NaN"
@@ -86,6 +106,15 @@ pub(super) fn require_finite(name: &str, values: &[f32], columns: usize) -> PyRe
     Err(PyValueError::new_err(format!(
         "{name} contains {what} in row {row}"
     )))
+}
+
+/// Place of the first element that is wrong.
+pub(super) fn first<T: Copy>(values: &[T], is_wrong: impl Fn(T) -> bool) -> Option<usize> {
+    // A block is tested to its end: the processor then tests several elements at once.
+    let fits = |block: &[T]| !(block.iter()).fold(false, |wrong, &x| wrong | is_wrong(x));
+    let start = BLOCK * values.chunks(BLOCK).position(|block| !fits(block))?;
+    let place = values[start..].iter().position(|&value| is_wrong(value))?;
+    Some(start + place)
 }
 
 /// Error of an unexpected shape.

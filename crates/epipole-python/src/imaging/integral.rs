@@ -26,11 +26,21 @@ impl IntegralImage {
     }
 
     /// Sum over ``image[v0:v1, u0:u1]``.
+    ///
+    /// Parameters
+    /// ----------
+    /// u0, v0, u1, v1 : int
+    ///     Columns u0 to u1 - 1 and rows v0 to v1 - 1.
     fn sum(&self, u0: usize, v0: usize, u1: usize, v1: usize) -> f64 {
         self.0.sum(u0, v0, u1, v1)
     }
 
     /// Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
+    ///
+    /// Parameters
+    /// ----------
+    /// u0, v0, u1, v1 : int
+    ///     Columns u0 to u1 - 1 and rows v0 to v1 - 1.
     fn mean(&self, u0: usize, v0: usize, u1: usize, v1: usize) -> f64 {
         self.0.mean(u0, v0, u1, v1)
     }

@@ -5,8 +5,10 @@ use crate::errors::OrRaise;
 use crate::images::{Gray, from_rgb, require_size, rgb};
 use crate::progress;
 use epipole::imaging::{self, Border, GrayImage32};
-use numpy::PyArray3;
+use numpy::prelude::*;
+use numpy::{PyArray3, PyUntypedArray};
 use pyo3::prelude::*;
+use pyo3::types::PySlice;
 
 /// Image at another size, without aliasing: means when it shrinks, linear when it grows.
 ///
@@ -109,8 +111,40 @@ fn sample<'py>(
     border: Option<&Bound<'py, PyAny>>,
     at: fn(&GrayImage32, f64, f64, Border) -> f32,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let gray = Gray::read("image", image)?;
+    let pixels = Batch::<2>::read("pixel", pixel)?;
+    let (image, [u, v]) = read_part(image, pixels.bounds()?)?;
+    let gray = Gray::read("image", &image)?;
     let border = gray.border(border)?;
-    let value = |p: &epipole::nalgebra::Vector2<f64>| at(&gray.pixels, p.x, p.y, border).into();
-    Batch::<2>::read("pixel", pixel)?.numbers(image.py(), value)
+    let value =
+        |p: &epipole::nalgebra::Vector2<f64>| at(&gray.pixels, p.x - u, p.y - v, border).into();
+    pixels.numbers(image.py(), value)
+}
+
+/// Part of an image that is read at pixels within bounds, and its first pixel: reading all of it
+/// would take a thousand times as long as a sample. The whole image near its border.
+fn read_part<'py>(
+    image: &Bound<'py, PyAny>,
+    bounds: Option<[(f64, f64); 2]>,
+) -> PyResult<(Bound<'py, PyAny>, [f64; 2])> {
+    /// Neighbors of a pixel that an interpolation reads, and one more.
+    const MARGIN: f64 = 3.0;
+    let (Ok(array), Some(bounds)) = (image.cast::<PyUntypedArray>(), bounds) else {
+        return Ok((image.clone(), [0.0; 2]));
+    };
+    let &[height, width] = array.shape() else {
+        return Ok((image.clone(), [0.0; 2]));
+    };
+    let part = |(least, most): (f64, f64), length: usize| {
+        let (start, end) = (least.floor() - MARGIN, most.floor() + MARGIN);
+        let is_inside = start >= 0.0 && end < length as f64;
+        is_inside.then_some((start, end as isize + 1))
+    };
+    let (Some((u, u_end)), Some((v, v_end))) = (part(bounds[0], width), part(bounds[1], height))
+    else {
+        return Ok((image.clone(), [0.0; 2]));
+    };
+    let py = image.py();
+    let rows = PySlice::new(py, v as isize, v_end, 1);
+    let columns = PySlice::new(py, u as isize, u_end, 1);
+    Ok((image.get_item((rows, columns))?, [u, v]))
 }

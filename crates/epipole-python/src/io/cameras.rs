@@ -88,12 +88,22 @@ impl Cameras {
     }
 
     /// Content with one camera.
+    ///
+    /// Parameters
+    /// ----------
+    /// camera : epipole.camera.Camera
     #[staticmethod]
     fn of(camera: &Camera) -> Self {
         Self(camera::Cameras::of(camera.0))
     }
 
     /// Content with the two cameras of a rig.
+    ///
+    /// Parameters
+    /// ----------
+    /// cameras : sequence of epipole.camera.Camera
+    ///     Left and right camera.
+    /// right_from_left : epipole.camera.RigidTransform
     #[staticmethod]
     fn of_rig(cameras: [Camera; 2], right_from_left: &RigidTransform) -> Self {
         let cameras = cameras.map(|camera| camera.0);
@@ -113,6 +123,10 @@ impl Cameras {
     }
 
     /// Camera of a name; `KeyError` without one.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
     fn named(&self, name: &str) -> PyResult<Camera> {
         let camera = self.0.named(name).copied();
         let missing = || PyKeyError::new_err(name.to_owned());

@@ -172,6 +172,12 @@ impl Model {
     }
 
     /// Model of a reconstruction; `images` are those that it was made from.
+    ///
+    /// Parameters
+    /// ----------
+    /// reconstruction : epipole.sfm.Reconstruction
+    /// images : list of epipole.sfm.SfmImage
+    ///     Images of the input.
     #[staticmethod]
     fn from_reconstruction(
         reconstruction: &Reconstruction,
@@ -264,6 +270,11 @@ impl Model {
     }
 
     /// Losses of a format, a sentence each.
+    ///
+    /// Parameters
+    /// ----------
+    /// format : str
+    ///     Format of a file.
     fn losses(&self, format: &str) -> PyResult<Vec<String>> {
         Ok(model_format(format)?.losses(&self.0))
     }

@@ -256,11 +256,20 @@ impl PreparedPhoto {
     }
 
     /// Focal length in pixels of `image`, from one in pixels before it was reduced.
+    ///
+    /// Parameters
+    /// ----------
+    /// focal_px : float
+    ///     Focal length in the file, pixels.
     fn reduced_focal_px(&self, focal_px: f64) -> f64 {
         self.0.reduced_focal_px(focal_px)
     }
 
     /// Camera of `image`, from that of the sensor; None for another size or a mirrored photo.
+    ///
+    /// Parameters
+    /// ----------
+    /// of_sensor : epipole.camera.Camera
     fn camera(&self, of_sensor: &Camera) -> PyResult<Option<Camera>> {
         let camera = or_raise(self.0.camera(&of_sensor.0))?;
         Ok(camera.map(Camera::from))

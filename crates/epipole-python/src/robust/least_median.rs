@@ -1,6 +1,6 @@
 //! Least median of squares for models defined in Python.
 
-use super::model::Callables;
+use super::model::{Callables, Raised};
 use super::report::alias;
 use crate::errors::OrRaise;
 use crate::options;
@@ -79,13 +79,16 @@ pub(super) fn least_median(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<LeastMedian> {
     let options: LeastMedianOptions = options::read(options)?;
-    let found = Callables::run(
+    let raised = Raised::default();
+    let model = Callables {
         num_data,
         sample_size,
-        [&fit, &errors],
-        refine.as_ref(),
-        |model| robust::least_median(model, &options).or_raise(),
-    )?;
+        fit,
+        errors,
+        refine,
+        raised: raised.clone(),
+    };
+    let found = raised.or(robust::least_median(model, &options).or_raise())?;
     Ok(LeastMedian {
         model: found.model.model.clone_ref(py),
         median_px: found.median_px,

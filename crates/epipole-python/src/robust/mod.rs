@@ -5,6 +5,7 @@ mod line;
 mod model;
 mod report;
 mod similarity;
+mod stepwise;
 
 pub(crate) use report::{RansacReport, estimate, stop_reason};
 
@@ -90,6 +91,8 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     options::declare(module, &LeastMedianOptions::default())?;
     module.add_class::<RansacReport>()?;
     module.add_class::<least_median::LeastMedian>()?;
+    module.add_class::<stepwise::Ransac>()?;
+    module.add_class::<stepwise::Trial>()?;
     module.add_class::<similarity::PlaneSimilarity>()?;
     module.add_function(wrap_pyfunction!(num_trials_with_replacement, module)?)?;
     module.add_function(wrap_pyfunction!(num_trials_without_replacement, module)?)?;

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Model with its errors, computed once.
 pub(super) struct Scored {
@@ -18,39 +18,38 @@ pub(super) struct Scored {
     errors_sq: Vec<f64>,
 }
 
-/// Estimator whose parts are Python callables.
-pub(super) struct Callables<'a> {
-    num_data: usize,
-    sample_size: usize,
-    fit: &'a Py<PyAny>,
-    errors: &'a Py<PyAny>,
-    refine: Option<&'a Py<PyAny>>,
-    /// First exception of a callable. It ends the run.
-    raised: &'a Mutex<Option<PyErr>>,
+/// First exception of a callable. It ends the run.
+#[derive(Clone, Default)]
+pub(super) struct Raised(Arc<Mutex<Option<PyErr>>>);
+
+impl Raised {
+    fn lock(&self) -> MutexGuard<'_, Option<PyErr>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The exception, if there is one, or else what the run found.
+    pub(super) fn or<T>(&self, found: PyResult<T>) -> PyResult<T> {
+        match self.lock().take() {
+            Some(error) => Err(error),
+            None => found,
+        }
+    }
 }
 
-impl Callables<'_> {
-    /// Runs an estimation with callables; the first exception of one of them is its error.
-    pub(super) fn run<T>(
-        num_data: usize,
-        sample_size: usize,
-        [fit, errors]: [&Py<PyAny>; 2],
-        refine: Option<&Py<PyAny>>,
-        work: impl FnOnce(Callables<'_>) -> PyResult<T>,
-    ) -> PyResult<T> {
-        let raised = Mutex::new(None);
-        let found = work(Callables {
-            num_data,
-            sample_size,
-            fit,
-            errors,
-            refine,
-            raised: &raised,
-        });
-        match raised.into_inner() {
-            Ok(Some(error)) => Err(error),
-            _ => found,
-        }
+/// Estimator whose parts are Python callables.
+pub(super) struct Callables {
+    pub(super) num_data: usize,
+    pub(super) sample_size: usize,
+    pub(super) fit: Py<PyAny>,
+    pub(super) errors: Py<PyAny>,
+    pub(super) refine: Option<Py<PyAny>>,
+    pub(super) raised: Raised,
+}
+
+impl Callables {
+    /// Scores a model of the caller; none if `errors` raises.
+    pub(super) fn model(&self, model: Py<PyAny>) -> Option<Arc<Scored>> {
+        self.scored(|_| Ok(vec![model])).into_iter().next()
     }
 
     /// Computes the errors of models; none after an exception.
@@ -58,10 +57,7 @@ impl Callables<'_> {
         &self,
         make: impl FnOnce(Python<'_>) -> PyResult<Vec<Py<PyAny>>>,
     ) -> Vec<Arc<Scored>> {
-        let Ok(mut raised) = self.raised.lock() else {
-            return Vec::new();
-        };
-        if raised.is_some() {
+        if self.raised.lock().is_some() {
             return Vec::new();
         }
         let scored = Python::attach(|py| {
@@ -72,7 +68,7 @@ impl Callables<'_> {
                 .collect::<PyResult<Vec<_>>>()
         });
         scored.unwrap_or_else(|error| {
-            *raised = Some(error);
+            *self.raised.lock() = Some(error);
             Vec::new()
         })
     }
@@ -98,7 +94,7 @@ impl Callables<'_> {
     }
 }
 
-impl Estimator for Callables<'_> {
+impl Estimator for Callables {
     type Model = Arc<Scored>;
 
     fn problem(&self) -> Problem<'_> {
@@ -130,7 +126,7 @@ impl Estimator for Callables<'_> {
     }
 
     fn refine(&mut self, model: &Self::Model, inliers: &[usize], _: f64) -> Option<Self::Model> {
-        let refine = self.refine?;
+        let refine = self.refine.as_ref()?;
         let refined = self.scored(|py| {
             let refined = refine
                 .bind(py)
@@ -171,7 +167,7 @@ impl Estimator for Callables<'_> {
 ///
 /// Notes
 /// -----
-/// An exception in a callable ends the run and is raised.
+/// An exception in a callable ends the run and is raised. `Ransac` runs step by step.
 #[pyfunction]
 #[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, *, progress=None, **options))]
 #[allow(clippy::too_many_arguments)]
@@ -186,18 +182,24 @@ pub(super) fn ransac(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
     let options = options::read(options)?;
-    let callables = [&fit, &errors];
-    Callables::run(num_data, sample_size, callables, refine.as_ref(), |model| {
-        let raised = model.raised;
-        let work = |monitor: &mut dyn Monitor| {
-            let mut watch = |status: Status| match raised.lock() {
-                Ok(raised) if raised.is_none() => monitor.report(status),
-                _ => ControlFlow::Break(()),
-            };
-            robust::ransac(model, &options, &mut watch)
+    let raised = Raised::default();
+    let model = Callables {
+        num_data,
+        sample_size,
+        fit,
+        errors,
+        refine,
+        raised: raised.clone(),
+    };
+    let work = |monitor: &mut dyn Monitor| {
+        let mut watch = |status: Status| match *raised.lock() {
+            None => monitor.report(status),
+            Some(_) => ControlFlow::Break(()),
         };
-        estimate(py, progress, work, |best| {
-            Ok(best.model.clone_ref(py).into_bound(py))
-        })
-    })
+        robust::ransac(model, &options, &mut watch)
+    };
+    let found = estimate(py, progress, work, |best| {
+        Ok(best.model.clone_ref(py).into_bound(py))
+    });
+    raised.or(found)
 }

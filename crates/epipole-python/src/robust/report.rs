@@ -5,7 +5,6 @@ use crate::record::record;
 use epipole::progress::Monitor;
 use epipole::robust::{self, StopReason};
 use numpy::PyArray1;
-use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -101,19 +100,29 @@ pub(crate) fn estimate<'py, M: Send>(
     work: impl FnOnce(&mut dyn Monitor) -> epipole::Result<robust::RansacReport<M>> + Send,
     model: impl FnOnce(M) -> PyResult<Bound<'py, PyAny>>,
 ) -> PyResult<RansacReport> {
-    let report = progress::run(py, progress, work)?;
-    Ok(RansacReport {
-        model: model(report.model)?.unbind(),
-        inliers: report.inliers.to_pyarray(py).unbind(),
-        num_inliers: report.num_inliers,
-        num_unique_inliers: report.num_unique_inliers,
-        num_left_out: report.num_left_out,
-        iterations: report.iterations,
-        required_iterations: report.required_iterations,
-        max_error_px: report.max_error_px,
-        score: report.score,
-        log10_false_alarms: report.log10_false_alarms,
-        refinements: report.refinements,
-        stop: stop_reason(report.stop),
-    })
+    RansacReport::give(py, progress::run(py, progress, work)?, model)
+}
+
+impl RansacReport {
+    /// Report in Python's terms.
+    pub(super) fn give<'py, M>(
+        py: Python<'py>,
+        report: robust::RansacReport<M>,
+        model: impl FnOnce(M) -> PyResult<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            model: model(report.model)?.unbind(),
+            inliers: PyArray1::from_vec(py, report.inliers).unbind(),
+            num_inliers: report.num_inliers,
+            num_unique_inliers: report.num_unique_inliers,
+            num_left_out: report.num_left_out,
+            iterations: report.iterations,
+            required_iterations: report.required_iterations,
+            max_error_px: report.max_error_px,
+            score: report.score,
+            log10_false_alarms: report.log10_false_alarms,
+            refinements: report.refinements,
+            stop: stop_reason(report.stop),
+        })
+    }
 }

@@ -26,7 +26,7 @@ record! {
 }
 
 impl PlaneSimilarity {
-    fn core(&self) -> robust::PlaneSimilarity {
+    pub(super) fn core(&self) -> robust::PlaneSimilarity {
         robust::PlaneSimilarity {
             a: self.a,
             b: self.b,

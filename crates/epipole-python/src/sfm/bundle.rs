@@ -163,6 +163,11 @@ impl Bundle {
     }
 
     /// Reprojection error of an observation, predicted minus observed pixel, shape (2,).
+    ///
+    /// Parameters
+    /// ----------
+    /// observation : int
+    ///     Index of the observation.
     fn residual_px<'py>(
         &self,
         py: Python<'py>,

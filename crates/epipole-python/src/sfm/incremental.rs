@@ -4,6 +4,7 @@ use super::images::SfmInput;
 use super::reconstruction::Reconstruction;
 use super::wrapper::wrapper;
 use crate::record::record;
+use crate::steps::{take, with};
 use crate::{options, progress};
 use epipole::sfm;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -266,36 +267,6 @@ impl IncrementalReconstruction {
     fn finish(&self) -> PyResult<SfmResult> {
         Ok(SfmResult(take(&self.0)?.finish()))
     }
-}
-
-/// Runs a function on work that is not finished.
-///
-/// # Errors
-/// `RuntimeError` after `finish`, or if another thread uses it.
-pub(super) fn with<T, R>(
-    work: &Mutex<Option<T>>,
-    run: impl FnOnce(&mut T) -> PyResult<R>,
-) -> PyResult<R> {
-    // A blocked lock would keep the GIL that the other thread waits for.
-    let Ok(mut work) = work.try_lock() else {
-        return Err(PyRuntimeError::new_err("another thread takes a step"));
-    };
-    match work.as_mut() {
-        Some(work) => run(work),
-        None => Err(PyRuntimeError::new_err("the work is finished")),
-    }
-}
-
-/// Takes the work to finish it.
-///
-/// # Errors
-/// As [`with`].
-pub(super) fn take<T>(work: &Mutex<Option<T>>) -> PyResult<T> {
-    let Ok(mut work) = work.try_lock() else {
-        return Err(PyRuntimeError::new_err("another thread takes a step"));
-    };
-    work.take()
-        .ok_or_else(|| PyRuntimeError::new_err("the work is finished"))
 }
 
 record! {

@@ -1,10 +1,11 @@
 //! Odometry.
 
 use super::images::{SfmImage, SfmInput, matches};
-use super::incremental::{SfmStep, take, with};
+use super::incremental::SfmStep;
 use super::reconstruction::Reconstruction;
 use super::wrapper::wrapper;
 use crate::camera::{Camera, RigidTransform};
+use crate::steps::{take, with};
 use crate::{options, progress};
 use epipole::feature::Match;
 use epipole::sfm;

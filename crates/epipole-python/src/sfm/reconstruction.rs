@@ -135,6 +135,10 @@ impl Reconstruction {
     }
 
     /// The same in another world, moved by ``to_from_world``.
+    ///
+    /// Parameters
+    /// ----------
+    /// to_from_world : Similarity3
     fn moved(&self, to_from_world: &Similarity3) -> Self {
         Self(self.0.moved(&to_from_world.0))
     }
@@ -162,6 +166,11 @@ impl Reconstruction {
     }
 
     /// Mean length of all reprojection errors, pixels.
+    ///
+    /// Parameters
+    /// ----------
+    /// images : list of SfmImage
+    ///     Images of the input.
     fn mean_reprojection_px(&self, images: Vec<SfmImage>) -> PyResult<f64> {
         let images = self.images(images)?;
         Ok(self.0.mean_reprojection_px(&images))

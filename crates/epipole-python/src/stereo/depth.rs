@@ -1,6 +1,6 @@
 //! Depths and points of disparities.
 
-use crate::arrays::{from_rows, matrix};
+use crate::arrays::{from_points, matrix};
 use crate::errors::OrRaise;
 use crate::images::{column, disparity as read, from_gray, rgb};
 use crate::progress;
@@ -169,16 +169,16 @@ pub(super) fn point_cloud(
     let colors = colors.map(|colors| rgb("colors", colors)).transpose()?;
     let cloud = progress::detach(py, || stereo::point_cloud(&disparity, &q, colors.as_ref()));
     let cloud = cloud.or_raise()?;
-    let points: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
+    let num_points = cloud.points.len();
     let colors = match colors {
         Some(_) => {
             let bytes = PyArray1::from_vec(py, cloud.colors.into_flattened());
-            Some(bytes.reshape([points.len(), 3])?.unbind())
+            Some(bytes.reshape([num_points, 3])?.unbind())
         }
         None => None,
     };
     Ok(PointCloud {
-        points: from_rows(py, &points)?.unbind(),
+        points: from_points(py, &cloud.points)?.unbind(),
         colors,
     })
 }

@@ -93,6 +93,11 @@ impl PixelMap {
     }
 
     /// Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
+    ///
+    /// Parameters
+    /// ----------
+    /// u, v : int
+    ///     Column and row of the result.
     fn source<'py>(&self, py: Python<'py>, u: u32, v: u32) -> Option<Bound<'py, PyArray1<f64>>> {
         let source = self.0.source(u, v)?;
         Some(PyArray1::from_slice(py, &[source.x, source.y]))
@@ -118,6 +123,11 @@ impl PixelMap {
     }
 
     /// Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
+    ///
+    /// Parameters
+    /// ----------
+    /// source_width, source_height : int
+    ///     Size of the image, pixels.
     fn mask<'py>(
         &self,
         py: Python<'py>,

@@ -224,6 +224,11 @@ impl Rectification {
     }
 
     /// Map that redraws photo 0 or 1.
+    ///
+    /// Parameters
+    /// ----------
+    /// index : int
+    ///     0 for the first camera, 1 for the second.
     fn map(&self, py: Python<'_>, index: usize) -> PyResult<PixelMap> {
         Ok(PixelMap(
             progress::detach(py, || self.0.map(index)).or_raise()?,

@@ -1,0 +1,314 @@
+//! RANSAC, one sample at a time. Half of the lines are docstrings.
+
+mod run;
+
+pub(super) use run::Trial;
+
+use super::RansacReport;
+use super::model::{Callables, Raised, Scored};
+use super::similarity::PlaneSimilarity;
+use crate::arrays::{from_matrix, from_vector, matrix, points2, vector};
+use crate::errors::OrRaise;
+use crate::steps::{take, with};
+use epipole::epipolar::FundamentalEstimator;
+use epipole::homography::HomographyEstimator;
+use epipole::math::Line2;
+use epipole::nalgebra::Matrix3;
+use epipole::robust::{self, LineEstimator, MatchSet, SimilarityEstimator};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use run::{Work, start};
+use std::sync::Arc;
+
+/// RANSAC, one sample at a time: to show it, or to end it by a rule of your own.
+///
+/// The constructor takes a model of your own; `line`, `similarity`, `fundamental` and
+/// `homography` start runs for models of the library.
+///
+/// Parameters
+/// ----------
+/// num_data : int
+///     Number of data.
+/// sample_size : int
+///     Number of data in a minimal sample.
+/// fit : callable
+///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
+/// errors : callable
+///     ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+///     ``max_error_px``.
+/// refine : callable, optional
+///     ``refine(model, indices)`` returns a better model from the inliers, or None.
+/// **options : RansacOptions
+///     Those of `ransac`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     If there are fewer data than a sample has.
+///
+/// Notes
+/// -----
+/// An exception in a callable is raised by the step; the next step continues.
+///
+/// Examples
+/// --------
+/// >>> run = Ransac.line([[0, 2], [1, 2], [2, 2], [3, 2], [4, 9]])
+/// >>> trial = run.step()
+/// >>> trial.iteration, trial.num_models, len(trial.sample)
+/// (1, 1, 2)
+/// >>> sum(trial.is_best for trial in run) <= 199  # draws the other samples
+/// True
+/// >>> run.finish().num_inliers
+/// 4
+#[pyclass(frozen, module = "epipole.robust")]
+pub(super) struct Ransac(Work);
+
+fn give_matrix(py: Python<'_>, model: &Matrix3<f64>) -> PyResult<Py<PyAny>> {
+    Ok(from_matrix(py, model)?.into_any().unbind())
+}
+
+fn match_set(pixels1: &Bound<'_, PyAny>, pixels2: &Bound<'_, PyAny>) -> PyResult<MatchSet> {
+    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    MatchSet::new(&pixels1, &pixels2).or_raise()
+}
+
+#[pymethods]
+impl Ransac {
+    #[new]
+    #[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, **options))]
+    fn new(
+        num_data: usize,
+        sample_size: usize,
+        fit: Py<PyAny>,
+        errors: Py<PyAny>,
+        refine: Option<Py<PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let raised = Raised::default();
+        let model = Callables {
+            num_data,
+            sample_size,
+            fit,
+            errors,
+            refine,
+            raised: raised.clone(),
+        };
+        let give = |py: Python<'_>, best: &Arc<Scored>| Ok(best.model.clone_ref(py));
+        let read = |model: &Callables, given: &Bound<'_, PyAny>| {
+            (model.model(given.clone().unbind()))
+                .ok_or_else(|| PyTypeError::new_err("errors gave no errors of the model"))
+        };
+        Ok(Self(start(Ok(model), options, give, read, raised)?))
+    }
+
+    /// Start for a line through points; see `estimate_line`.
+    ///
+    /// Parameters
+    /// ----------
+    /// points : array_like, shape (N, 2)
+    ///     Pixels.
+    /// **options : RansacOptions
+    ///     Those of `ransac`.
+    ///
+    /// Returns
+    /// -------
+    /// Ransac
+    ///     Its models are lines (a, b, c).
+    #[staticmethod]
+    #[pyo3(signature = (points, **options))]
+    fn line(points: &Bound<'_, PyAny>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let estimator = LineEstimator::new(&points2("points", points)?);
+        let give = |py: Python<'_>, line: &Line2| {
+            Ok(from_vector(py, &line.homogeneous()).into_any().unbind())
+        };
+        let read = |_: &_, line: &Bound<'_, PyAny>| {
+            Line2::from_homogeneous(&vector("model", line)?).or_raise()
+        };
+        Ok(Self(start(
+            estimator,
+            options,
+            give,
+            read,
+            Raised::default(),
+        )?))
+    }
+
+    /// Start for a similarity of the plane; see `estimate_similarity`.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// **options : RansacOptions
+    ///     Those of `ransac`.
+    ///
+    /// Returns
+    /// -------
+    /// Ransac
+    ///     Its models are `PlaneSimilarity`.
+    #[staticmethod]
+    #[pyo3(signature = (pixels1, pixels2, **options))]
+    fn similarity(
+        pixels1: &Bound<'_, PyAny>,
+        pixels2: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let estimator = SimilarityEstimator::new(match_set(pixels1, pixels2)?);
+        let give = |py: Python<'_>, &model: &robust::PlaneSimilarity| {
+            Ok(Py::new(py, PlaneSimilarity::from(model))?.into_any())
+        };
+        let read = |_: &_, model: &Bound<'_, PyAny>| match model.cast::<PlaneSimilarity>() {
+            Ok(model) => Ok(model.get().core()),
+            Err(_) => Err(PyTypeError::new_err(format!(
+                "model must be a PlaneSimilarity, but is {}",
+                model.get_type().name()?
+            ))),
+        };
+        Ok(Self(start(
+            Ok(estimator),
+            options,
+            give,
+            read,
+            Raised::default(),
+        )?))
+    }
+
+    /// Start for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// **options : RansacOptions
+    ///     Those of `ransac`.
+    ///
+    /// Returns
+    /// -------
+    /// Ransac
+    ///     Its models are F, shape (3, 3).
+    #[staticmethod]
+    #[pyo3(signature = (pixels1, pixels2, **options))]
+    fn fundamental(
+        pixels1: &Bound<'_, PyAny>,
+        pixels2: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let estimator = FundamentalEstimator::new(match_set(pixels1, pixels2)?);
+        let read = |_: &_, model: &Bound<'_, PyAny>| matrix("model", model);
+        Ok(Self(start(
+            estimator,
+            options,
+            give_matrix,
+            read,
+            Raised::default(),
+        )?))
+    }
+
+    /// Start for a homography; see `epipole.homography.estimate_homography`.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// **options : RansacOptions
+    ///     Those of `ransac`.
+    ///
+    /// Returns
+    /// -------
+    /// Ransac
+    ///     Its models are H, shape (3, 3).
+    #[staticmethod]
+    #[pyo3(signature = (pixels1, pixels2, **options))]
+    fn homography(
+        pixels1: &Bound<'_, PyAny>,
+        pixels2: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let estimator = HomographyEstimator::new(match_set(pixels1, pixels2)?);
+        let read = |_: &_, model: &Bound<'_, PyAny>| matrix("model", model);
+        Ok(Self(start(
+            estimator,
+            options,
+            give_matrix,
+            read,
+            Raised::default(),
+        )?))
+    }
+
+    /// Improves a model that is known, such as that of the frame before, and starts from it.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : object
+    ///     Of the kind that the run estimates.
+    fn start_from(&self, model: &Bound<'_, PyAny>) -> PyResult<()> {
+        with(&self.0, |run| run.start_from(model))
+    }
+
+    /// Draws a sample and returns a `Trial`; None once enough samples were drawn.
+    fn step(&self, py: Python<'_>) -> PyResult<Option<Trial>> {
+        with(&self.0, |run| run.step(py))
+    }
+
+    /// Iterator over the trials that remain.
+    fn __iter__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    /// Next trial.
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Trial>> {
+        self.step(py)
+    }
+
+    /// Best model so far, or None.
+    ///
+    /// Returns
+    /// -------
+    /// Any
+    #[getter]
+    fn best_model(&self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
+        with(&self.0, |run| run.best_model(py))
+    }
+
+    /// Score of the best model so far, or None.
+    #[getter]
+    fn best_score(&self) -> PyResult<Option<f64>> {
+        with(&self.0, |run| Ok(run.best_score()))
+    }
+
+    /// Number of samples drawn so far.
+    #[getter]
+    fn iterations(&self) -> PyResult<usize> {
+        with(&self.0, |run| Ok(run.iterations()))
+    }
+
+    /// Number of samples required by the best model so far; None before there is one.
+    #[getter]
+    fn required_iterations(&self) -> PyResult<Option<u64>> {
+        with(&self.0, |run| Ok(run.required_iterations()))
+    }
+
+    /// Number of samples after which the run ends if no better model is found.
+    #[getter]
+    fn expected_iterations(&self) -> PyResult<usize> {
+        with(&self.0, |run| Ok(run.expected_iterations()))
+    }
+
+    /// Improves the best model one last time. Ends the run.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of Any
+    ///     Its ``stop`` is "interrupted" if more samples were required.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.NoConsensusError
+    ///     If no sample gave a model with support.
+    /// RuntimeError
+    ///     If the run is finished already.
+    fn finish(&self, py: Python<'_>) -> PyResult<RansacReport> {
+        take(&self.0)?.finish(py)
+    }
+}
