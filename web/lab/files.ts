@@ -40,7 +40,7 @@ async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
   for (const one of within) await walk(one, files);
 }
 
-/** A photograph in a format that the Lab reads; undefined if the browser cannot decode it. `foreign`: the browser did. */
+/** A photograph in a format that the Lab reads; undefined if nobody can decode it. `foreign`: the browser did. */
 export async function photographOf(
   file: File,
 ): Promise<{ name: string; bytes: Uint8Array; foreign: boolean } | undefined> {

@@ -22,8 +22,8 @@ impl Project {
         }
     }
 
-    /// Whether the lens is corrected in the end: it is as photographs of cameras say, or guessed, and
-    /// nobody asked for other refinements.
+    /// Whether the lens is corrected in the end: it is as the files say, or guessed, and no other
+    /// refinement is asked for.
     fn corrects_lens(&self) -> bool {
         let settings = &self.document.settings;
         let is_open = |photo: &Given| {

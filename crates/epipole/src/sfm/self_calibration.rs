@@ -28,8 +28,8 @@ impl Reconstruction {
     /// # Errors
     /// [`Error::TooFew`] without observations.
     ///
-    /// Source: Sturm 1997, "Critical motion sequences for monocular self-calibration and uncalibrated
-    /// Euclidean reconstruction".
+    /// Source: Sturm 1997, "Critical motion sequences for monocular self-calibration and
+    /// uncalibrated Euclidean reconstruction".
     pub fn determines_focal(&self, images: &[SfmImage]) -> Result<bool> {
         let (bundle, _) = self.to_bundle(images);
         let sensitivity = focal_sensitivity(&bundle, LOSS)?;

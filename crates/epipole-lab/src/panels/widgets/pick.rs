@@ -23,7 +23,7 @@ const REACH_OF_FINGER: f32 = 22.0;
 /// many times as far away.
 const SAME_DEPTH: f64 = 1.05;
 
-/// What a click chooses; one by key is in the middle.
+/// Returns the point that a click chooses; one by key is in the middle.
 ///
 /// * `num_shared`: number of points of the scene that photographs share; dense ones follow
 pub(super) fn pick(
@@ -56,8 +56,8 @@ pub(super) fn pick(
     }
 }
 
-/// The point that photographs share nearest to a pixel, on the surface of a dense one that hides it:
-/// it is the more exact one.
+/// The point that photographs share nearest to a pixel, on the surface of a dense one that hides
+/// it: it is the more exact one.
 fn shared_at(
     [u, v]: [f64; 2],
     reach_px: f64,

@@ -144,8 +144,8 @@ fn dense_place(pair: &Dense, [u, v]: [u32; 2]) -> Option<Point3<f64>> {
     Some(pair.camera.center() + ray * pair.depth(u, v)?)
 }
 
-/// Covariance of the position of a pixel with dense depth, for fixed cameras: `σ_Z = Z² σ_d / (f B)`
-/// along the ray, and the width of the pixel across it.
+/// Covariance of the position of a pixel with dense depth, for fixed cameras:
+/// `σ_Z = Z² σ_d / (f B)` along the ray, and the width of the pixel across it.
 fn dense_covariance(pair: &Dense, [u, v]: [u32; 2]) -> Option<Matrix3<f64>> {
     let ray = pair.camera.ray([f64::from(u), f64::from(v)]);
     let depth = pair.depth(u, v)?;

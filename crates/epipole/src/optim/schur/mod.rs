@@ -302,7 +302,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
     pub(crate) fn shared_variances(&self) -> Vec<f64> {
         let size = self.right.len();
         let start = self.cameras.len() * C;
-        // What groups share stands last, so `(L₂₂ L₂₂ᵀ)⁻¹` is their block of the inverse.
+        // Shared parameters stand last, so `(L₂₂ L₂₂ᵀ)⁻¹` is their block of the inverse.
         let column = |of: usize| {
             let mut solved = vec![0.0; size - start];
             for row in of..size {

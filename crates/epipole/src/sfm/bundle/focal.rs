@@ -1,4 +1,4 @@
-//! How firmly the observations of a bundle hold its focal lengths.
+//! Sensitivity of the cost of a bundle to its focal lengths.
 
 use super::gauge;
 use super::lens_state::{self, OF_ANY, OF_BROWN};
@@ -74,8 +74,8 @@ mod tests {
     use crate::sfm::bundle::{BundleObservation, adjust_bundle};
     use nalgebra::{Point3, Vector3};
 
-    /// Twelve cameras on a way ahead, each turned by `turn_rad` more than the one before; pixels have
-    /// a noise of 0.3 px, and everything is refined.
+    /// Twelve cameras on a way ahead, each turned by `turn_rad` more than the one before, refined
+    /// from pixels with a noise of 0.3 px.
     fn drive(turn_rad: f64, focal_px: f64) -> Bundle {
         let mut random = Random::new(7);
         let with = |focal_px| {
@@ -148,8 +148,9 @@ mod tests {
         };
         // Both sides, so that the cubic term cancels; a small step, since the model is quadratic.
         let rise = (cost(1.02) + cost(0.98)) / (2.0 * cost(1.0)) - 1.0;
-        let predicted =
-            focal_sensitivity(&found, RobustLoss::Trivial).unwrap()[0] * (0.02 / CHANGE).powi(2);
+        let predicted = focal_sensitivity(&found, RobustLoss::Trivial).unwrap()[0]
+            * (0.02 / CHANGE)
+            * (0.02 / CHANGE);
         assert!((predicted / rise - 1.0).abs() < 0.05, "{predicted} {rise}");
     }
 
