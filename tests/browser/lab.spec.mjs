@@ -432,3 +432,35 @@ test("on an emulated screen nothing is larger than on a real one", async ({ blan
   for (const size of sizes) expect(size).toBeCloseTo(2, 2);
   await context.close();
 });
+
+test("photographs dropped onto the picture are added, and a text among them is named", async ({ lab }) => {
+  await solved(lab);
+  const files = [file("one.png", 64, 48), file("two.png", 80, 60)].map(({ name, buffer }) => [name, buffer.toString("base64")]);
+  const transfer = await lab.evaluateHandle((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, text] of files) {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      transfer.items.add(new File([bytes], name, { type: "image/png" }));
+    }
+    transfer.items.add(new File(["f = 700"], "notes.txt", { type: "text/plain" }));
+    return transfer;
+  }, files);
+  for (const kind of ["dragenter", "dragover", "drop"]) {
+    await lab.locator("#lab").dispatchEvent(kind, { dataTransfer: transfer });
+  }
+  await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
+  await expect(said(lab)).toContainText("notes.txt: no photograph");
+});
+
+test("a page with unsaved photographs asks before it closes", async ({ lab }) => {
+  await solved(lab);
+  const asks = () =>
+    lab.evaluate(() => !dispatchEvent(new Event("beforeunload", { cancelable: true })));
+  expect(await asks(), "the sample is nobody's work").toBe(false);
+  await lab.locator("#photographs").setInputFiles([file("one.png", 64, 48), file("two.png", 80, 60)]);
+  await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
+  expect(await asks()).toBe(true);
+  await Promise.all([lab.waitForEvent("download"), choose(lab, "button", "Save")]);
+  await expect(said(lab)).toContainText("project.zip is saved.");
+  expect(await asks()).toBe(false);
+});

@@ -4,7 +4,14 @@
 
 /** Formats that the Lab decodes itself, for the same pixels in every browser. */
 const ITS_OWN = /\.(png|jpe?g|webp|tiff?|bmp|p[bgpn]m|zip)$/i;
+/** Formats that some browsers decode. */
+const FOREIGN = /\.(hei[cf]|avif|gif|jxl)$/i;
 const QUALITY = 0.95;
+
+/** Whether a file is a photograph or a project, by its name or the type that the browser gives it. */
+export function isOfUse(file: File): boolean {
+  return ITS_OWN.test(file.name) || FOREIGN.test(file.name) || file.type.startsWith("image/");
+}
 
 /** The dropped files, including those in dropped folders, sorted by name. */
 export async function dropped(transfer: DataTransfer): Promise<File[]> {
@@ -13,7 +20,7 @@ export async function dropped(transfer: DataTransfer): Promise<File[]> {
   const files: File[] = [];
   for (const entry of entries) if (entry) await walk(entry, files);
   // From a folder, take only photographs, videos and projects.
-  return files.filter((file) => ITS_OWN.test(file.name) || /^(image|video)\//.test(file.type));
+  return files.filter((file) => isOfUse(file) || file.type.startsWith("video/"));
 }
 
 async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
@@ -33,8 +40,10 @@ async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
   for (const one of within) await walk(one, files);
 }
 
-/** A photograph in a format that the Lab reads. `foreign`: the browser decoded it. */
-export async function photographOf(file: File): Promise<{ name: string; bytes: Uint8Array; foreign: boolean }> {
+/** A photograph in a format that the Lab reads; undefined if nobody can decode it. `foreign`: the browser did. */
+export async function photographOf(
+  file: File,
+): Promise<{ name: string; bytes: Uint8Array; foreign: boolean } | undefined> {
   const as = (name: string, blob: Blob, foreign: boolean) =>
     blob.arrayBuffer().then((bytes) => ({ name, bytes: new Uint8Array(bytes), foreign }));
   if (ITS_OWN.test(file.name)) return as(file.name, file, false);
@@ -47,7 +56,7 @@ export async function photographOf(file: File): Promise<{ name: string; bytes: U
     const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/jpeg", QUALITY));
     if (blob) return await as(`${file.name}.jpg`, blob, true);
   } catch {
-    // The Lab reports the problem with the file.
+    // The caller reports it.
   }
-  return as(file.name, file, false);
+  return undefined;
 }

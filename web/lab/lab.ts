@@ -6,7 +6,7 @@ import load, { Lab } from "epipole-lab-page";
 import { Camera } from "./camera.js";
 import { Crew, type Told } from "./crew.js";
 import { FigureBeside } from "./figure.js";
-import { dropped, photographOf } from "./files.js";
+import { dropped, isOfUse, photographOf } from "./files.js";
 import { Kept, putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
 import { solvedSample } from "./sample.js";
@@ -139,6 +139,12 @@ async function start(): Promise<void> {
       return false;
     }
   };
+  /** Whether the reader has given photographs that are in no saved project. */
+  let isUnsaved = false;
+  addEventListener("beforeunload", (event) => {
+    const isKept = kept.isThere && given.length <= numKept;
+    if (isUnsaved && !isKept) event.preventDefault();
+  });
   let resting: ReturnType<typeof setTimeout> | undefined;
   const shell = {
     capacity: () => crew.capacity,
@@ -150,7 +156,10 @@ async function start(): Promise<void> {
     askForProject: () => project.click(),
     askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
     askForFrames: (video: number, part: number, numParts: number) => void read(video, part, numParts),
-    save,
+    save: (name: string, bytes: Uint8Array) => {
+      if (name === "project.zip") isUnsaved = false;
+      save(name, bytes);
+    },
     say: (words: string) => {
       clearTimeout(resting);
       resting = setTimeout(() => (said.textContent = words), REST_MS);
@@ -168,13 +177,24 @@ async function start(): Promise<void> {
   const take = async (files: Iterable<File>) => {
     let count = 0;
     const foreign: string[] = [];
+    const left: string[] = [];
+    const undecoded: string[] = [];
     for (const file of files) {
-      given.push(file);
       if (isVideo(file)) {
+        given.push(file);
         lab.video(videos.push(new Frames(file)) - 1);
         continue;
       }
+      if (!isOfUse(file)) {
+        left.push(file.name);
+        continue;
+      }
       const photograph = await photographOf(file);
+      if (!photograph) {
+        undecoded.push(file.name);
+        continue;
+      }
+      given.push(file);
       if (file.name.toLowerCase().endsWith(".zip")) {
         lab.project(photograph.bytes);
         continue;
@@ -183,10 +203,17 @@ async function start(): Promise<void> {
       lab.photograph(photograph.name, photograph.bytes);
       count += 1;
     }
-    if (count > 0) lab.deliver();
-    if (foreign.length > 0) {
-      lab.news(`${foreign.join(", ")}: decoded by this browser, so another browser may give other pixels. The name ends in .jpg to mark it.`);
+    if (count > 0) {
+      lab.deliver();
+      isUnsaved = true;
     }
+    const news = [
+      [left, "no photograph, so left out."],
+      [undecoded, "this browser cannot decode it. Convert it to JPEG and add it again."],
+      [foreign, "decoded by this browser, so another browser may give other pixels. The name ends in .jpg to mark it."],
+    ] as const;
+    const sentences = news.filter(([names]) => names.length > 0).map(([names, why]) => `${names.join(", ")}: ${why}`);
+    if (sentences.length > 0) lab.news(sentences.join(" "));
   };
   for (const input of [photographs, project]) {
     input.addEventListener("change", () => {
@@ -195,11 +222,18 @@ async function start(): Promise<void> {
       void take(files);
     });
   }
-  addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", (event) => {
-    event.preventDefault();
-    if (event.dataTransfer) void dropped(event.dataTransfer).then(take);
-  });
+  // Captured before the toolkit, which stops a drop onto its canvas and would read all files at once.
+  for (const kind of ["dragover", "drop"] as const) {
+    addEventListener(
+      kind,
+      (event) => {
+        event.preventDefault();
+        event.stopPropagation();
+        if (kind === "drop" && event.dataTransfer) void dropped(event.dataTransfer).then(take);
+      },
+      { capture: true },
+    );
+  }
 
   await open(lab, isHanded, kept, askForKept);
 
@@ -230,6 +264,8 @@ async function start(): Promise<void> {
     // Files not yet in the kept project are restored separately; keeping them now would restore
     // them twice.
     kept.close();
+    // Files are put aside before the page loads again.
+    isUnsaved = false;
     restart(
       notice,
       () => given.slice(kept.isThere ? numKept : 0),

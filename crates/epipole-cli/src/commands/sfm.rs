@@ -46,11 +46,13 @@ use std::path::PathBuf;
     cameras.txt has PINHOLE cameras, or OPENCV, FULL_OPENCV, OPENCV_FISHEYE or DIVISION, as the lens is: that of\n\
     --camera, or one whose distortion was refined. Give --undistort for programs that know PINHOLE alone.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
-    begin, and one factor for all focal lengths is refined.\n\n\
+    begin, and one factor for all focal lengths is refined. Where nothing is given of the cameras, focal length\n\
+    and radial distortion are refined at the end, if five photographs or more show that this lowers the error by 5 %.\n\n\
     JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px, lens: brown,\n\
     rational, fisheye or division, distortion: its coefficients as in the file of a camera, of a usual lens k1,\n\
     k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\
-    component; focal_refined (whether the focal lengths were), with --positions placed (whether it stands where they\n\
+    component; focal_refined (whether the focal lengths were), focal_determined (whether the photographs tell them;\n\
+    null if they were not refined), lens_refined (whether the radial distortion was, too), with --positions placed (whether it stands where they\n\
     say, in meters), position_rms_m, origin (where zero is, if positions are degrees), unregistered (name and reason of each photograph that is not in the largest\n\
     component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
 )]
@@ -117,7 +119,23 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         cameras,
         pairs,
     };
-    let result = grown(&input, &options, &mut Part::new(watch, MATCHED, 1.0))?;
+    let mut result = grown(&input, &options, &mut Part::new(watch, MATCHED, REFINED))?;
+    let all_unknown = guesses.len() == photos.len();
+    let mut errors_before_px = vec![None; result.components.len()];
+    if (arguments.growth.refined).corrects_lenses(all_unknown) && result.is_complete {
+        for (component, before) in result.components.iter_mut().zip(&mut errors_before_px) {
+            let mean_px = component.mean_reprojection_px(&input.images);
+            let watch = &mut Part::new(watch, REFINED, 1.0);
+            match component.refine_lenses(&input.images, watch) {
+                Ok(has_helped) => *before = has_helped.then_some(mean_px),
+                Err(epipole::Error::Canceled) => {
+                    result.is_complete = false;
+                    break;
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
     drop(progress);
     let Some(largest) = result.components.first() else {
         if !result.is_complete {
@@ -129,12 +147,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         context.warn(interrupt::ENDED_EARLY);
     }
     let unregistered = unregistered(&input, &options, &result)?;
-    let errors: f64 = largest
-        .points
-        .iter()
-        .map(|p| p.error_px * p.track.len() as f64)
-        .sum();
-    let mean_px = errors / largest.num_observations().max(1) as f64;
+    let mean_px = largest.mean_reprojection_px(&input.images);
     let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
         let images = input.images.iter().zip(&component.cameras);
         images
@@ -195,14 +208,37 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             report = report.field(name, value);
         }
     }
+    let lens_refined = errors_before_px[0].is_some();
+    let refine_focal = refine_focal || lens_refined;
+    let focal_determined = match refine_focal {
+        true => Some(largest.determines_focal(&input.images)?),
+        false => None,
+    };
     if let (true, Some((from, to))) = (refine_focal, focals.first()) {
+        if focal_determined == Some(false) {
+            context.warn(&format!(
+                "these photographs do not tell the focal length: {to:.0} px may be far off, and so may all depths. Give \
+                 --focal-px or --camera, or add photographs from other sides (cameras that move along a line without \
+                 turning fit any focal length)"
+            ));
+        }
+        let sure = match focal_determined {
+            Some(false) => "not determined: ",
+            _ => "",
+        };
         // One factor for all of this lens.
         report = report.row(
             "focal length",
             format!(
-                "{to:.1} px, refined from {from:.1} ({:.3} times)",
+                "{sure}{to:.1} px, refined from {from:.1} ({:.3} times)",
                 to / from
             ),
+        );
+    }
+    if let Some(before_px) = errors_before_px[0] {
+        report = report.row(
+            "lens corrected",
+            format!("mean reprojection error {before_px:.3} px before, {mean_px:.3} px now"),
         );
     }
     for left_out in &unregistered {
@@ -210,6 +246,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     Ok(report
         .field("focal_refined", refine_focal)
+        .field("focal_determined", focal_determined)
+        .field("lens_refined", lens_refined)
         .field("num_registered", registered_count)
         .field("num_images", photos.len())
         .field("num_points", largest.points.len())
@@ -228,8 +266,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("written", written.join(", ")))
 }
 
-/// Share of the work after which all photographs are matched.
+/// Share of the work after which all photographs are matched, and after which all are registered.
 const MATCHED: f32 = 0.6;
+const REFINED: f32 = 0.95;
 
 /// Reconstructs; Ctrl-C ends it with what there is.
 fn grown(

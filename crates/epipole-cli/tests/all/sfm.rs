@@ -60,6 +60,43 @@ fn an_unknown_focal_length_is_refined() {
     assert!(refined_px < guessed_px);
 }
 
+/// Cameras that go straight ahead fit any focal length: the result is not said to be sound. Around
+/// a table it is, and a given one is not judged.
+#[test]
+fn a_way_straight_ahead_does_not_tell_the_focal_length() {
+    let folder = Folder::new("sfm-ahead");
+    let ahead = |n: usize| {
+        moved(
+            SIZE,
+            &RigidTransform::translation(0.0, 0.0, -0.08 * n as f64),
+        )
+    };
+    for (name, cameras, determined) in [
+        (
+            "ahead",
+            (0..6).map(ahead).collect::<Vec<_>>(),
+            Value::Bool(false),
+        ),
+        ("around", (0..5).map(around).collect(), Value::Bool(true)),
+    ] {
+        folder.photographs(name, &cameras, SIZE);
+        let (photos, out) = (folder.file(name), folder.file("out"));
+        let more = ["--min-start-angle-deg", "2"];
+        let found = json(&[&["sfm", path(&photos), "-o", path(&out)], &more[..]].concat());
+        assert_eq!(found["focal_determined"], determined, "{name}: {found}");
+        let k = k(&cameras[0]);
+        let given = json(
+            &[
+                &["sfm", path(&photos), "-o", path(&out), "--k", &k],
+                &more[..],
+            ]
+            .concat(),
+        );
+        assert_eq!(given["focal_determined"], Value::Null);
+        assert_eq!(given["lens_refined"], false);
+    }
+}
+
 /// One set of defaults: `detect` and `match` give the same features and matches as `sfm`.
 #[test]
 fn commands_find_the_same_features() {

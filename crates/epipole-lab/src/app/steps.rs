@@ -1,11 +1,13 @@
 //! The steps to choose from: below each other, or in one row that scrolls where there is no room.
 
 use crate::panels::Action;
+use crate::panels::widgets::look;
 use crate::project::{Project, Step};
 use crate::session::Event;
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
 use egui::{Align, Layout, Response, ScrollArea, Ui};
+use epipole_canvas::theme::Role;
 
 /// Below each other.
 pub(super) fn column(project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
@@ -47,6 +49,13 @@ pub(super) fn row(
 
 fn button(project: &Project, ui: &mut Ui, step: Step, actions: &mut Vec<Action>) -> Response {
     let response = ui.selectable_label(project.view().step == step, step.title());
+    if response.has_focus() {
+        // The fill of the current step hides the toolkit's own ring.
+        let stroke = egui::Stroke::new(2.0, look::color(ui, Role::Best));
+        let ring = response.rect.shrink(1.0);
+        ui.painter()
+            .rect_stroke(ring, 3.0, stroke, egui::StrokeKind::Inside);
+    }
     if response.clicked() {
         actions.push(Action::Send(Event::Show(step)));
     }

@@ -26,13 +26,16 @@ impl Panel for Export {
         }
         ui.label(
         "Inside are images/ and sparse/0/ in COLMAP's text format, which other programs open; points.ply with colors; \
-         reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. Pairs with \
-         dense depth add dense.ply and a PFM file each in depth/.",
+         reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. Measures are \
+         in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/.",
     );
         ui.weak(match project.scale() {
             Some(_) => "Lengths are in meters, by the length you measured.",
             None => "The unit is arbitrary. Measure a known length to get meters.",
         });
+        if project.floor().is_some() {
+            ui.weak("z points up from the floor.");
+        }
         ui.separator();
         if ui
             .add_enabled(ready, Button::new("Save view.png"))

@@ -1,8 +1,9 @@
 //! Two points and their length set the scale; other lengths follow.
 
 use super::screen::{Panel, Screen};
-use super::widgets::{controls, look};
-use crate::project::{Measure, Step};
+use super::widgets::pick::Click;
+use super::widgets::{controls, dense_anchor, look};
+use crate::project::{Anchor, Measure, Step};
 use crate::session::Event;
 use egui::{DragValue, Stroke, Ui};
 use epipole_canvas::theme::Role;
@@ -11,9 +12,45 @@ use epipole_canvas::theme::Role;
 #[derive(Default)]
 pub(super) struct Measuring {
     /// First end of a length whose second end is to be clicked.
-    first_end: Option<usize>,
+    first_end: Option<Anchor>,
     /// Points of the floor, while fewer than three are clicked.
-    corners: Option<Vec<usize>>,
+    corners: Option<Vec<Anchor>>,
+    /// The place that was clicked last.
+    last: Option<Anchor>,
+    /// Whether the last click was near no point.
+    has_missed: bool,
+}
+
+impl Measuring {
+    /// Takes a click: an end of a length, or a point of the floor.
+    fn take(&mut self, screen: &mut Screen<'_>, click: Click) {
+        let project = screen.project;
+        self.last = match click {
+            Click::Missed => None,
+            Click::Point(point) => project.anchor_of(point),
+            Click::Dense(index) => dense_anchor(project, index),
+        };
+        self.has_missed = self.last.is_none();
+        let Some(anchor) = self.last else { return };
+        if let Some(corners) = &mut self.corners {
+            if !corners.contains(&anchor) {
+                corners.push(anchor);
+            }
+            if let Ok(corners) = corners.clone().try_into() {
+                screen.send(Event::Floor(Some(corners)));
+                self.corners = None;
+            }
+            return;
+        }
+        match self.first_end.take() {
+            Some(first) if first != anchor => screen.send(Event::Measure(Measure {
+                ends: [first, anchor],
+                length_m: None,
+            })),
+            Some(_) => {}
+            None => self.first_end = Some(anchor),
+        }
+    }
 }
 
 impl Panel for Measuring {
@@ -23,44 +60,19 @@ impl Panel for Measuring {
             return controls::instead(ui, &project.describe());
         }
         let rect = ui.available_rect_before_wrap();
-        let clicked = screen.views.cloud.show(project, ui, rect);
-        if let (Some(point), Some(corners)) = (clicked, &mut self.corners) {
-            if !corners.contains(&point) {
-                corners.push(point);
-            }
-            let anchors: Vec<_> = corners
-                .iter()
-                .filter_map(|c| project.anchor_of(*c))
-                .collect();
-            if let Ok(anchors) = anchors.try_into() {
-                screen.send(Event::Floor(Some(anchors)));
-                self.corners = None;
-            }
-        } else if let Some(point) = clicked {
-            match self.first_end.take() {
-                Some(first) if first != point => {
-                    if let (Some(a), Some(b)) = (project.anchor_of(first), project.anchor_of(point))
-                    {
-                        screen.send(Event::Measure(Measure {
-                            ends: [a, b],
-                            length_m: None,
-                        }));
-                    }
-                }
-                Some(_) => {}
-                None => self.first_end = Some(point),
-            }
+        if let Some(click) = screen.views.cloud.show(project, ui, rect) {
+            self.take(screen, click);
         }
+        let place = |anchor: &Anchor| {
+            let place = project.anchored(anchor)?;
+            screen.views.cloud.place_of(place, rect)
+        };
         let painter = ui.painter_at(rect);
         let color = look::color(ui, Role::Grip);
         let ink = look::color(ui, Role::Ink);
         let font = egui::FontId::proportional(14.0);
         for (index, measure) in project.document().measures.iter().enumerate() {
-            let ends = measure.ends.map(|end| {
-                let point = project.anchored(&end)?;
-                screen.views.cloud.place_of(point, rect)
-            });
-            let [Some(from), Some(to)] = ends else {
+            let [Some(from), Some(to)] = measure.ends.each_ref().map(place) else {
                 continue;
             };
             painter.line_segment([from, to], Stroke::new(2.0, color));
@@ -75,9 +87,8 @@ impl Panel for Measuring {
             painter.galley(at, text, ink);
         }
         let floor = project.document().floor.iter().flatten();
-        let floor = floor.filter_map(|end| project.anchored(end));
-        let corners = self.corners.iter().flatten().copied().chain(floor);
-        for place in corners.filter_map(|point| screen.views.cloud.place_of(point, rect)) {
+        let corners = self.corners.iter().flatten().chain(floor);
+        for place in corners.filter_map(place) {
             // A square: color is not the only sign.
             let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
             painter.rect_stroke(
@@ -87,10 +98,7 @@ impl Panel for Measuring {
                 egui::StrokeKind::Middle,
             );
         }
-        if let Some(place) = self
-            .first_end
-            .and_then(|point| screen.views.cloud.place_of(point, rect))
-        {
+        if let Some(place) = self.first_end.as_ref().and_then(place) {
             painter.circle_stroke(place, 7.0, Stroke::new(2.5, color));
         }
     }
@@ -101,11 +109,18 @@ impl Panel for Measuring {
             // The words in place of the picture say so.
             return controls::book(ui, Step::Measure);
         }
+        let missed = |ui: &mut Ui| {
+            let words = "No point there. Click nearer to one, or zoom in.";
+            ui.colored_label(look::color(ui, Role::Outlier), words);
+        };
         if let Some(corners) = &self.corners {
             ui.label(format!(
                 "Click three points of the floor: {} of 3.",
                 corners.len()
             ));
+            if self.has_missed {
+                missed(ui);
+            }
             if ui.button("Cancel").clicked() {
                 self.corners = None;
             }
@@ -120,6 +135,9 @@ impl Panel for Measuring {
                 (false, None) => "Click two points to measure another length.",
             },
         );
+        if self.has_missed {
+            missed(ui);
+        }
         if self.first_end.is_some() && ui.button("Choose another start").clicked() {
             self.first_end = None;
         }
@@ -169,8 +187,8 @@ impl Panel for Measuring {
                 }
             }
         }
-        if let Some(point) = screen.views.cloud.point {
-            let height = project.height_words(point);
+        if let Some(anchor) = &self.last {
+            let height = project.height_words(anchor);
             if !height.is_empty() {
                 ui.label(format!("The point you clicked: {height}"));
             }

@@ -20,7 +20,10 @@ use crate::project::Step;
 /// All panels, each with its step and in its initial state.
 pub(crate) fn all() -> [(Step, Box<dyn Panel>); 9] {
     [
-        (Step::Photographs, Box::new(photographs::Photographs)),
+        (
+            Step::Photographs,
+            Box::new(photographs::Photographs::default()),
+        ),
         (Step::Calibrate, Box::new(calibrate::Calibrate::default())),
         (Step::Features, Box::new(features::Features::default())),
         (Step::Matches, Box::new(matches::Matches)),

@@ -15,7 +15,11 @@ const SMALLEST: f32 = 96.0;
 const NAME: f32 = 24.0;
 
 /// Panel of the step "Photographs".
-pub(super) struct Photographs;
+#[derive(Default)]
+pub(super) struct Photographs {
+    /// Whether a typed focal length is that of one photograph only.
+    is_for_one: bool,
+}
 
 impl Panel for Photographs {
     fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
@@ -41,7 +45,7 @@ impl Panel for Photographs {
             screen.actions.push(Action::TakePhotographs);
         }
         if let Some(photo) = project.document().photo(project.view().photo) {
-            one(screen, ui, photo);
+            one(screen, ui, photo, &mut self.is_for_one);
             ui.separator();
         }
         let held = project.orientation_words();
@@ -120,7 +124,8 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
     response.on_hover_text(words);
 }
 
-fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
+/// * `is_for_one`: whether a typed focal length is that of this photograph only
+fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, is_for_one: &mut bool) {
     let project = screen.project;
     ui.strong(&photo.name);
     ui.label(project.outcome_words(photo));
@@ -142,6 +147,11 @@ fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
             Some(FocalOrigin::File) => "from the file",
             _ => "a guess: 1.2 × the longer side",
         };
+        let alike = project.alike(photo);
+        let typed_for = match *is_for_one {
+            true => vec![photo.id],
+            false => alike.clone(),
+        };
         let factor = f64::from(width) / f64::from(pixels.width.max(1));
         let mut focal_px = camera.k[0] * factor;
         ui.horizontal_wrapped(|ui| {
@@ -153,7 +163,7 @@ fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
                 .add(field.update_while_editing(false))
                 .labelled_by(label.id);
             if (response.changed() && !response.dragged()) || response.drag_stopped() {
-                screen.send(Event::Focal(photo.id, Some(focal_px)));
+                screen.send(Event::Focal(typed_for.clone(), Some(focal_px)));
             }
         });
         ui.weak(origin);
@@ -162,7 +172,13 @@ fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given) {
             ui.weak(unused);
         }
         if photo.focal_px.is_some() && ui.button("Reset focal length").clicked() {
-            screen.send(Event::Focal(photo.id, None));
+            screen.send(Event::Focal(typed_for, None));
+        }
+        if alike.len() > 1 {
+            let mut is_for_all = !*is_for_one;
+            let words = format!("The same for all {} photographs of this size", alike.len());
+            ui.checkbox(&mut is_for_all, words);
+            *is_for_one = !is_for_all;
         }
     }
     ui.horizontal_wrapped(|ui| {

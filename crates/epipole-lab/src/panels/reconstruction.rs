@@ -139,16 +139,28 @@ fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
     if let Some(mean_px) = found.mean_error_px.get(current) {
         controls::row(ui, "mean reprojection error", format!("{mean_px:.3} px"));
     }
-    if project.sfm_options().refine_focal
+    let is_corrected = project.before_correction_px().is_some();
+    if (project.sfm_options().refine_focal || is_corrected)
         && let Some(camera) = component.cameras.iter().flatten().next()
     {
+        let name = match project.knows_focal() {
+            true => "focal length, refined",
+            false => "focal length, not determined",
+        };
+        controls::row(ui, name, format!("{:.1} px", camera.intrinsics[0]));
+        if !project.knows_focal() {
+            let words = "The photographs do not tell the focal length, so depths may be far off. Type it, calibrate, or add photographs from other sides.";
+            ui.colored_label(look::color(ui, Role::Outlier), words);
+        }
+    }
+    if let Some(before_px) = project.before_correction_px() {
         controls::row(
             ui,
-            "focal length, refined",
-            format!("{:.1} px", camera.intrinsics[0]),
+            "before the lens was corrected",
+            format!("{before_px:.3} px"),
         );
     }
-    if project.sfm_options().refine_distortion {
+    if project.sfm_options().refine_distortion || is_corrected {
         let terms = component.lens.coefficients();
         let words = format!("{:.4}, {:.4}", terms[0], terms[1]);
         controls::row(ui, "radial distortion", words);

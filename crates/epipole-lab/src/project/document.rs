@@ -43,13 +43,35 @@ impl Given {
     }
 }
 
-/// Which place of a photograph a measure holds on to: a keypoint that is part of a point.
+/// Place that a measure holds on to: a keypoint that is part of a point, or a pixel with dense
+/// depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
-    /// The photograph.
+    /// The photograph, or the first of a pair.
     pub photo: PhotoId,
-    /// Its keypoint.
+    /// Its keypoint; 0 for a pixel.
     pub keypoint: u32,
+    /// The pixel, if it is none of the sparse points.
+    #[serde(default)]
+    pub pixel: Option<DensePixel>,
+}
+
+impl Anchor {
+    /// Photographs that it depends on.
+    pub fn photos(&self) -> impl Iterator<Item = PhotoId> {
+        [Some(self.photo), self.pixel.map(|pixel| pixel.second)]
+            .into_iter()
+            .flatten()
+    }
+}
+
+/// Pixel of the first rectified picture of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DensePixel {
+    /// The second photograph.
+    pub second: PhotoId,
+    /// Column and row.
+    pub at: [u32; 2],
 }
 
 /// Two points, and their distance if known.
@@ -84,6 +106,11 @@ impl Document {
     /// The photograph of this number.
     pub fn photo(&self, id: PhotoId) -> Option<&Given> {
         self.photos.iter().find(|photo| photo.id == id)
+    }
+
+    /// Whether the photographs that an anchor depends on are there.
+    pub fn has_all_of(&self, anchor: &Anchor) -> bool {
+        anchor.photos().all(|id| self.photo(id).is_some())
     }
 
     /// The photograph of a board of this number.

@@ -19,7 +19,7 @@ pub use bytes::Blob;
 pub(crate) use bytes::to_bytes;
 pub use computed::{COMPUTED_BY, Computed};
 pub(crate) use document::content_of;
-pub use document::{Anchor, Document, Given, Measure, PhotoId, Source, pairs};
+pub use document::{Anchor, DensePixel, Document, Given, Measure, PhotoId, Source, pairs};
 pub use key::Key;
 pub use options::{
     DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions, PairOptions, SfmOptions,

@@ -79,6 +79,9 @@ pub struct SfmOptions {
     pub refine_focal: bool,
     /// Refine two terms of radial distortion that all photographs share.
     pub refine_distortion: bool,
+    /// Correct focal lengths and radial distortion in the end if that lowers the error.
+    #[serde(default)]
+    pub correct_lens: bool,
     /// Equal seeds give equal results.
     pub seed: u64,
 }
@@ -89,6 +92,7 @@ impl Default for SfmOptions {
             min_num_inliers: 15,
             refine_focal: false,
             refine_distortion: false,
+            correct_lens: false,
             seed: 0,
         }
     }

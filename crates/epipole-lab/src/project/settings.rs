@@ -26,7 +26,7 @@ pub struct Settings {
     pub matching: MatchOptions,
     /// Two-view verification.
     pub pairs: PairOptions,
-    /// Reconstruction; its `refine_focal` follows the field below.
+    /// Reconstruction; its `refine_focal` and `correct_lens` follow the field below.
     pub sfm: SfmOptions,
     /// When focal lengths are refined.
     pub refine_focal: RefineFocal,

@@ -28,8 +28,8 @@ pub enum Event {
     Clear,
     /// Left a photograph out, or took it in again; it may be of a board.
     Exclude(PhotoId, bool),
-    /// Typed a focal length, pixels of the full photograph, or took it back.
-    Focal(PhotoId, Option<f64>),
+    /// Typed a focal length for photographs, pixels of the full ones, or took it back.
+    Focal(Vec<PhotoId>, Option<f64>),
     /// Moved a photograph towards the beginning of the list.
     Earlier(PhotoId),
     /// Changed settings.

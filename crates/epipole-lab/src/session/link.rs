@@ -295,6 +295,7 @@ mod tests {
                 min_num_inliers: 20,
                 refine_focal: false,
                 refine_distortion: true,
+                correct_lens: false,
                 seed: 6,
             },
             depth: crate::project::DepthOptions {

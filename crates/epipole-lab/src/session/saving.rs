@@ -35,6 +35,9 @@ fn all_renumbered<const N: usize>(
 ) -> Option<[Anchor; N]> {
     for end in &mut ends {
         end.photo = number(end.photo)?;
+        if let Some(pixel) = &mut end.pixel {
+            pixel.second = number(pixel.second)?;
+        }
     }
     Some(ends)
 }

@@ -48,10 +48,11 @@ impl Project {
             Event::Remove(id) => {
                 self.document.photos.retain(|photo| photo.id != id);
                 self.document.boards.retain(|photo| photo.id != id);
-                let gone = |m: &Measure| m.ends.iter().any(|end| end.photo == id);
+                let is_of = |end: &Anchor| end.photos().any(|photo| photo == id);
+                let gone = |m: &Measure| m.ends.iter().any(is_of);
                 self.document.measures.retain(|measure| !gone(measure));
                 let floor = self.document.floor.take();
-                self.document.floor = floor.filter(|ends| ends.iter().all(|end| end.photo != id));
+                self.document.floor = floor.filter(|ends| !ends.iter().any(is_of));
                 self.document.dense.retain(|(a, b)| *a != id && *b != id);
             }
             Event::Clear => {
@@ -63,10 +64,13 @@ impl Project {
                     photo.excluded = excluded;
                 }
             }
-            Event::Focal(id, focal_px) => {
-                let is_length = focal_px.is_none_or(|f| f.is_finite() && f > 0.0);
-                if let Some(photo) = self.photo_mut(id).filter(|_| is_length) {
-                    photo.focal_px = focal_px;
+            Event::Focal(ids, focal_px) => {
+                if focal_px.is_none_or(|f| f.is_finite() && f > 0.0) {
+                    for id in ids {
+                        if let Some(photo) = self.photo_mut(id) {
+                            photo.focal_px = focal_px;
+                        }
+                    }
                 }
             }
             Event::Earlier(id) => {
@@ -92,9 +96,7 @@ impl Project {
             Event::Floor(ends) => {
                 let known = |ends: &[Anchor; 3]| {
                     let [a, b, c] = ends;
-                    let there = ends
-                        .iter()
-                        .all(|end| self.document.photo(end.photo).is_some());
+                    let there = ends.iter().all(|end| self.document.has_all_of(end));
                     a != b && b != c && a != c && there
                 };
                 if ends.as_ref().is_none_or(known) {
@@ -195,8 +197,7 @@ impl Project {
 
     fn measure(&mut self, measure: Measure) {
         let [a, b] = measure.ends;
-        let known =
-            self.document.photo(a.photo).is_some() && self.document.photo(b.photo).is_some();
+        let known = self.document.has_all_of(&a) && self.document.has_all_of(&b);
         let is_length = measure.length_m.is_none_or(|m| m.is_finite() && m > 0.0);
         if a != b && known && is_length {
             self.document.measures.push(measure);

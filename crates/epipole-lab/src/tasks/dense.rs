@@ -81,15 +81,18 @@ impl Dense {
         })
     }
 
-    /// The points of every n-th pixel along rows and columns, in the frame of the reconstruction,
-    /// with their colors.
-    pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
-        let (center, ray) = (self.camera.center(), self.camera.rays());
+    /// Every n-th pixel along rows and columns that has a depth, and the depth.
+    pub fn deep_pixels(&self, every: u32) -> impl Iterator<Item = ([u32; 2], f64)> {
         let step = every.max(1) as usize;
         let rows = (0..self.height).step_by(step);
-        let pixels = rows.flat_map(move |v| (0..self.width).step_by(step).map(move |u| (u, v)));
-        pixels.filter_map(move |(u, v)| {
-            let depth = self.depth(u, v)?;
+        let pixels = rows.flat_map(move |v| (0..self.width).step_by(step).map(move |u| [u, v]));
+        pixels.filter_map(|[u, v]| Some(([u, v], self.depth(u, v)?)))
+    }
+
+    /// The points of these pixels, in the frame of the reconstruction, with their colors.
+    pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
+        let (center, ray) = (self.camera.center(), self.camera.rays());
+        self.deep_pixels(every).filter_map(move |([u, v], depth)| {
             let place = center + ray([f64::from(u), f64::from(v)]) * depth;
             let at = 3 * (v as usize * self.width as usize + u as usize);
             let color = self.left.get(at..at + 3)?.try_into().ok()?;

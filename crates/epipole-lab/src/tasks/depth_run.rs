@@ -45,7 +45,7 @@ impl Run for FindDepth {
         }
         let first = &cameras[order[0]].cam_from_world;
         let places = self.points.iter().map(|place| first * Point3::from(*place));
-        let proposed_px = whole.disparity_range(&places.collect::<Vec<_>>()).ok();
+        let proposed_px = proposed(&whole, &places.collect::<Vec<_>>());
         let range_px = match (options.range_px, proposed_px) {
             (Some(range), _) | (None, Some(range)) => range,
             (None, None) => {
@@ -69,6 +69,7 @@ impl Run for FindDepth {
         let mut disparity = redrawn
             .disparity(|left, right| matched(left, right, options, span(range_px, factor), monitor))
             .map_err(sentence)?;
+        disparity = unclamped(&disparity, span(range_px, factor), at_infinity(&rig))?;
         if options.fill {
             disparity = redrawn.filled(&disparity).map_err(sentence)?;
         }
@@ -96,6 +97,56 @@ impl Run for FindDepth {
         })
     }
 }
+
+/// The disparity of what is infinitely far, pixels.
+fn at_infinity(rig: &Rectification) -> f64 {
+    let axis = usize::from(rig.is_vertical);
+    let center = |index: usize| rig.intrinsics[index].principal_point()[axis];
+    center(0) - center(1)
+}
+
+/// Number of points that may be wrong at the far end. Few points of a background lie there, and a
+/// range without it costs more than a range with some empty disparities.
+const WRONG_AND_FAR: usize = 3;
+/// Room beyond the farthest point, pixels.
+const BEYOND_FARTHEST: f64 = 2.0;
+
+/// The range that points propose: that of nearly all of them, and of the background.
+///
+/// * `places`: points that both photographs show, in the frame of the first one's camera
+fn proposed(rig: &Rectification, places: &[Point3<f64>]) -> Option<[i32; 2]> {
+    let [low, high] = rig.disparity_range(places).ok()?;
+    let seen = places.iter().filter_map(|place| rig.disparity_of(place));
+    let mut disparities: Vec<f64> = seen.map(|(_, disparity)| disparity).collect();
+    disparities.sort_by(f64::total_cmp);
+    let farthest = disparities.get(WRONG_AND_FAR).copied()?;
+    let first = (farthest - BEYOND_FARTHEST).max(at_infinity(rig));
+    Some([low.min(first.floor() as i32), high])
+}
+
+/// Disparities without those at the ends of the range: a surface beyond the range is matched there.
+/// Nothing is beyond infinity.
+fn unclamped(
+    disparity: &DisparityImage,
+    (first, count): (i32, u32),
+    at_infinity: f64,
+) -> Result<DisparityImage, String> {
+    let last = f64::from(first) + f64::from(count) - 1.0;
+    let lowest = match f64::from(first) > at_infinity {
+        true => f64::from(first) + END_PX,
+        false => f64::NEG_INFINITY,
+    };
+    let values = disparity.as_raw().iter().map(|d| {
+        let is_inside = f64::from(*d) > lowest && f64::from(*d) < last - END_PX;
+        if is_inside { *d } else { f32::NAN }
+    });
+    DisparityImage::from_raw(disparity.width(), disparity.height(), values.collect())
+        .map_err(sentence)
+}
+
+/// Disparities this close to an end of the range, pixels, may lie beyond it: refinement below a
+/// pixel moves them by half a pixel at most.
+const END_PX: f64 = 0.5;
 
 /// * `width`, `height`: what both photographs are resized to, pixels
 fn rectify(
@@ -196,5 +247,43 @@ fn matched(
             .with_min_disparity_px(min_disparity_px)
             .with_num_disparities(num_disparities)
             .compute(left, right, &mut watch),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_at_the_ends_of_the_range_are_none() {
+        let values = vec![5.0, 5.4, 5.6, 8.0, 11.4, 11.6, 12.0, f32::NAN];
+        let image = DisparityImage::from_raw(4, 2, values).expect("eight values");
+        let kept = |at_infinity| {
+            let found = unclamped(&image, (5, 8), at_infinity).expect("eight values");
+            let values = found.as_raw().iter().copied();
+            values.filter(|d| d.is_finite()).collect::<Vec<f32>>()
+        };
+        assert_eq!(kept(0.0), [5.6, 8.0, 11.4]);
+        assert_eq!(kept(5.0), [5.0, 5.4, 5.6, 8.0, 11.4], "nothing is farther");
+    }
+
+    #[test]
+    fn the_range_holds_a_background_of_few_points() {
+        let k = Intrinsics::centered(500.0, 640, 480).expect("a focal length");
+        let camera = Camera::pinhole(k, 640, 480);
+        let aside = RigidTransform::translation(-0.1, 0.0, 0.0);
+        let rig = rectify_calibrated(&[camera, camera], &aside, &RectifyOptions::default())
+            .expect("two cameras side by side");
+        // A thing at 1 m, 50 px, and a wall at 10 m, 5 px.
+        let mut places: Vec<Point3<f64>> = (0..1000)
+            .map(|n| Point3::new(0.0003 * f64::from(n), 0.0, 1.0))
+            .collect();
+        places.extend((0..8).map(|n| Point3::new(0.1 * f64::from(n), 0.5, 10.0)));
+        let [low, high] = proposed(&rig, &places).expect("more than eight points");
+        assert!((1..=4).contains(&low) && high > 50, "{low} {high}");
+        // Three far ones may be wrong.
+        places.truncate(1003);
+        let [low, _] = proposed(&rig, &places).expect("more than eight points");
+        assert!(low > 40, "{low}");
     }
 }

@@ -73,8 +73,10 @@ impl Query for MatchesOf {
         })
     }
 
-    fn label(self, _project: &Project) -> String {
-        "Matching pairs".to_owned()
+    fn label(self, project: &Project) -> String {
+        let all = Self::all(project);
+        let done = all.iter().filter(|pair| pair.is_settled(project)).count();
+        format!("Matching pairs: {done} of {}", all.len())
     }
 
     fn stored(output: &Vec<Match>, _destination: Destination) -> Option<Vec<Match>> {

@@ -31,6 +31,7 @@ mod radial_lens;
 mod reconstruction;
 #[cfg(feature = "vision")]
 mod reconstruction_run;
+mod refined;
 #[cfg(feature = "files")]
 mod rendered;
 mod task;
@@ -42,7 +43,7 @@ pub use calibration::{Calibrate, Calibration, CalibrationOfBoards, ViewFound};
 pub use camera_found::CameraFound;
 pub use dense::Dense;
 pub use depth::{DepthOf, FindDepth};
-pub use export::{Export, Recipe};
+pub use export::{Export, Measured, Recipe};
 pub use features::{Described, Feature, Features, FeaturesOf, FindFeatures};
 pub use frames::ChooseFrame;
 #[cfg(any(feature = "vision", feature = "files"))]

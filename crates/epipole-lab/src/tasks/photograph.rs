@@ -241,6 +241,18 @@ impl Project {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).0)
     }
 
+    /// The photographs that one camera may have taken with a photograph, and itself: their sensors
+    /// have as many pixels.
+    pub fn alike(&self, photo: &Given) -> Vec<PhotoId> {
+        let size = |photo: &Given| Some(self.get(PhotographOf(photo.id))?.sensor_size);
+        let own = size(photo);
+        let photos = self.document.photos.iter();
+        photos
+            .filter(|other| other.id == photo.id || (own.is_some() && size(other) == own))
+            .map(|other| other.id)
+            .collect()
+    }
+
     /// Source of its focal length.
     pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).1)

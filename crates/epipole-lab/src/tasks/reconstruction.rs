@@ -4,9 +4,9 @@ use super::are_finite;
 use super::camera_found::CameraFound;
 use super::features::FeaturesOf;
 use super::matches::MatchesOf;
-use super::photograph::{Calibrated, FocalOrigin};
+use super::photograph::Calibrated;
 use super::task::{Destination, Query, Task};
-use crate::project::{Given, Key, Project, RefineFocal, SfmOptions, pairs};
+use crate::project::{Given, Key, Project, SfmOptions, pairs};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
@@ -68,6 +68,11 @@ pub struct Reconstructed {
     pub costs: Vec<f64>,
     /// Mean length of all reprojection errors of each component, pixels.
     pub mean_error_px: Vec<f64>,
+    /// Mean error of each component before its lens was corrected, pixels; `None` if it was not.
+    pub before_correction_px: Vec<Option<f64>>,
+    /// Whether the photographs of each component tell its refined focal length; true if it is not
+    /// refined.
+    pub determines_focal: Vec<bool>,
     /// For each image why it is in no component; `None` for those that are in one.
     pub reasons: Vec<Option<UnregisteredReason>>,
 }
@@ -230,6 +235,9 @@ impl Reconstructed {
         };
         self.components.iter().all(is_component)
             && self.mean_error_px.len() == self.components.len()
+            && self.determines_focal.len() == self.components.len()
+            && self.before_correction_px.len() == self.components.len()
+            && (self.before_correction_px.iter().flatten()).all(|px| px.is_finite())
             && self.reasons.len() == counts.len()
             && are_finite(&self.mean_error_px)
             && are_finite(&self.costs)
@@ -237,23 +245,6 @@ impl Reconstructed {
 }
 
 impl Project {
-    /// Options of the reconstruction, with "when guessed" resolved.
-    pub fn sfm_options(&self) -> SfmOptions {
-        let guessed = || {
-            let mut photos = self.taking_part().into_iter();
-            photos.any(|photo| self.focal_origin(photo) == Some(FocalOrigin::Guessed))
-        };
-        let refine_focal = match self.document.settings.refine_focal {
-            RefineFocal::Always => true,
-            RefineFocal::Never => false,
-            RefineFocal::WhenGuessed => guessed(),
-        };
-        SfmOptions {
-            refine_focal,
-            ..self.document.settings.sfm
-        }
-    }
-
     /// The photographs reduced to their keypoints, once all of them have features.
     pub(crate) fn image_points(&self) -> Option<Vec<ImagePoints>> {
         let image = |photo: &&Given| {

@@ -82,7 +82,16 @@ impl Run for Reconstruct {
                 return Err("stopped".to_owned());
             }
         }
-        let found = run.finish();
+        let mut found = run.finish();
+        let mut before_correction_px = vec![None; found.components.len()];
+        if options.correct_lens {
+            for (component, before) in found.components.iter_mut().zip(&mut before_correction_px) {
+                let mean_px = component.mean_reprojection_px(&input.images);
+                let mut watch = |_: Status| monitor(Progress::Share(share, "correcting the lens"));
+                let has_helped = component.refine_lenses(&input.images, &mut watch);
+                *before = has_helped.map_err(sentence)?.then_some(mean_px);
+            }
+        }
         let mut watch =
             |_: Status| monitor(Progress::Share(share, "finding the reasons of the rest"));
         let why = why_unregistered(&input, &how, &found, &mut watch).map_err(sentence)?;
@@ -93,7 +102,19 @@ impl Run for Reconstruct {
         let mean_error_px = (found.components.iter())
             .map(|component| component.mean_reprojection_px(&input.images))
             .collect();
+        let determines_focal = (found.components.iter())
+            .zip(&before_correction_px)
+            .map(
+                |(component, before)| match options.refine_focal || before.is_some() {
+                    true => component.determines_focal(&input.images),
+                    false => Ok(true),
+                },
+            )
+            .collect::<Result<_, _>>()
+            .map_err(sentence)?;
         Ok(Reconstructed {
+            determines_focal,
+            before_correction_px,
             components: found.components.iter().map(component).collect(),
             costs: found.steps.iter().filter_map(SfmStep::cost).collect(),
             mean_error_px,

@@ -129,8 +129,10 @@ impl Query for TwoViewsOf {
         })
     }
 
-    fn label(self, _project: &Project) -> String {
-        "Verifying pairs".to_owned()
+    fn label(self, project: &Project) -> String {
+        let all = Self::all(project);
+        let done = all.iter().filter(|pair| pair.is_settled(project)).count();
+        format!("Verifying pairs: {done} of {}", all.len())
     }
 
     fn stored(output: &TwoViews, _destination: Destination) -> Option<TwoViews> {

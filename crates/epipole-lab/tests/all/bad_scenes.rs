@@ -24,7 +24,7 @@ fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
         let photos = project.document().photos.iter();
         let ids: Vec<_> = photos.map(|photo| photo.id).collect();
         for id in &ids {
-            project.update(Event::Focal(*id, Some(typed_px)));
+            project.update(Event::Focal(vec![*id], Some(typed_px)));
         }
         finish(&mut project);
         let (each, all) = sentences(&mut project);

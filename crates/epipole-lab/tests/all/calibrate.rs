@@ -210,7 +210,7 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     ]));
     finish(&mut project);
     let id = project.document().photos[0].id;
-    project.update(Event::Focal(id, Some(700.0)));
+    project.update(Event::Focal(vec![id], Some(700.0)));
     finish(&mut project);
     project.update(Event::UseCalibration(true));
     finish(&mut project);

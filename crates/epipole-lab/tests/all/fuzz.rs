@@ -1,7 +1,7 @@
 //! Any sequence of actions leaves the project valid, and undo restores everything.
 
 use crate::common::output;
-use epipole_lab::project::{Anchor, Blob, Measure, Project, Sample, Settings, Step};
+use epipole_lab::project::{Anchor, Blob, DensePixel, Measure, Project, Sample, Settings, Step};
 use epipole_lab::session::Event;
 use epipole_lab::tasks::OpenProject;
 use proptest::prelude::*;
@@ -43,7 +43,18 @@ fn settings() -> impl Strategy<Value = Settings> {
 
 fn event() -> impl Strategy<Value = Event> {
     let id = 0..14_u32;
-    let anchor = || (0..14_u32, 0..9_u32).prop_map(|(photo, keypoint)| Anchor { photo, keypoint });
+    let pixel = || {
+        let pixel = (0..14_u32, 0..9_u32, 0..9_u32);
+        pixel.prop_map(|(second, u, v)| DensePixel { second, at: [u, v] })
+    };
+    let anchor = move || {
+        let anchor = (0..14_u32, 0..9_u32, prop::option::of(pixel()));
+        anchor.prop_map(|(photo, keypoint, pixel)| Anchor {
+            photo,
+            keypoint,
+            pixel,
+        })
+    };
     prop_oneof![
         ("[a/.é ]{0,4}", prop::collection::vec(any::<u8>(), 0..6))
             .prop_map(|(name, bytes)| Event::Add(vec![(name, Blob::from(bytes))])),
@@ -59,7 +70,7 @@ fn event() -> impl Strategy<Value = Event> {
         Just(Event::ClearBoards),
         any::<bool>().prop_map(Event::UseCalibration),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
-        (id.clone(), length()).prop_map(|(id, f)| Event::Focal(id, f)),
+        (id.clone(), length()).prop_map(|(id, f)| Event::Focal(vec![id], f)),
         id.clone().prop_map(Event::Earlier),
         settings().prop_map(Event::Set),
         (anchor(), anchor(), length()).prop_map(|(a, b, length_m)| Event::Measure(Measure {

@@ -16,4 +16,5 @@ mod pictures;
 mod sample;
 mod saving;
 mod stop;
+mod told;
 mod words;

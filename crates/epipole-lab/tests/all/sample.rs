@@ -180,7 +180,7 @@ fn the_command_says_every_knob(project: &mut Project) {
     let (second, last) = (photos[1].id, photos[8].id);
     project.update(Event::Earlier(second));
     project.update(Event::Exclude(last, true));
-    project.update(Event::Focal(second, Some(601.5)));
+    project.update(Event::Focal(vec![second], Some(601.5)));
     let command = project.recipe().unwrap().command;
     assert!(
         command.starts_with(

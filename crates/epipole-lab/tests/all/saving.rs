@@ -15,7 +15,7 @@ fn a_saved_project_comes_back() {
     settings.matching.ratio = 0.7;
     project.update(Event::Set(settings));
     let id = project.document().photos[1].id;
-    project.update(Event::Focal(id, Some(55.0)));
+    project.update(Event::Focal(vec![id], Some(55.0)));
     project.update(Event::Exclude(id, true));
 
     let again = reopened(&project);

@@ -122,8 +122,8 @@ pub(crate) fn three_points_set_the_floor(project: &mut Project) {
             "{n}: {found} {height_m}"
         );
     }
-    assert!(project.height_in_units(three[0]).unwrap().abs() < 1e-9);
-    let words = project.height_words(table[5].0);
+    assert!(project.height_in_units(&anchors[0]).unwrap().abs() < 1e-9);
+    let words = project.height_words(&project.anchor_of(table[5].0).unwrap());
     assert!(words.ends_with("m above the floor"), "{words}");
     let again = reopened(project);
     assert_eq!(

@@ -13,6 +13,8 @@
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
 //!   photographs, to cameras and points: a [`Reconstruction`].
+//! * [`Reconstruction::refine_lenses`] corrects lenses that are not as they were given, and
+//!   [`Reconstruction::determines_focal`] tells whether the photographs can.
 //! * [`Reconstruction::localize`] gives the pose of another photo.
 //! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
 
@@ -31,6 +33,7 @@ mod options;
 mod photos;
 mod pose_graph;
 mod reconstruction;
+mod self_calibration;
 mod tracks;
 mod triangulate_track;
 mod two_view_reconstruction;

@@ -3,7 +3,12 @@
 use super::bundle::{Bundle, BundleObservation, PositionPrior};
 use super::tracks::TrackElement;
 use crate::camera::{PosedCamera, RigidTransform};
+use crate::optim::RobustLoss;
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
+
+/// Loss of a reprojection error in a model of photographs, pixels: beyond a pixel and a half,
+/// matches are more often wrong than imprecise.
+pub(super) const LOSS: RobustLoss = RobustLoss::Cauchy { width: 1.5 };
 
 /// A photograph, reduced to its keypoints.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -22,6 +22,7 @@ mod real_matches;
 mod rectified_pair;
 mod relative_pose;
 mod relative_pose_with_gravity;
+mod sfm_focal;
 mod sfm_lenses;
 mod sfm_real;
 mod sfm_synthetic;

@@ -12,7 +12,7 @@ pub(crate) struct RefinedArguments {
     /// Refine the focal length (one factor of each lens, also where it is known).
     #[arg(long)]
     refine_focal: bool,
-    /// Keep the focal lengths, also where they are but a guess.
+    /// Keep the focal lengths and the distortion, also where they are but a guess.
     #[arg(long, conflicts_with = "refine_focal")]
     keep_focal: bool,
     /// Refine where the principal points are, one shift for each lens.
@@ -46,6 +46,13 @@ impl RefinedArguments {
                 "--refine-tangential makes no difference here: the model of the lens has no tangential terms",
             );
         }
+    }
+
+    /// Whether lenses are corrected in the end.
+    ///
+    /// * `all_unknown`: whether nothing is given of any lens
+    pub(crate) fn corrects_lenses(&self, all_unknown: bool) -> bool {
+        all_unknown && !self.keep_focal && !self.refine_distortion
     }
 
     /// With what else is asked of a reconstruction, the same for the core.

@@ -2,6 +2,7 @@
 
 use super::look;
 use super::marks::{add_dense, frustum, rays, standing};
+use super::pick::{Click, crosshair, pick};
 use super::steer::{frame, steer};
 use crate::project::{Blob, Key, Project};
 use crate::session::Floor;
@@ -108,8 +109,9 @@ fn size_of(num_points: usize) -> f64 {
 }
 
 impl CloudView {
-    /// Shows the part that is looked at. Returns the point that was clicked, if one was.
-    pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<usize> {
+    /// Shows the part that is looked at. Returns what was clicked, if anything was; a click by key
+    /// is in the middle.
+    pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<Click> {
         let shown = project.component().or(project.growing());
         let (Some(component), Some(key)) = (shown, ReconstructionOfAll.key(project)) else {
             return None;
@@ -119,7 +121,7 @@ impl CloudView {
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let words = format!(
             "Space with {} points and {} cameras. Drag or arrow keys turn it, Shift moves it, \
-             plus and minus enlarge it.",
+             plus and minus enlarge it, Enter chooses the point at the center.",
             component.points.len(),
             component.num_registered()
         );
@@ -152,24 +154,30 @@ impl CloudView {
             let inner = rect.shrink(1.0);
             ui.painter()
                 .rect_stroke(inner, 0.0, stroke, egui::StrokeKind::Inside);
+            crosshair(ui, rect);
         }
         if !response.clicked() {
             return None;
         }
-        let at = (response.interact_pointer_pos()? - rect.min) / rect.size();
-        let (width, height) = self.frame.size();
-        let [u, v] = [at.x * width as f32, at.y * height as f32].map(f64::from);
-        let found = self.frame.pick(u, v, 6);
-        // Dense points come from a single pair and have no details to show.
-        let found = found.filter(|point| *point < component.points.len());
-        self.point = found;
-        found
+        let clicked = pick(
+            &response,
+            rect,
+            &self.frame,
+            &self.scene,
+            &orbit,
+            component.points.len(),
+        );
+        self.point = match clicked {
+            Click::Point(point) => Some(point),
+            Click::Missed | Click::Dense(_) => None,
+        };
+        Some(clicked)
     }
 
-    /// Position of a point on the screen.
-    pub(crate) fn place_of(&self, point: usize, rect: Rect) -> Option<egui::Pos2> {
+    /// Position of a place of the reconstruction on the screen.
+    pub(crate) fn place_of(&self, place: nalgebra::Point3<f64>, rect: Rect) -> Option<egui::Pos2> {
         let (width, height) = self.frame.size();
-        let place = self.scene.points.get(point)?.0;
+        let place = place.map(|x| x as f32).into();
         let ([u, v], _) = self.orbit?.project(place, (width, height))?;
         let share = Vec2::new(u as f32 / width as f32, v as f32 / height as f32);
         Some(rect.min + share * rect.size())

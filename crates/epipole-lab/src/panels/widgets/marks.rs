@@ -1,7 +1,7 @@
 //! Marks besides the points: cameras, the rays of one point, and its observations.
 
-use crate::project::Project;
-use crate::tasks::{CameraFound, Component, FeaturesOf, Thumbnail};
+use crate::project::{Anchor, DensePixel, Project};
+use crate::tasks::{CameraFound, Component, Dense, FeaturesOf, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
@@ -95,16 +95,41 @@ pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64
 /// Maximum number of points shown from the dense depth of all pairs.
 const MAX_DENSE: usize = 1_000_000;
 
-/// Adds the points of every pixel after those that photographs share.
-pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
-    let pairs = project.dense_pairs();
-    let all: f64 = (pairs.iter())
+/// Number of pixels with dense depth, and the step along rows and columns from one that is shown
+/// to the next.
+fn shown_dense(project: &Project) -> (f64, u32) {
+    let all: f64 = (project.dense_pairs().iter())
         .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
         .sum();
-    let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0) as u32;
+    let every = libm::ceil(libm::sqrt(all / MAX_DENSE as f64)).max(1.0);
+    (all, every as u32)
+}
+
+/// The pixel of a shown dense point, counted from the first one.
+pub(crate) fn dense_anchor(project: &Project, index: usize) -> Option<Anchor> {
+    let (_, every) = shown_dense(project);
+    let of_pair = |(first, second, pair)| {
+        let pixels = Dense::deep_pixels(pair, every);
+        pixels.map(move |(at, _)| (first, second, at))
+    };
+    let pairs = project.dense_pairs().into_iter();
+    let mut all = pairs
+        .map(|(_, first, second, pair)| (first.id, second.id, pair))
+        .flat_map(of_pair);
+    let (photo, second, at) = all.nth(index)?;
+    Some(Anchor {
+        photo,
+        keypoint: 0,
+        pixel: Some(DensePixel { second, at }),
+    })
+}
+
+/// Adds the points of every pixel after those that photographs share.
+pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
+    let (all, every) = shown_dense(project);
     // At once: growing step by step would leave half as much again behind.
     points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
-    for (.., pair) in pairs {
+    for (.., pair) in project.dense_pairs() {
         let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
         points.extend(pair.points(every).map(plain));
     }

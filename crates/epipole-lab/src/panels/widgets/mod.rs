@@ -6,7 +6,8 @@ pub(crate) mod look;
 mod marks;
 pub(crate) mod menu;
 pub(crate) mod photo;
+pub(crate) mod pick;
 mod steer;
 pub(crate) mod strips;
 
-pub(crate) use marks::observations;
+pub(crate) use marks::{dense_anchor, observations};

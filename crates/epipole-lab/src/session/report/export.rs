@@ -1,7 +1,7 @@
 //! Contents of the zip file of a reconstruction.
 
 use crate::project::{Given, Outcome, Project};
-use crate::tasks::{Export, Packed, ReconstructionOfAll};
+use crate::tasks::{Export, Measured, Packed, ReconstructionOfAll};
 impl Project {
     /// Whether there is a reconstruction to save, and all of its photographs.
     pub fn can_export(&self) -> bool {
@@ -28,7 +28,13 @@ impl Project {
             found: found.clone(),
             component: self.view.component as u32,
             meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
-            focal_refined: self.sfm_options().refine_focal,
+            floor: self
+                .floor()
+                .map(|floor| [floor.origin.into(), floor.up.into()]),
+            measures: (0..self.document.measures.len())
+                .filter_map(|index| self.measured(index))
+                .collect(),
+            focal_refined: self.sfm_options().refine_focal || self.before_correction_px().is_some(),
             left_out: (self.taking_part().iter())
                 .filter(|photo| !matches!(self.outcome(photo), Outcome::Registered(_)))
                 .map(|photo| (photo.name.clone(), self.outcome_words(photo)))
@@ -39,6 +45,24 @@ impl Project {
             dense: (self.dense_pairs().into_iter())
                 .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
                 .collect(),
+        })
+    }
+}
+
+impl Project {
+    /// A measure as the files have it; `None` if one of its ends is gone.
+    fn measured(&self, index: usize) -> Option<Measured> {
+        let measure = self.document.measures.get(index)?;
+        let [first, second] = &measure.ends;
+        let length = match self.scale() {
+            Some(_) => self.length_in_meters(index)?,
+            None => self.length_in_units(measure)?,
+        };
+        Some(Measured {
+            ends: [self.anchored(first)?.into(), self.anchored(second)?.into()],
+            length: length.value,
+            sigma: length.sigma,
+            typed_m: measure.length_m,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The floor that three points set: which way is up, and how high anything is.
 
-use crate::project::Project;
+use crate::project::{Anchor, Project};
 use nalgebra::{Point3, Vector3};
 
 /// Minimum sine of the angle between the sides of three points: points nearly on a line do not
@@ -22,7 +22,7 @@ impl Project {
         let component = self.component()?;
         let mut corners = [Point3::origin(); 3];
         for (corner, anchor) in corners.iter_mut().zip(self.document.floor.as_ref()?) {
-            *corner = Point3::from(component.points[self.anchored(anchor)?].position);
+            *corner = self.anchored(anchor)?;
         }
         let [origin, b, c] = corners;
         let (one, two) = (b - origin, c - origin);
@@ -40,16 +40,15 @@ impl Project {
         Some(Floor { origin, up })
     }
 
-    /// Height of a point of the current component above the floor, in units of the reconstruction.
-    pub fn height_in_units(&self, point: usize) -> Option<f64> {
+    /// Height of an anchor above the floor, in units of the reconstruction.
+    pub fn height_in_units(&self, anchor: &Anchor) -> Option<f64> {
         let floor = self.floor()?;
-        let position = Point3::from(self.component()?.points.get(point)?.position);
-        Some((position - floor.origin).dot(&floor.up))
+        Some((self.anchored(anchor)? - floor.origin).dot(&floor.up))
     }
 
     /// The same for people; nothing without a floor.
-    pub fn height_words(&self, point: usize) -> String {
-        let Some(height) = self.height_in_units(point) else {
+    pub fn height_words(&self, anchor: &Anchor) -> String {
+        let Some(height) = self.height_in_units(anchor) else {
             return String::new();
         };
         match self.scale() {
@@ -62,7 +61,7 @@ impl Project {
     pub fn floor_words(&self) -> &'static str {
         match (self.document.floor.is_some(), self.floor().is_some()) {
             (false, _) => "",
-            (true, true) => " The floor is set, and up is up.",
+            (true, true) => " The floor is set: heights are above it.",
             (true, false) => {
                 " The three points of the floor lie on a line, or one of them is gone: choose others."
             }

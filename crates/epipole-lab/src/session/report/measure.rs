@@ -1,8 +1,8 @@
 //! Lengths between points, how sure they are, and the scale that a known one sets.
 
-use crate::project::{Anchor, Measure, Project};
-use crate::tasks::{CameraFound, Component};
-use nalgebra::{Matrix2x3, Matrix3, Point3, Vector3};
+use crate::project::{Anchor, DensePixel, Measure, PhotoId, Project};
+use crate::tasks::{CameraFound, Component, Dense, DepthOf};
+use nalgebra::{Matrix2x3, Matrix3, Point3};
 
 /// A length, one standard deviation beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,42 +25,65 @@ pub struct Scale {
 }
 
 impl Project {
-    /// The point that an anchor holds on to, in the part that is looked at.
-    pub fn anchored(&self, anchor: &Anchor) -> Option<usize> {
+    /// Position of an anchor in the component that is looked at; `None` if it is gone.
+    pub fn anchored(&self, anchor: &Anchor) -> Option<Point3<f64>> {
+        match anchor.pixel {
+            Some(pixel) => dense_place(self.dense_of(anchor.photo, pixel)?, pixel.at),
+            None => {
+                let point = self.anchored_point(anchor)?;
+                Some(self.component()?.points[point].position.into())
+            }
+        }
+    }
+
+    /// The sparse point of an anchor at a keypoint.
+    fn anchored_point(&self, anchor: &Anchor) -> Option<usize> {
         let image = self.place(anchor.photo)? as u32;
         let points = &self.component()?.points;
         let sees = |track: &[(u32, u32)]| track.contains(&(image, anchor.keypoint));
         points.iter().position(|point| sees(&point.track))
     }
 
+    /// The dense depth that an anchor needs, if it is part of the cloud.
+    fn dense_of(&self, first: PhotoId, pixel: DensePixel) -> Option<&Dense> {
+        let pair = (first, pixel.second);
+        let query = DepthOf(pair.0, pair.1);
+        self.get(query).filter(|_| self.document.is_dense(pair))
+    }
+
+    fn covariance(&self, anchor: &Anchor) -> Option<Matrix3<f64>> {
+        match anchor.pixel {
+            Some(pixel) => dense_covariance(self.dense_of(anchor.photo, pixel)?, pixel.at),
+            None => {
+                let component = self.component()?;
+                covariance(component, self.anchored_point(anchor)?, noise_px(component))
+            }
+        }
+    }
+
     /// An anchor for a point of the part that is looked at.
     pub fn anchor_of(&self, point: usize) -> Option<Anchor> {
         let (image, keypoint) = *self.component()?.points.get(point)?.track.first()?;
         let photo = self.taking_part().get(image as usize)?.id;
-        Some(Anchor { photo, keypoint })
+        Some(Anchor {
+            photo,
+            keypoint,
+            pixel: None,
+        })
     }
 
     /// The length of a measure in units of the reconstruction; `None` if a point is gone.
     pub fn length_in_units(&self, measure: &Measure) -> Option<Length> {
-        let component = self.component()?;
-        let ends = [
-            self.anchored(&measure.ends[0])?,
-            self.anchored(&measure.ends[1])?,
-        ];
-        if ends[0] == ends[1] {
-            return None;
-        }
-        let noise_px = noise_px(component);
-        let positions = ends.map(|end| Vector3::from(component.points[end].position));
-        let between = positions[1] - positions[0];
+        let [first, second] = &measure.ends;
+        let between = self.anchored(second)? - self.anchored(first)?;
         let value = between.norm();
         if !(value > 0.0 && value.is_finite()) {
             return None;
         }
         let along = between / value;
         let mut variance = 0.0;
-        for end in ends {
-            variance += along.dot(&(covariance(component, end, noise_px)? * along));
+        for end in &measure.ends {
+            variance += along.dot(&(self.covariance(end)? * along));
         }
         Some(Length {
             value,
@@ -110,6 +133,28 @@ fn noise_px(component: &Component) -> f64 {
     }
     let freedom = count - 6.0 * component.num_registered() as f64;
     libm::sqrt(sum_sq / freedom.max(1.0))
+}
+
+/// Standard deviation of a disparity that matching found, pixels.
+const DISPARITY_SIGMA_PX: f64 = 0.5;
+
+/// Position of a pixel with dense depth.
+fn dense_place(pair: &Dense, [u, v]: [u32; 2]) -> Option<Point3<f64>> {
+    let ray = pair.camera.ray([f64::from(u), f64::from(v)]);
+    Some(pair.camera.center() + ray * pair.depth(u, v)?)
+}
+
+/// Covariance of the position of a pixel with dense depth, for fixed cameras:
+/// `σ_Z = Z² σ_d / (f B)` along the ray, and the width of the pixel across it.
+fn dense_covariance(pair: &Dense, [u, v]: [u32; 2]) -> Option<Matrix3<f64>> {
+    let ray = pair.camera.ray([f64::from(u), f64::from(v)]);
+    let depth = pair.depth(u, v)?;
+    let along = depth * depth * DISPARITY_SIGMA_PX / (pair.focal_px() * pair.baseline);
+    // A pixel is uniform within its width, whose variance is 1/12.
+    let across = depth / pair.focal_px();
+    let covariance =
+        ray * ray.transpose() * (along * along) + Matrix3::identity() * (across * across / 12.0);
+    Some(covariance)
 }
 
 /// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.

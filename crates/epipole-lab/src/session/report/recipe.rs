@@ -141,9 +141,14 @@ impl Project {
             say(format!("--min-inliers {}", options.min_num_inliers));
         }
         let is_guessed = parts.list.iter().any(|part| part.is_guessed);
+        let all_told = parts.list.iter().all(|part| part.focal_px.is_none());
+        let is_corrected = all_told && !parts.uses_camera && !options.refine_distortion;
         match (options.refine_focal, is_guessed) {
             (true, false) => say("--refine-focal".to_owned()),
             (false, true) => say("--keep-focal".to_owned()),
+            (false, false) if is_corrected && !options.correct_lens => {
+                say("--keep-focal".to_owned());
+            }
             // So it is without a word.
             _ => {}
         }
@@ -158,6 +163,7 @@ impl Project {
     fn program(&self, parts: &Parts<'_>) -> String {
         let settings = &self.document.settings;
         let options = self.sfm_options();
+        let corrects = options.correct_lens;
         let kind = match settings.features.kind {
             FeatureKind::RootSift => "RootSift",
             FeatureKind::Sift => "Sift",
@@ -229,13 +235,25 @@ impl Project {
              .with_seed({seed});\n    \
              let (input, found) =\n        \
              reconstruct_photos(&photos, &cameras, &how, &options, &mut ())?;\n    \
-             let largest = found.components.first().ok_or(\"no two photographs show enough of the same thing\")?;\n    \
-             let model = Model::from_reconstruction(largest, &input.images);\n    \
+             let {mutable}largest = found.components.{first}.ok_or(\"no two photographs show enough of the same thing\")?;\n    \
+             {correction}\
+             let model = Model::from_reconstruction({of}largest, &input.images);\n    \
              std::fs::create_dir_all(\"sparse/0\")?;\n    \
              for file in model.to_colmap_text()? {{\n        \
              std::fs::write(format!(\"sparse/0/{{}}\", file.name), file.bytes)?;\n    }}\n    \
              println!(\"{{}} of {{}} photographs, {{}} points\", largest.num_registered(), photos.len(), largest.points.len());\n    \
              Ok(())\n}}\n",
+            mutable = if corrects { "mut " } else { "" },
+            first = if corrects {
+                "into_iter().next()"
+            } else {
+                "first()"
+            },
+            of = if corrects { "&" } else { "" },
+            correction = match corrects {
+                true => "largest.refine_lenses(&input.images, &mut ())?;\n    ",
+                false => "",
+            },
             count = parts.list.len(),
             max_features = settings.features.max_features,
             contrast = settings.features.contrast,

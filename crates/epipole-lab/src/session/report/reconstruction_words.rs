@@ -40,6 +40,16 @@ impl Project {
                 " Every pair shows a plane and nothing else, and a plane does not tell the focal length: cameras and points are \
                  right only if the focal length is. Type it, calibrate, or add photographs of something with depth.",
             );
+        } else if !self.knows_focal() {
+            words.push_str(
+                " The photographs do not tell the focal length: the one found may be far off, and so may all depths. Cameras \
+                 that move along a line without turning fit any. Type it, calibrate, or add photographs from other sides.",
+            );
+        }
+        if let Some(before_px) = self.before_correction_px() {
+            words.push_str(&format!(
+                " Focal length and radial distortion were corrected: before, the error was {before_px:.2} pixels."
+            ));
         }
         if found.components.len() > 1 {
             words.push_str(&format!(
@@ -54,6 +64,21 @@ impl Project {
             }
         }
         words
+    }
+
+    /// Mean error of the component that is looked at before its lens was corrected, pixels; `None`
+    /// if it was not.
+    pub fn before_correction_px(&self) -> Option<f64> {
+        let found = self.get(ReconstructionOfAll)?;
+        *found.before_correction_px.get(self.view.component)?
+    }
+
+    /// Whether the focal length of the component that is looked at is known, or follows from its
+    /// photographs. True while there is none.
+    pub fn knows_focal(&self) -> bool {
+        let found = self.get(ReconstructionOfAll);
+        let known = found.and_then(|found| found.determines_focal.get(self.view.component));
+        known.copied().unwrap_or(true)
     }
 
     /// Whether everything that photographs share lies in planes, pair by pair.

@@ -2,8 +2,8 @@
 
 use crate::project::{Given, Outcome, Project, Step, pairs};
 use crate::tasks::{
-    DepthOf, FeaturesOf, MatchesOf, PhotographOf, Query, ReconstructionOfAll, Shows, TwoViews,
-    TwoViewsOf, ViewModel,
+    DepthOf, FeaturesOf, FocalOrigin, MatchesOf, PhotographOf, Query, ReconstructionOfAll, Shows,
+    TwoViews, TwoViewsOf, ViewModel,
 };
 
 /// "1 photograph", "2 photographs".
@@ -146,6 +146,7 @@ impl Project {
     /// * `first`: its first photograph
     pub fn pair_words(&self, first: &Given, pair: &TwoViews) -> String {
         let turn = pair.turn_deg.unwrap_or(0.0);
+        let is_guessed = self.focal_origin(first) == Some(FocalOrigin::Guessed);
         match (pair.shows, pair.model) {
             (Shows::Nothing, _) => {
                 "No more matches agree than chance would give: the two most likely show different \
@@ -169,14 +170,21 @@ impl Project {
                 "A plane, seen from two places: H explains nearly all matches.".to_owned()
             }
             (Shows::Depth, ViewModel::Essential(_)) => format!(
-                "A scene with depth, seen from two places: E explains it, so the intrinsics hold. Rays meet at {:.1}°.",
-                pair.angle_deg.unwrap_or(0.0)
+                "A scene with depth, seen from two places: E explains it as well as F does. Rays meet at {:.1}°.{}",
+                pair.angle_deg.unwrap_or(0.0),
+                match is_guessed {
+                    true =>
+                        " Two photographs hardly tell whether the guessed focal length is right.",
+                    false => "",
+                }
             ),
-            (Shows::Depth, _) => {
-                "A scene with depth, seen from two places: F explains more matches than E, so the focal length \
-                 may be wrong."
-                    .to_owned()
-            }
+            (Shows::Depth, _) => format!(
+                "A scene with depth, seen from two places: F explains more matches than E.{}",
+                match is_guessed {
+                    true => " The focal length is a guess and may be wrong.",
+                    false => " Lens distortion does this, and a few wrong matches.",
+                }
+            ),
         }
     }
 

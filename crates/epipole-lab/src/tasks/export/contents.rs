@@ -21,6 +21,19 @@ pub struct Recipe {
     pub program: String,
 }
 
+/// A measured length, in units of the reconstruction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measured {
+    /// Positions of both ends.
+    pub ends: [[f64; 3]; 2],
+    /// The length, in meters if the scale is known.
+    pub length: f64,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// The length that was typed, meters.
+    pub typed_m: Option<f64>,
+}
+
 /// Writes a reconstruction to a zip file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Export {
@@ -34,6 +47,10 @@ pub struct Export {
     pub component: u32,
     /// Meters in a unit of the reconstruction, where something was measured.
     pub meters_per_unit: Option<f64>,
+    /// A point of the floor and the direction up: z points up from there in all files.
+    pub floor: Option<[[f64; 3]; 2]>,
+    /// Measured lengths.
+    pub measures: Vec<Measured>,
     /// Whether focal lengths were refined.
     pub focal_refined: bool,
     /// Names of photographs that have no camera in it, and why.

@@ -1,6 +1,7 @@
 //! Depth for other programs: a depth image for each pair, and all points as one cloud.
 
 use super::contents::Export;
+use super::frame::{file_from_world, moved};
 use crate::tasks::archive::Archive;
 use crate::tasks::camera_found::CameraFound;
 use crate::tasks::dense::Dense;
@@ -20,6 +21,7 @@ pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> 
         return Ok(());
     }
     let scale = export.meters_per_unit.unwrap_or(1.0);
+    let frame = file_from_world(export);
     let mut cloud = PointCloud::default();
     for (name, pair) in &export.dense {
         let broken = || format!("the depth of {name} did not arrive whole");
@@ -40,9 +42,7 @@ pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> 
             .map_err(|error| error.to_string())?;
         archive.add(&format!("depth/{name}.png"), bytes.get_ref())?;
         for (place, color) in pair.points(1) {
-            cloud
-                .points
-                .push((nalgebra::Point3::from(place).coords * scale).into());
+            cloud.points.push(frame * nalgebra::Point3::from(place));
             cloud.colors.push(color);
         }
     }
@@ -51,20 +51,20 @@ pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> 
 
 /// Entries of `reconstruction.json` for the pairs: files, and camera of the depth image.
 pub(super) fn json(export: &Export) -> Vec<Value> {
-    let scale = export.meters_per_unit.unwrap_or(1.0);
+    let frame = file_from_world(export);
     let one = |(name, pair): &(String, Dense)| {
         let CameraFound {
             intrinsics,
             rotation,
             translation,
-        } = pair.camera;
+        } = moved(&pair.camera, &frame);
         json!({
             "depth": format!("depth/{name}.pfm"),
             "picture": format!("depth/{name}.png"),
             "intrinsics": intrinsics,
             "cam_from_world": {
                 "quaternion_xyzw": rotation,
-                "translation": translation.map(|x| x * scale),
+                "translation": translation,
             },
             "share_with_depth": pair.density,
         })

@@ -4,8 +4,10 @@ mod contents;
 #[cfg(feature = "files")]
 mod depth;
 #[cfg(feature = "files")]
+mod frame;
+#[cfg(feature = "files")]
 mod model;
 #[cfg(feature = "files")]
 mod summary;
 
-pub use contents::{Export, Recipe};
+pub use contents::{Export, Measured, Recipe};

@@ -1,6 +1,7 @@
 //! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
 
 use super::contents::Export;
+use super::frame::file_from_world;
 use super::{depth, summary};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
@@ -49,8 +50,9 @@ impl Run for Export {
             image.name = name;
         }
         let mut model = core_reconstruction(found, &export.images)?;
-        if let Some(meters) = export.meters_per_unit {
-            scale(&mut model, meters);
+        // Otherwise to the last bit as the command line writes it.
+        if export.meters_per_unit.is_some() || export.floor.is_some() {
+            model = model.moved(&file_from_world(export));
         }
         let files = Model::from_reconstruction(&model, &images);
         for file in files.to_colmap_text().map_err(|error| error.to_string())? {
@@ -60,6 +62,9 @@ impl Run for Export {
         depth::add(&mut archive, export)?;
         let json = summary::json(export, &images, &model);
         archive.add("reconstruction.json", json.as_bytes())?;
+        if !export.measures.is_empty() {
+            archive.add("measures.csv", summary::measures_csv(export).as_bytes())?;
+        }
         archive.add("reconstruct.rs", export.recipe.program.as_bytes())?;
         if let Some(camera) = &export.recipe.camera_json {
             archive.add("camera.json", camera.as_bytes())?;
@@ -119,16 +124,6 @@ fn check_indices(export: &Export) -> Result<(), String> {
     match whole && export.photographs.len() == export.images.len() {
         true => Ok(()),
         false => Err("the reconstruction and its photographs do not belong together".to_owned()),
-    }
-}
-
-/// Multiplies all lengths.
-fn scale(model: &mut Reconstruction, factor: f64) {
-    for point in &mut model.points {
-        point.position.coords *= factor;
-    }
-    for camera in model.cameras.iter_mut().flatten() {
-        camera.cam_from_world.translation.vector *= factor;
     }
 }
 

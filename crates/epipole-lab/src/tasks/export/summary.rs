@@ -1,9 +1,11 @@
 //! A reconstruction in words and numbers: the command line's JSON, and the command that does the
 //! same.
 
-use super::contents::Export;
+use super::contents::{Export, Measured};
+use super::frame::file_from_world;
 use epipole::camera::RigidTransform;
 use epipole::sfm::{Reconstruction, SfmImage};
+use nalgebra::Point3;
 use serde_json::{Value, json};
 
 /// The object that `epipole sfm --json` prints, without its time.
@@ -33,23 +35,57 @@ pub(super) fn json(export: &Export, images: &[SfmImage], model: &Reconstruction)
     let left_out: Vec<Value> = (export.left_out.iter())
         .map(|(name, reason)| json!({ "name": name, "reason": reason }))
         .collect();
-    let errors: f64 = (model.points.iter())
-        .map(|p| p.error_px * p.track.len() as f64)
-        .sum();
+    let place = export.component as usize;
     let summary = json!({
         "focal_refined": export.focal_refined,
+        "focal_determined": export.found.determines_focal.get(place).filter(|_| export.focal_refined),
+        "lens_refined": export.found.before_correction_px.get(place).is_some_and(Option::is_some),
         "num_registered": model.num_registered(),
         "num_images": images.len(),
         "num_points": model.points.len(),
-        "mean_reprojection_px": errors / model.num_observations().max(1) as f64,
+        "mean_reprojection_px": export.found.mean_error_px.get(place),
         "images": registered,
         "unregistered": left_out,
         "components": components,
         "complete": true,
         "meters_per_unit": export.meters_per_unit,
+        "z_is_up": export.floor.is_some(),
+        "measures": measures(export),
         "depth": super::depth::json(export),
     });
     summary.to_string()
+}
+
+/// Measured lengths with their ends in the frame of the files.
+fn measures(export: &Export) -> Vec<Value> {
+    let frame = file_from_world(export);
+    let one = |measure: &Measured| {
+        let ends = measure.ends.map(|end| frame * Point3::from(end));
+        json!({
+            "ends": ends.map(|end| [end.x, end.y, end.z]),
+            "length": measure.length,
+            "sigma": measure.sigma,
+            "typed_m": measure.typed_m,
+        })
+    };
+    export.measures.iter().map(one).collect()
+}
+
+/// The same as a table.
+pub(super) fn measures_csv(export: &Export) -> String {
+    let frame = file_from_world(export);
+    let mut text = "number,length,sigma,typed_m,x1,y1,z1,x2,y2,z2\n".to_owned();
+    for (index, measure) in export.measures.iter().enumerate() {
+        let typed = measure.typed_m.map_or(String::new(), |m| m.to_string());
+        let [a, b] = measure.ends.map(|end| frame * Point3::from(end));
+        let (number, length, sigma) = (index + 1, measure.length, measure.sigma);
+        let ends = [a.x, a.y, a.z, b.x, b.y, b.z].map(|x| x.to_string());
+        text.push_str(&format!(
+            "{number},{length},{sigma},{typed},{}\n",
+            ends.join(",")
+        ));
+    }
+    text
 }
 
 /// Description of the files, and the command line that makes them.
@@ -75,7 +111,14 @@ pub(super) fn readme(export: &Export) -> String {
              dense.ply            all of these pixels as points with their colors, in the frame of points.ply\n",
         );
     }
-    text.push_str(&format!("\n{unit}\n"));
+    if !export.measures.is_empty() {
+        text.push_str("measures.csv         the measured lengths and their ends, in the frame of points.ply\n");
+    }
+    let up = match export.floor {
+        Some(_) => " z points up from the floor.",
+        None => "",
+    };
+    text.push_str(&format!("\n{unit}{up}\n"));
     text.push_str(&format!(
         "\nThe same on the command line\n\n    {}\n\nand by the program in reconstruct.rs. {}\n",
         export.recipe.command, export.recipe.photographs

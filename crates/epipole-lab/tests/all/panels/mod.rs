@@ -4,6 +4,7 @@
 
 mod coming;
 mod keeping;
+mod measuring;
 mod menus;
 
 use crate::common::desk::{Bench, click, open, rest};

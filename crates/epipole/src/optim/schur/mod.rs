@@ -297,6 +297,26 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         });
     }
 
+    /// Variances of the free shared parameters of all groups, one after the other, for residuals of
+    /// variance 1; after a [`solve`](System::solve) that succeeded.
+    pub(crate) fn shared_variances(&self) -> Vec<f64> {
+        let size = self.right.len();
+        let start = self.cameras.len() * C;
+        // Shared parameters stand last, so `(L₂₂ L₂₂ᵀ)⁻¹` is their block of the inverse.
+        let column = |of: usize| {
+            let mut solved = vec![0.0; size - start];
+            for row in of..size {
+                let mut value = f64::from(u8::from(row == of));
+                for k in of..row {
+                    value -= self.reduced[row * size + k] * solved[k - start];
+                }
+                solved[row - start] = value / self.reduced[row * size + row];
+            }
+            solved.iter().map(|x| x * x).sum()
+        };
+        (start..size).map(column).collect()
+    }
+
     /// Predicted decrease and squared length of the step.
     fn measure(&self, damping: f64) -> (f64, f64) {
         let (mut predicted, mut norm_sq) = (0.0, 0.0);

@@ -5,7 +5,7 @@ use crate::camera::Intrinsics;
 use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::sfm::bundle::{Bundle, BundleObservation, BundleOptions, Sensor, adjust_bundle};
-use crate::sfm::reconstruction::Lenses;
+use crate::sfm::reconstruction::{LOSS, Lenses};
 use crate::sfm::views::Views;
 use crate::{Error, Result};
 
@@ -54,8 +54,7 @@ impl Builder {
                 cost_tolerance: 1e-7,
                 ..LmOptions::default()
             },
-            // A pixel and a half: beyond it matches are more often wrong than imprecise.
-            loss: RobustLoss::Cauchy { width: 1.5 },
+            loss: LOSS,
             refine_focal: with_intrinsics && self.options.refine_focal,
             refine_principal_point: with_intrinsics && self.options.refine_principal_point,
             refine_distortion: with_intrinsics && self.options.refine_distortion,

@@ -1,0 +1,38 @@
+//! Which parameters of lenses a reconstruction refines.
+
+use super::photograph::FocalOrigin;
+use crate::project::{Given, Project, RefineFocal, SfmOptions};
+
+impl Project {
+    /// Options of the reconstruction, with "when guessed" resolved.
+    pub fn sfm_options(&self) -> SfmOptions {
+        let guessed = || {
+            let mut photos = self.taking_part().into_iter();
+            photos.any(|photo| self.focal_origin(photo) == Some(FocalOrigin::Guessed))
+        };
+        let refine_focal = match self.document.settings.refine_focal {
+            RefineFocal::Always => true,
+            RefineFocal::Never => false,
+            RefineFocal::WhenGuessed => guessed(),
+        };
+        SfmOptions {
+            refine_focal,
+            correct_lens: self.corrects_lens(),
+            ..self.document.settings.sfm
+        }
+    }
+
+    /// Whether the lens is corrected in the end: it is as the files say, or guessed, and no other
+    /// refinement is asked for.
+    fn corrects_lens(&self) -> bool {
+        let settings = &self.document.settings;
+        let is_open = |photo: &Given| {
+            let origin = self.focal_origin(photo);
+            let is_told = matches!(origin, Some(FocalOrigin::Guessed | FocalOrigin::File));
+            is_told && !photo.is_rendered()
+        };
+        settings.refine_focal != RefineFocal::Never
+            && !settings.sfm.refine_distortion
+            && self.taking_part().into_iter().all(is_open)
+    }
+}
