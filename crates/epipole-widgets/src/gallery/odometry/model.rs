@@ -117,8 +117,8 @@ impl Model for OdometryFigure {
         let (frame, last) = (self.frame(), self.last());
         let range = [[0.0, last as f64], [0.0; 2]];
         let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
-        let words = format!("frame {} of {}", frame + 1, last + 1);
-        let mut handles = vec![handle.told(words).step([1.0, 0.0], 0)];
+        let place = format!("frame {} of {}", frame + 1, last + 1);
+        let mut handles = vec![handle.told(place).step([1.0, 0.0], 0)];
         handles.extend(self.orbit.handles());
         handles
     }

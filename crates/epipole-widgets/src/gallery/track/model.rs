@@ -138,8 +138,8 @@ impl Model for TrackFigure {
         let (frame, last) = (self.frame(), self.last());
         let range = [[0.0, last as f64], [0.0; 2]];
         let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
-        let words = format!("frame {} of {}", frame + 1, last + 1);
-        vec![handle.told(words).step([1.0, 0.0], 0)]
+        let place = format!("frame {} of {}", frame + 1, last + 1);
+        vec![handle.told(place).step([1.0, 0.0], 0)]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
