@@ -136,6 +136,6 @@ mod tests {
         assert!(told(&of(|n| [n + 3.0, 5.0 + n])).starts_with("rows do not agree"));
         assert!(told(&of(|n| [n + 3.0, 0.0])).ends_with("left and right may be swapped"));
         let far = told(&of(|n| [-60.0 - n, 0.0]));
-        assert!(far.contains("they are 61 to 158 px; set --min"), "{far}");
+        assert!(far.contains("they are 62 to 157 px; set --min"), "{far}");
     }
 }
