@@ -11,7 +11,7 @@
 //! | [`features`] | two photographs of the still life with their features |
 //! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
 //! | [`points`] | points that the reader drags, adds and removes |
-//! | [`running`] | a loop that runs, steps and starts over |
+//! | [`running`], [`timeline`] | a loop that runs, steps and starts over; frames of a video |
 //! | [`matches`] | exact and noisy matches of the still life |
 //! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
 //! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
@@ -63,5 +63,6 @@ pub(crate) mod space;
 pub(crate) mod standing;
 pub(crate) mod tally;
 pub(crate) mod terrain;
+pub(crate) mod timeline;
 pub(crate) mod warped;
 pub(crate) mod words;

@@ -95,7 +95,7 @@ fn worked_numbers() {
         ("calibration.exif-px mm=4.25 sensor=5.6 width=4032", "3060"),
         // 2 · 1 + 2 · 1; 4 · 4 + 2 · 4, 3 · 3 + 2 · 4
         // NumPy: np.linalg.solve([[20, 4], [4, 13]], [24, 17])
-        ("tracking.change u=2 v=2 du=1 dv=1", "−4"),
+        ("tracking.change u=2 v=2 du=1 dv=1", "-4"),
         (
             "tracking.right-u u1=4 v1=0 u2=0 v2=3 u3=2 v3=2 du=1 dv=1",
             "24",

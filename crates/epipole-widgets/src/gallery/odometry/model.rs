@@ -7,8 +7,8 @@ use crate::contract::{
 };
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::question::{Asked, carry_out};
-use crate::kit::running::Running;
 use crate::kit::sequence;
+use crate::kit::timeline::Timeline;
 
 const STRIDE: Slider = Slider::new("stride", "Every nth frame")
     .range(1.0, MAX_STRIDE as f64, 1.0)
@@ -26,18 +26,11 @@ const WINDOW: Slider = Slider::new("window", "Keyframes refined")
 const REFINE: Toggle = Toggle::new("refine", "Refine everything");
 const KNOBS: &[Knob] = knobs![STRIDE, CORNERS, NOISE, WINDOW, REFINE];
 
-/// Handle of the frame that is shown.
-const FRAME: &str = "frame";
-/// Frames per second.
-const PACE: f64 = 6.0;
-
 /// The model of `odometry`.
 pub(crate) struct OdometryFigure {
     settings: Settings,
-    running: Running,
+    timeline: Timeline,
     pub(super) orbit: Orbit,
-    /// Number of the frame that is shown; `None` for the last one.
-    frame: Option<usize>,
     pub(super) asked: Asked<Question>,
 }
 
@@ -65,13 +58,7 @@ impl OdometryFigure {
 
     /// Returns the index of the frame that is shown, among those used.
     pub(super) fn frame(&self) -> usize {
-        self.frame.unwrap_or(self.last()).min(self.last())
-    }
-
-    fn go_to(&mut self, frame: usize) {
-        let last = self.last();
-        self.frame = (frame < last).then_some(frame);
-        self.running.stop_if(frame >= last);
+        self.timeline.frame(self.last())
     }
 
     /// Returns the distance of a frame's camera from its true place, meters.
@@ -94,9 +81,8 @@ impl Declared for OdometryFigure {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            running: Running::at(PACE),
+            timeline: Timeline::default(),
             orbit: Orbit::new(-30.0, 32.0),
-            frame: None,
             asked: Asked::default(),
         };
         model.asked.ask(model.question());
@@ -106,19 +92,15 @@ impl Declared for OdometryFigure {
 
 impl Model for OdometryFigure {
     fn controls(&self) -> Vec<Control> {
-        let (frame, can_run) = (self.frame(), self.answer().is_some());
         let mut controls = self.settings.controls();
-        controls.extend(self.running.controls(can_run, frame, frame >= self.last()));
+        let can_run = self.answer().is_some();
+        controls.extend(self.timeline.controls(can_run, self.last()));
         controls.extend(self.orbit.controls());
         controls
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (frame, last) = (self.frame(), self.last());
-        let range = [[0.0, last as f64], [0.0; 2]];
-        let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
-        let place = format!("frame {} of {}", frame + 1, last + 1);
-        let mut handles = vec![handle.told(place).step([1.0, 0.0], 0)];
+        let mut handles = vec![self.timeline.handle(self.last())];
         handles.extend(self.orbit.handles());
         handles
     }
@@ -127,22 +109,10 @@ impl Model for OdometryFigure {
         if self.orbit.update(event)? {
             return Ok(());
         }
-        let frame = self.frame();
-        if let Some(next) = self.running.update(event, frame, frame >= self.last()) {
-            self.go_to(next);
-            return Ok(());
-        }
-        match event {
-            Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => {
-                self.running.stop();
-                self.go_to(x.max(0.0).round() as usize);
-            }
-            _ => {
-                if self.settings.update(event)?.is_some() {
-                    self.running.stop();
-                    self.asked.ask(self.question());
-                }
-            }
+        let last = self.last();
+        if !self.timeline.update(event, last) && self.settings.update(event)?.is_some() {
+            self.timeline.stop();
+            self.asked.ask(self.question());
         }
         Ok(())
     }
@@ -152,7 +122,7 @@ impl Model for OdometryFigure {
     }
 
     fn is_running(&self) -> bool {
-        self.running.is_running()
+        self.timeline.is_running()
     }
 }
 

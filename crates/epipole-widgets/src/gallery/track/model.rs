@@ -6,7 +6,7 @@ use crate::contract::{
     Slider, Toggle, knobs,
 };
 use crate::kit::question::{Asked, carry_out};
-use crate::kit::running::Running;
+use crate::kit::timeline::Timeline;
 
 const STRIDE: Slider = Slider::new("stride", "Every nth frame")
     .range(1.0, MAX_STRIDE as f64, 1.0)
@@ -21,19 +21,13 @@ const WINDOW: Slider = Slider::new("window", "Window")
 const CHECK: Toggle = Toggle::new("check", "Follow back");
 const KNOBS: &[Knob] = knobs![STRIDE, LEVELS, WINDOW, CHECK];
 
-/// Handle of the frame that is shown.
-const FRAME: &str = "frame";
-/// Frames per second.
-const PACE: f64 = 8.0;
 /// Error above which a point is wrong, pixels.
 pub(super) const WRONG_PX: f64 = 2.0;
 
 /// The model of `track`.
 pub(crate) struct TrackFigure {
     settings: Settings,
-    running: Running,
-    /// Number of the frame that is shown; `None` for the last one.
-    frame: Option<usize>,
+    timeline: Timeline,
     pub(super) asked: Asked<Question>,
 }
 
@@ -77,13 +71,7 @@ impl TrackFigure {
 
     /// Returns the index of the frame that is shown, among those used.
     pub(super) fn frame(&self) -> usize {
-        self.frame.unwrap_or(self.last()).min(self.last())
-    }
-
-    fn go_to(&mut self, frame: usize) {
-        let last = self.last();
-        self.frame = (frame < last).then_some(frame);
-        self.running.stop_if(frame >= last);
+        self.timeline.frame(self.last())
     }
 
     /// Counts the points of a frame.
@@ -117,8 +105,7 @@ impl Declared for TrackFigure {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            running: Running::at(PACE),
-            frame: None,
+            timeline: Timeline::default(),
             asked: Asked::default(),
         };
         model.asked.ask(model.question());
@@ -128,37 +115,21 @@ impl Declared for TrackFigure {
 
 impl Model for TrackFigure {
     fn controls(&self) -> Vec<Control> {
-        let (frame, can_run) = (self.frame(), self.answer().is_some());
         let mut controls = self.settings.controls();
-        controls.extend(self.running.controls(can_run, frame, frame >= self.last()));
+        let can_run = self.answer().is_some();
+        controls.extend(self.timeline.controls(can_run, self.last()));
         controls
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let (frame, last) = (self.frame(), self.last());
-        let range = [[0.0, last as f64], [0.0; 2]];
-        let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
-        let place = format!("frame {} of {}", frame + 1, last + 1);
-        vec![handle.told(place).step([1.0, 0.0], 0)]
+        vec![self.timeline.handle(self.last())]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
-        let frame = self.frame();
-        if let Some(next) = self.running.update(event, frame, frame >= self.last()) {
-            self.go_to(next);
-            return Ok(());
-        }
-        match event {
-            Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => {
-                self.running.stop();
-                self.go_to(x.max(0.0).round() as usize);
-            }
-            _ => {
-                if self.settings.update(event)?.is_some() {
-                    self.running.stop();
-                    self.asked.ask(self.question());
-                }
-            }
+        let last = self.last();
+        if !self.timeline.update(event, last) && self.settings.update(event)?.is_some() {
+            self.timeline.stop();
+            self.asked.ask(self.question());
         }
         Ok(())
     }
@@ -168,7 +139,7 @@ impl Model for TrackFigure {
     }
 
     fn is_running(&self) -> bool {
-        self.running.is_running()
+        self.timeline.is_running()
     }
 }
 
@@ -233,19 +204,5 @@ mod tests {
             with.num_wrong < without.num_wrong && errors[0] < errors[1],
             "{without:?} {with:?}"
         );
-    }
-
-    #[test]
-    fn a_video_runs_to_its_end_and_starts_over() {
-        let mut model: TrackFigure = settled(&[Event::moved(FRAME, 29.0, 0.0)]);
-        model.update(&Event::press("run")).unwrap();
-        for _ in 0..4 {
-            model.update(&Event::Tick { dt_s: 1.0 / PACE }).unwrap();
-        }
-        assert!(model.frame() == model.last() && !model.is_running());
-        model.update(&Event::press("restart")).unwrap();
-        assert_eq!(model.frame(), 0);
-        model.update(&Event::set(&STRIDE, 6.0)).unwrap();
-        assert_eq!(model.last(), 5);
     }
 }

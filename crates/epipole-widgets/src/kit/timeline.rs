@@ -1,0 +1,103 @@
+//! The frames of a video on the track below a plot: a handle, and buttons that run through them.
+
+use crate::contract::{Control, Event, Handle};
+use crate::kit::running::Running;
+
+/// Handle of the frame that is shown.
+pub(crate) const FRAME: &str = "frame";
+/// Frames per second.
+const PACE: f64 = 8.0;
+
+/// The frame that is shown, among those from 0 to the last.
+pub(crate) struct Timeline {
+    running: Running,
+    /// Number of the frame; `None` for the last one, however many there are.
+    frame: Option<usize>,
+}
+
+impl Default for Timeline {
+    fn default() -> Self {
+        Self {
+            running: Running::at(PACE),
+            frame: None,
+        }
+    }
+}
+
+impl Timeline {
+    /// Returns the number of the frame that is shown.
+    pub(crate) fn frame(&self, last: usize) -> usize {
+        self.frame.unwrap_or(last).min(last)
+    }
+
+    pub(crate) fn is_running(&self) -> bool {
+        self.running.is_running()
+    }
+
+    pub(crate) fn stop(&mut self) {
+        self.running.stop();
+    }
+
+    /// Returns the buttons.
+    pub(crate) fn controls(&self, can_run: bool, last: usize) -> [Control; 3] {
+        let frame = self.frame(last);
+        self.running.controls(can_run, frame, frame >= last)
+    }
+
+    /// Returns the handle, in the panel `track`.
+    pub(crate) fn handle(&self, last: usize) -> Handle {
+        let frame = self.frame(last);
+        let range = [[0.0, last as f64], [0.0; 2]];
+        let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
+        let place = format!("frame {} of {}", frame + 1, last + 1);
+        handle.told(place).step([1.0, 0.0], 0)
+    }
+
+    /// Applies a button, a tick, the handle or a click; returns whether the event was one of them.
+    pub(crate) fn update(&mut self, event: &Event, last: usize) -> bool {
+        let frame = self.frame(last);
+        if let Some(next) = self.running.update(event, frame, frame >= last) {
+            self.go_to(next, last);
+            return true;
+        }
+        match event {
+            Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => {
+                self.running.stop();
+                self.go_to(x.max(0.0).round() as usize, last);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn go_to(&mut self, frame: usize, last: usize) {
+        self.frame = (frame < last).then_some(frame);
+        self.running.stop_if(frame >= last);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_video_runs_to_its_end_and_starts_over() {
+        let mut timeline = Timeline::default();
+        assert!(timeline.update(&Event::moved(FRAME, 29.0, 0.0), 31));
+        timeline.update(&Event::press("run"), 31);
+        for _ in 0..4 {
+            timeline.update(&Event::Tick { dt_s: 1.0 / PACE }, 31);
+        }
+        assert!(timeline.frame(31) == 31 && !timeline.is_running());
+        timeline.update(&Event::press("restart"), 31);
+        assert_eq!(timeline.frame(31), 0);
+    }
+
+    #[test]
+    fn a_shorter_video_shows_its_last_frame() {
+        let mut timeline = Timeline::default();
+        assert_eq!(timeline.frame(31), 31);
+        timeline.update(&Event::moved(FRAME, 20.0, 0.0), 31);
+        assert_eq!((timeline.frame(31), timeline.frame(5)), (20, 5));
+    }
+}
