@@ -41,7 +41,7 @@ impl View for FlowWindowView {
             [photo, windows] = grid.row([ASPECT, 1.05], 156.0);
             [plane] = grid.row([1.0], 172.0);
         } else {
-            let [left, right] = grid.row([1.14, 1.0], 460.0);
+            let [left, right] = grid.row([1.14, 1.0], 392.0);
             let photo_height = ASPECT * left.width;
             photo = Rect::new(left.x, left.y, left.width, photo_height);
             let top = photo.bottom() + grid::GAP + grid::TITLE;

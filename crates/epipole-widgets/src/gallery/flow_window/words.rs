@@ -37,7 +37,7 @@ impl Words for FlowWindow {
             Readout::words("found", "Motion found", found).main(),
             Readout::words("truth", "True motion", motion_words(self.setup().motion, 1)),
             number("error", "Off by", self.error_px(), 2, "px").main(),
-            number("large", "λ₁", large, 1, "levels²").main(),
+            number("large", "λ₁", large, 1, "levels²"),
             number("small", "λ₂", small, 1, "levels²").main(),
             number("difference", "Difference left", difference, 1, "levels"),
             Readout::words("first", "First step", first),

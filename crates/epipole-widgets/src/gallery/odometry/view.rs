@@ -58,8 +58,8 @@ impl View for OdometryView {
             [space] = grid.shares([1.0], 176.0);
             [photo, errors] = grid.shares([0.46, 0.54], 140.0);
         } else {
-            let height = (0.55 * width).min(430.0);
-            let [left, right] = grid.shares([0.36, 0.64], height);
+            let height = (0.55 * width).min(392.0);
+            let [left, right] = grid.shares([0.29, 0.71], height);
             let photo_height = ASPECT * left.width;
             let top = left.y + photo_height + GAP + TITLE;
             photo = Rect::new(left.x, left.y, left.width, photo_height);
