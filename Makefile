@@ -36,6 +36,10 @@ test: setup check test-rust test-python test-web test-vision test-listings test-
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
 	cargo clippy --locked --quiet --workspace --all-targets -- -D warnings
+	@# The Lab's three modules in the browser leave out what the workspace has.
+	for part in page vision-worker files-worker; do \
+		cargo check --locked --quiet --target wasm32-unknown-unknown -p epipole-lab --lib --no-default-features --features $$part || exit; \
+	done
 	cd web && npm run --silent check
 	node tests/tools/supply.mjs
 

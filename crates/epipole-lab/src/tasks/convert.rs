@@ -8,7 +8,7 @@ use epipole::calibration::{Board, Pattern};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
 /// Why the core gave no answer, in words.
-#[cfg(feature = "vision")]
+#[cfg(any(feature = "vision", feature = "files"))]
 pub(super) fn sentence(error: epipole::Error) -> String {
     match error {
         epipole::Error::Canceled => "stopped".to_owned(),
