@@ -11,15 +11,15 @@ const PACE: f64 = 8.0;
 /// The frame that is shown, among those from 0 to the last.
 pub(crate) struct Timeline {
     running: Running,
-    /// Number of the frame; `None` for the last one, however many there are.
-    frame: Option<usize>,
+    /// Position on the track, frames; `None` for the last one, however many there are.
+    place: Option<f64>,
 }
 
 impl Default for Timeline {
     fn default() -> Self {
         Self {
             running: Running::at(PACE),
-            frame: None,
+            place: None,
         }
     }
 }
@@ -27,7 +27,14 @@ impl Default for Timeline {
 impl Timeline {
     /// Returns the number of the frame that is shown.
     pub(crate) fn frame(&self, last: usize) -> usize {
-        self.frame.unwrap_or(last).min(last)
+        self.place(last).round() as usize
+    }
+
+    /// Returns the position of the handle on the track, frames. It stays under the reader's finger
+    /// between two frames.
+    pub(crate) fn place(&self, last: usize) -> f64 {
+        let last = last as f64;
+        self.place.unwrap_or(last).clamp(0.0, last)
     }
 
     pub(crate) fn is_running(&self) -> bool {
@@ -48,31 +55,32 @@ impl Timeline {
     pub(crate) fn handle(&self, last: usize) -> Handle {
         let frame = self.frame(last);
         let range = [[0.0, last as f64], [0.0; 2]];
-        let handle = Handle::new(FRAME, "track", "Frame", (frame as f64, 0.0), range);
-        let place = format!("frame {} of {}", frame + 1, last + 1);
-        handle.told(place).step([1.0, 0.0], 0)
+        let handle = Handle::new(FRAME, "track", "Frame", (self.place(last), 0.0), range);
+        let words = format!("frame {} of {}", frame + 1, last + 1);
+        handle.told(words).step([1.0, 0.0], 2)
     }
 
     /// Applies a button, a tick, the handle or a click; returns whether the event was one of them.
     pub(crate) fn update(&mut self, event: &Event, last: usize) -> bool {
         let frame = self.frame(last);
         if let Some(next) = self.running.update(event, frame, frame >= last) {
-            self.go_to(next, last);
+            self.go_to(next as f64, last);
             return true;
         }
         match event {
             Event::HandleMoved { x, .. } | Event::Clicked { x, .. } => {
                 self.running.stop();
-                self.go_to(x.max(0.0).round() as usize, last);
+                self.go_to(*x, last);
                 true
             }
             _ => false,
         }
     }
 
-    fn go_to(&mut self, frame: usize, last: usize) {
-        self.frame = (frame < last).then_some(frame);
-        self.running.stop_if(frame >= last);
+    fn go_to(&mut self, place: f64, last: usize) {
+        let is_before = place < last as f64;
+        self.place = is_before.then_some(place);
+        self.running.stop_if(!is_before);
     }
 }
 
@@ -99,5 +107,7 @@ mod tests {
         assert_eq!(timeline.frame(31), 31);
         timeline.update(&Event::moved(FRAME, 20.0, 0.0), 31);
         assert_eq!((timeline.frame(31), timeline.frame(5)), (20, 5));
+        timeline.update(&Event::moved(FRAME, 19.6, 0.0), 31);
+        assert_eq!((timeline.frame(31), timeline.place(31)), (20, 19.6));
     }
 }

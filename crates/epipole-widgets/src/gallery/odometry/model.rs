@@ -56,6 +56,11 @@ impl OdometryFigure {
         self.question().used().count() - 1
     }
 
+    /// Returns the position of the handle on the track, frames.
+    pub(super) fn place(&self) -> f64 {
+        self.timeline.place(self.last())
+    }
+
     /// Returns the index of the frame that is shown, among those used.
     pub(super) fn frame(&self) -> usize {
         self.timeline.frame(self.last())

@@ -116,8 +116,8 @@ impl View for OdometryView {
             None => grid::notice(canvas, space.rect, model.asked.stand_in()),
         }
         draw_handles(canvas, space, &model.orbit);
-        plot::draw_now(canvas, plot, index as f64);
-        plot::draw_track(canvas, track, [0.0, model.last() as f64], index as f64);
+        plot::draw_now(canvas, plot, model.place());
+        plot::draw_track(canvas, track, [0.0, model.last() as f64], model.place());
     }
 }
 

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 const NUM_CORNERS: usize = 60;
 const APART_PX: f64 = 10.0;
 /// Longest stride over frames.
-pub(super) const MAX_STRIDE: usize = 6;
+pub(super) const MAX_STRIDE: usize = 8;
 
 /// Frames used, and how windows are followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -78,8 +78,8 @@ impl View for TrackView {
         } else {
             grid::notice(canvas, photo.rect, model.asked.stand_in());
         }
-        plot::draw_now(canvas, plot, frame as f64);
-        plot::draw_track(canvas, track, [0.0, model.last() as f64], frame as f64);
+        plot::draw_now(canvas, plot, model.place());
+        plot::draw_track(canvas, track, [0.0, model.last() as f64], model.place());
         legend::draw_last(canvas, &LEGEND, layout, 0.0, 0.0);
     }
 }
