@@ -105,9 +105,8 @@ impl Model for OdometryFigure {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let mut handles = vec![self.timeline.handle(self.last())];
-        handles.extend(self.orbit.handles());
-        handles
+        let [view, center] = self.orbit.handles();
+        vec![view, center, self.timeline.handle(self.last())]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
