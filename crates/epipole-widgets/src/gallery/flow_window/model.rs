@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn a_pyramid_finds_what_one_level_misses() {
         let far = Event::moved(MOTION.id(), 6.0, -6.0);
-        let one: FlowWindow = settled(&[far.clone()]);
+        let one: FlowWindow = settled(std::slice::from_ref(&far));
         assert!(one.error_px().is_none_or(|error| error > ASTRAY_PX));
         let three: FlowWindow = settled(&[far, Event::set(&LEVELS, 3.0), Event::set(&STEPS, 10.0)]);
         assert!(three.error_px().unwrap() < 0.1, "{:?}", three.error_px());

@@ -105,8 +105,8 @@ impl Model for OdometryFigure {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        let [view, center] = self.orbit.handles();
-        vec![view, center, self.timeline.handle(self.last())]
+        let [turn, center] = self.orbit.handles();
+        vec![turn, center, self.timeline.handle(self.last())]
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {

@@ -63,10 +63,12 @@ impl View for TrackView {
         let [x, y] = rulers(model);
         plot::draw_axes(canvas, plot, &x, &y);
         plot::title_from_left(canvas, plot, &["Error of each point, px", "Error, px"]);
-        if let Some(answer) = model.asked.answer() {
-            if let Some(picture) = answer.frames.get(frame) {
-                canvas.photograph(photo.rect, picture.image());
-            }
+        let frames = model
+            .asked
+            .answer()
+            .map_or(&[][..], |answer| &answer.frames);
+        if let Some(picture) = frames.get(frame) {
+            canvas.photograph(photo.rect, picture.image());
         }
         if let Some(answer) = model.answer() {
             canvas.clipped(photo.rect, |canvas| {
