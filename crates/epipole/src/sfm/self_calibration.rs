@@ -1,4 +1,4 @@
-//! Lenses that a reconstruction tells itself.
+//! Self-calibration: focal lengths and radial distortion from the reconstruction itself.
 
 use super::bundle::{Bundle, BundleOptions, adjust_bundle, focal_sensitivity};
 use super::reconstruction::{LOSS, Reconstruction, SfmImage};
@@ -10,7 +10,7 @@ use crate::{Error, Result};
 /// to photograph, such as those of the lens, move the minimum of anything flatter.
 const MIN_FOCAL_RISE: f64 = 0.02;
 
-/// Fewest photographs of a lens that may correct it.
+/// Minimum number of photographs of a lens that is corrected.
 const MIN_IMAGES_OF_LENS: usize = 5;
 
 /// The lenses are corrected if that lowers the cost to this share at least. The cost is of second
@@ -18,7 +18,7 @@ const MIN_IMAGES_OF_LENS: usize = 5;
 const MAX_COST_SHARE: f64 = 0.9;
 
 impl Reconstruction {
-    /// Whether the observations tell the focal length of every lens: a change by 20 %, with cameras
+    /// Whether the observations determine the focal length of every lens: a change by 20 %, with cameras
     /// and points refined again, would raise the cost by at least 2 %. The focal lengths of a
     /// camera that moves along a straight line without turning, or only sees one plane head on, are
     /// arbitrary, and with them the depth of the scene. Assumes a refined model.
@@ -38,7 +38,7 @@ impl Reconstruction {
 
     /// Corrects the focal lengths and radial terms of all lenses, with cameras and points, if that
     /// lowers the robust cost by at least a tenth and the photographs
-    /// [tell](Self::determines_focal) the focal lengths. Returns whether it did; otherwise the
+    /// [determine](Self::determines_focal) the focal lengths. Returns whether it did; otherwise the
     /// reconstruction is unchanged, as it is where a lens has fewer than five photographs.
     ///
     /// * `images`: the photographs of the reconstruction

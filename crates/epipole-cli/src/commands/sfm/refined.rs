@@ -12,7 +12,7 @@ pub(crate) struct RefinedArguments {
     /// Refine the focal length (one factor of each lens, also where it is known).
     #[arg(long)]
     refine_focal: bool,
-    /// Keep the focal lengths and the distortion, also where they are but a guess.
+    /// Keep the focal lengths and the distortion even where they are guesses.
     #[arg(long, conflicts_with = "refine_focal")]
     keep_focal: bool,
     /// Refine where the principal points are, one shift for each lens.

@@ -6,13 +6,13 @@ use crate::photo::Photo;
 use epipole::feature::{FeatureOptions, MatchOptions, detect_features, match_descriptors};
 use epipole::imaging::resize;
 
-/// Pixels of the images in which features are looked for.
+/// Maximum number of pixels of the images that are searched for features.
 const MAX_PIXELS: f64 = 4e5;
 
 /// Largest distance between the rows of a match of a rectified pair, pixels of these images.
 const TOLERANCE_PX: f64 = 1.5;
 
-/// Matches from which on they are representative.
+/// Minimum number of representative matches.
 const MIN_MATCHES: usize = 30;
 
 /// From the left to the right pixel of a match.

@@ -10,8 +10,7 @@ use crate::Result;
 use crate::camera::{Lens, LensKind};
 use crate::optim::{RobustLoss, SchurSystem, System};
 
-/// Relative change of a focal length whose effect is judged: wrong by this much, a model is bent
-/// for everybody to see.
+/// Relative change of a focal length whose effect is judged: a model this far off is visibly bent.
 const CHANGE: f64 = 0.2;
 
 /// Relative increase of the cost when each lens changes its focal length by [`CHANGE`] and all
@@ -30,7 +29,7 @@ pub(in crate::sfm) fn focal_sensitivity(bundle: &Bundle, loss: RobustLoss) -> Re
     }
 }
 
-/// * `S`: room for what is refined of a lens
+/// * `S`: maximum number of refined parameters of a lens
 fn sensitivity<const S: usize>(
     bundle: &Bundle,
     lenses: &[Lens],
@@ -74,7 +73,7 @@ mod tests {
     use crate::sfm::bundle::{BundleObservation, adjust_bundle};
     use nalgebra::{Point3, Vector3};
 
-    /// Twelve cameras on a way ahead, each turned by `turn_rad` more than the one before, refined
+    /// Twelve cameras that move straight ahead, each turned by `turn_rad` more than the one before, refined
     /// from pixels with a noise of 0.3 px.
     fn drive(turn_rad: f64, focal_px: f64) -> Bundle {
         let mut random = Random::new(7);
