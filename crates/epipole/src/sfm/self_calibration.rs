@@ -18,10 +18,10 @@ const MIN_IMAGES_OF_LENS: usize = 5;
 const MAX_COST_SHARE: f64 = 0.9;
 
 impl Reconstruction {
-    /// Whether the observations determine the focal length of every lens: a change by 20 %, with cameras
-    /// and points refined again, would raise the cost by at least 2 %. The focal lengths of a
-    /// camera that moves along a straight line without turning, or only sees one plane head on, are
-    /// arbitrary, and with them the depth of the scene. Assumes a refined model.
+    /// Whether the observations determine the focal length of every lens: a change by 20 %, with
+    /// cameras and points refined again, would raise the cost by at least 2 %. The focal lengths of
+    /// a camera that moves along a straight line without turning, or only sees one plane head on,
+    /// are arbitrary, and with them the depth of the scene. Assumes a refined model.
     ///
     /// * `images`: the photographs of the reconstruction
     ///

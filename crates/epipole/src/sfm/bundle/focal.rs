@@ -73,8 +73,8 @@ mod tests {
     use crate::sfm::bundle::{BundleObservation, adjust_bundle};
     use nalgebra::{Point3, Vector3};
 
-    /// Twelve cameras that move straight ahead, each turned by `turn_rad` more than the one before, refined
-    /// from pixels with a noise of 0.3 px.
+    /// Twelve cameras that move straight ahead, each turned by `turn_rad` more than the one before,
+    /// refined from pixels with a noise of 0.3 px.
     fn drive(turn_rad: f64, focal_px: f64) -> Bundle {
         let mut random = Random::new(7);
         let with = |focal_px| {
