@@ -1,6 +1,6 @@
 //! Least median of squares for models defined in Python.
 
-use super::model::{Callables, Raised};
+use super::model::Callables;
 use super::report::alias;
 use crate::errors::OrRaise;
 use crate::options;
@@ -79,15 +79,7 @@ pub(super) fn least_median(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<LeastMedian> {
     let options: LeastMedianOptions = options::read(options)?;
-    let raised = Raised::default();
-    let model = Callables {
-        num_data,
-        sample_size,
-        fit,
-        errors,
-        refine,
-        raised: raised.clone(),
-    };
+    let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
     let found = raised.or(robust::least_median(model, &options).or_raise())?;
     Ok(LeastMedian {
         model: found.model.model.clone_ref(py),

@@ -38,15 +38,35 @@ impl Raised {
 
 /// Estimator whose parts are Python callables.
 pub(super) struct Callables {
-    pub(super) num_data: usize,
-    pub(super) sample_size: usize,
-    pub(super) fit: Py<PyAny>,
-    pub(super) errors: Py<PyAny>,
-    pub(super) refine: Option<Py<PyAny>>,
-    pub(super) raised: Raised,
+    num_data: usize,
+    sample_size: usize,
+    fit: Py<PyAny>,
+    errors: Py<PyAny>,
+    refine: Option<Py<PyAny>>,
+    raised: Raised,
 }
 
 impl Callables {
+    /// Creates an estimator; returns the exceptions of its callables, too.
+    pub(super) fn new(
+        num_data: usize,
+        sample_size: usize,
+        fit: Py<PyAny>,
+        errors: Py<PyAny>,
+        refine: Option<Py<PyAny>>,
+    ) -> (Self, Raised) {
+        let raised = Raised::default();
+        let model = Self {
+            num_data,
+            sample_size,
+            fit,
+            errors,
+            refine,
+            raised: raised.clone(),
+        };
+        (model, raised)
+    }
+
     /// Scores a model of the caller; none if `errors` raises.
     pub(super) fn model(&self, model: Py<PyAny>) -> Option<Arc<Scored>> {
         self.scored(|_| Ok(vec![model])).into_iter().next()
@@ -182,15 +202,7 @@ pub(super) fn ransac(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
     let options = options::read(options)?;
-    let raised = Raised::default();
-    let model = Callables {
-        num_data,
-        sample_size,
-        fit,
-        errors,
-        refine,
-        raised: raised.clone(),
-    };
+    let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
     let work = |monitor: &mut dyn Monitor| {
         let mut watch = |status: Status| match *raised.lock() {
             None => monitor.report(status),

@@ -85,15 +85,7 @@ impl Ransac {
         refine: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let raised = Raised::default();
-        let model = Callables {
-            num_data,
-            sample_size,
-            fit,
-            errors,
-            refine,
-            raised: raised.clone(),
-        };
+        let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
         let give = |py: Python<'_>, best: &Arc<Scored>| Ok(best.model.clone_ref(py));
         let read = |model: &Callables, given: &Bound<'_, PyAny>| {
             (model.model(given.clone().unbind()))
