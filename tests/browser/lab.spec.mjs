@@ -265,7 +265,7 @@ test("every step is explained by a figure of the book, which runs beside it", as
 test("every pixel of a pair gets a depth, which becomes part of the files", async ({ lab }) => {
   await solved(lab);
   await press(lab, "button", "Depth");
-  await expect(said(lab)).toContainText(/table-1\.png and table-2\.png: \d+ % of \d+ pixels have a depth/, { timeout: 90_000 });
+  await expect(said(lab)).toContainText(/table-1\.png and table-2\.png: \d+% of \d+ pixels have a depth/, { timeout: 90_000 });
   await press(lab, "checkbox", "Add to cloud and export");
   await press(lab, "button", "Reconstruction");
   await press(lab, "button", "Export");
@@ -449,7 +449,7 @@ test("photographs dropped onto the picture are added, and a text among them is n
     await lab.locator("#lab").dispatchEvent(kind, { dataTransfer: transfer });
   }
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
-  await expect(said(lab)).toContainText("notes.txt: no photograph");
+  await expect(said(lab)).toContainText("notes.txt: not a photograph");
 });
 
 test("a page with unsaved photographs asks before it closes", async ({ lab }) => {

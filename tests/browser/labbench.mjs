@@ -133,8 +133,8 @@ if (folder) {
       await box.and(page.getByLabel(`${list}: ${name}`)).waitFor({ state: "attached" });
     }
     const pair = `${names[first]} and ${names[first + 1]}: `;
-    await until(new RegExp(`^${pair}(\\d+ %|.*(cannot|could not|too few|nothing))`));
-    const [, share, pixels] = (await said()).match(/: (\d+) % of (\d+) pixels/) ?? [0, 0, 0];
+    await until(new RegExp(`^${pair}(\\d+%|.*(cannot|could not|too few|nothing))`));
+    const [, share, pixels] = (await said()).match(/: (\d+)% of (\d+) pixels/) ?? [0, 0, 0];
     if (share === 0) console.log(await said());
     else await press("checkbox", "Add to cloud and export");
     points += (share / 100) * pixels;

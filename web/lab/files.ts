@@ -9,7 +9,7 @@ const FOREIGN = /\.(hei[cf]|avif|gif|jxl)$/i;
 const QUALITY = 0.95;
 
 /** Whether a file is a photograph or a project, by its name or the type that the browser gives it. */
-export function isOfUse(file: File): boolean {
+export function isPhotographOrProject(file: File): boolean {
   return ITS_OWN.test(file.name) || FOREIGN.test(file.name) || file.type.startsWith("image/");
 }
 
@@ -20,7 +20,7 @@ export async function dropped(transfer: DataTransfer): Promise<File[]> {
   const files: File[] = [];
   for (const entry of entries) if (entry) await walk(entry, files);
   // From a folder, take only photographs, videos and projects.
-  return files.filter((file) => isOfUse(file) || file.type.startsWith("video/"));
+  return files.filter((file) => isPhotographOrProject(file) || file.type.startsWith("video/"));
 }
 
 async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {

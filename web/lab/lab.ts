@@ -6,7 +6,7 @@ import load, { Lab } from "epipole-lab-page";
 import { Camera } from "./camera.js";
 import { Crew, type Told } from "./crew.js";
 import { FigureBeside } from "./figure.js";
-import { dropped, isOfUse, photographOf } from "./files.js";
+import { dropped, isPhotographOrProject, photographOf } from "./files.js";
 import { Kept, putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
 import { solvedSample } from "./sample.js";
@@ -185,7 +185,7 @@ async function start(): Promise<void> {
         lab.video(videos.push(new Frames(file)) - 1);
         continue;
       }
-      if (!isOfUse(file)) {
+      if (!isPhotographOrProject(file)) {
         left.push(file.name);
         continue;
       }
@@ -208,7 +208,7 @@ async function start(): Promise<void> {
       isUnsaved = true;
     }
     const news = [
-      [left, "no photograph, so left out."],
+      [left, "not a photograph, so left out."],
       [undecoded, "this browser cannot decode it. Convert it to JPEG and add it again."],
       [foreign, "decoded by this browser, so another browser may give other pixels. The name ends in .jpg to mark it."],
     ] as const;

@@ -30,6 +30,15 @@ impl Reconstruction {
     ///
     /// Source: Sturm 1997, "Critical motion sequences for monocular self-calibration and
     /// uncalibrated Euclidean reconstruction".
+    ///
+    /// ```
+    /// # use epipole::sfm::{Reconstruction, SfmImage};
+    /// # fn judge(found: &Reconstruction, images: &[SfmImage]) -> Result<(), epipole::Error> {
+    /// if !found.determines_focal(images)? {
+    ///     println!("the focal length may be far off, and so may all depths");
+    /// }
+    /// # Ok(()) }
+    /// ```
     pub fn determines_focal(&self, images: &[SfmImage]) -> Result<bool> {
         let (bundle, _) = self.to_bundle(images);
         let sensitivity = focal_sensitivity(&bundle, LOSS)?;
@@ -46,6 +55,15 @@ impl Reconstruction {
     ///
     /// # Errors
     /// [`Error::Canceled`]; the reconstruction is then unchanged.
+    ///
+    /// ```
+    /// # use epipole::sfm::{Reconstruction, SfmImage};
+    /// # fn refine(found: &mut Reconstruction, images: &[SfmImage]) -> Result<(), epipole::Error> {
+    /// if found.refine_lenses(images, &mut ())? {
+    ///     println!("mean error now: {:.2} px", found.mean_reprojection_px(images));
+    /// }
+    /// # Ok(()) }
+    /// ```
     pub fn refine_lenses(
         &mut self,
         images: &[SfmImage],
