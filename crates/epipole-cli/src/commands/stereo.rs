@@ -120,7 +120,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
     }
     let range = (arguments.min_disparity, arguments.max_disparity);
-    pair::check(&photos, range, context)?;
+    // It takes as long as matching a small pair.
+    if !context.quiet {
+        pair::check(&photos, range, context)?;
+    }
     let progress = Progress::new(context, "stereo");
     let mut watch = |status| progress.show(status);
     let mut disparity = match arguments.method {
