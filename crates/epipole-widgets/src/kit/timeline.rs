@@ -1,12 +1,14 @@
 //! The frames of a video on the track below a plot: a handle, and buttons that run through them.
 
-use crate::contract::{Control, Event, Handle};
+use crate::contract::{Control, Event, Handle, round_to_digits};
 use crate::kit::running::Running;
 
 /// Handle of the frame that is shown.
 pub(crate) const FRAME: &str = "frame";
 /// Frames per second.
 const PACE: f64 = 8.0;
+/// Digits of a position between two frames, as permalinks have them.
+const DIGITS: usize = 2;
 
 /// The frame that is shown, among those from 0 to the last.
 pub(crate) struct Timeline {
@@ -57,7 +59,7 @@ impl Timeline {
         let range = [[0.0, last as f64], [0.0; 2]];
         let handle = Handle::new(FRAME, "track", "Frame", (self.place(last), 0.0), range);
         let words = format!("frame {} of {}", frame + 1, last + 1);
-        handle.told(words).step([1.0, 0.0], 2)
+        handle.told(words).step([1.0, 0.0], DIGITS)
     }
 
     /// Applies a button, a tick, the handle or a click; returns whether the event was one of them.
@@ -78,6 +80,7 @@ impl Timeline {
     }
 
     fn go_to(&mut self, place: f64, last: usize) {
+        let place = round_to_digits(place, DIGITS);
         let is_before = place < last as f64;
         self.place = is_before.then_some(place);
         self.running.stop_if(!is_before);
@@ -109,5 +112,7 @@ mod tests {
         assert_eq!((timeline.frame(31), timeline.frame(5)), (20, 5));
         timeline.update(&Event::moved(FRAME, 19.6, 0.0), 31);
         assert_eq!((timeline.frame(31), timeline.place(31)), (20, 19.6));
+        timeline.update(&Event::moved(FRAME, 17.586_775, 0.0), 31);
+        assert_eq!(timeline.place(31), 17.59);
     }
 }
