@@ -17,9 +17,11 @@ mod four_poses;
 mod gradient_field;
 pub mod harris;
 mod homography_drag;
+mod incremental_sfm;
 mod kernel_stepper;
 mod lens_bend;
 mod odometry;
+mod optimal_plane;
 mod outlier_drag;
 mod panorama;
 mod patch_match;
@@ -37,6 +39,7 @@ mod scale_space;
 mod schur;
 mod sift_descriptor;
 mod stereo_slider;
+mod three_rays;
 mod tournament;
 mod track;
 mod triangulate;
@@ -77,6 +80,7 @@ macro_rules! figures {
 figures![
     cover::View,
     two_cameras::View,
+    three_rays::View,
     same_picture::View,
     gradient_field::View,
     kernel_stepper::View,
@@ -96,6 +100,7 @@ figures![
     ransac_budget::View,
     ransac_epipolar::View,
     triangulate::View,
+    optimal_plane::View,
     scale_ambiguity::View,
     stereo_slider::View,
     rectify::View,
@@ -103,6 +108,7 @@ figures![
     disparity_map::View,
     four_poses::View,
     two_view_sfm::View,
+    incremental_sfm::View,
     bundle_adjustment::View,
     schur::View,
     scale_drift::View,

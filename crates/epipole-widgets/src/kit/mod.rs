@@ -59,6 +59,7 @@ pub(crate) mod running;
 pub(crate) mod samples;
 pub(crate) mod scenes;
 pub(crate) mod sequence;
+pub(crate) mod sfm_image;
 pub(crate) mod space;
 pub(crate) mod standing;
 pub(crate) mod tally;

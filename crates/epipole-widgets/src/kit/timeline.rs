@@ -1,32 +1,44 @@
-//! The frames of a video on the track below a plot: a handle, and buttons that run through them.
+//! The frames of a video, or the steps of a computation, on the track below a plot: a handle, and
+//! buttons that run through them.
 
 use crate::contract::{Control, Event, Handle, round_to_digits};
 use crate::kit::running::Running;
 
-/// Handle of the frame that is shown.
-pub(crate) const FRAME: &str = "frame";
-/// Frames per second.
+/// Frames of a video per second.
 const PACE: f64 = 8.0;
 /// Digits of a position between two frames, as permalinks have them.
 const DIGITS: usize = 2;
 
 /// The frame that is shown, among those from 0 to the last.
 pub(crate) struct Timeline {
+    /// Id of the handle.
+    id: &'static str,
+    /// Name of one frame or step.
+    name: &'static str,
     running: Running,
     /// Position on the track, frames; `None` for the last one, however many there are.
     place: Option<f64>,
 }
 
-impl Default for Timeline {
-    fn default() -> Self {
+impl Timeline {
+    /// Creates a timeline of the frames of a video, at the last one.
+    pub(crate) fn of_frames() -> Self {
+        Self::new("frame", "Frame", PACE)
+    }
+
+    /// Creates a timeline at its end.
+    ///
+    /// * `id`: of the handle
+    /// * `name`: of one frame or step
+    pub(crate) fn new(id: &'static str, name: &'static str, steps_per_second: f64) -> Self {
         Self {
-            running: Running::at(PACE),
+            id,
+            name,
+            running: Running::at(steps_per_second),
             place: None,
         }
     }
-}
 
-impl Timeline {
     /// Returns the number of the frame that is shown.
     pub(crate) fn frame(&self, last: usize) -> usize {
         self.place(last).round() as usize
@@ -57,8 +69,9 @@ impl Timeline {
     pub(crate) fn handle(&self, last: usize) -> Handle {
         let frame = self.frame(last);
         let range = [[0.0, last as f64], [0.0; 2]];
-        let handle = Handle::new(FRAME, "track", "Frame", (self.place(last), 0.0), range);
-        let words = format!("frame {} of {}", frame + 1, last + 1);
+        let handle = Handle::new(self.id, "track", self.name, (self.place(last), 0.0), range);
+        let name = self.name.to_lowercase();
+        let words = format!("{name} {} of {}", frame + 1, last + 1);
         handle.told(words).step([1.0, 0.0], DIGITS)
     }
 
@@ -93,8 +106,8 @@ mod tests {
 
     #[test]
     fn a_video_runs_to_its_end_and_starts_over() {
-        let mut timeline = Timeline::default();
-        assert!(timeline.update(&Event::moved(FRAME, 29.0, 0.0), 31));
+        let mut timeline = Timeline::of_frames();
+        assert!(timeline.update(&Event::moved("frame", 29.0, 0.0), 31));
         timeline.update(&Event::press("run"), 31);
         for _ in 0..4 {
             timeline.update(&Event::Tick { dt_s: 1.0 / PACE }, 31);
@@ -106,13 +119,13 @@ mod tests {
 
     #[test]
     fn a_shorter_video_shows_its_last_frame() {
-        let mut timeline = Timeline::default();
+        let mut timeline = Timeline::of_frames();
         assert_eq!(timeline.frame(31), 31);
-        timeline.update(&Event::moved(FRAME, 20.0, 0.0), 31);
+        timeline.update(&Event::moved("frame", 20.0, 0.0), 31);
         assert_eq!((timeline.frame(31), timeline.frame(5)), (20, 5));
-        timeline.update(&Event::moved(FRAME, 19.6, 0.0), 31);
+        timeline.update(&Event::moved("frame", 19.6, 0.0), 31);
         assert_eq!((timeline.frame(31), timeline.place(31)), (20, 19.6));
-        timeline.update(&Event::moved(FRAME, 17.586_775, 0.0), 31);
+        timeline.update(&Event::moved("frame", 17.586_775, 0.0), 31);
         assert_eq!(timeline.place(31), 17.59);
     }
 }

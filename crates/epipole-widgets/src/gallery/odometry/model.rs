@@ -86,7 +86,7 @@ impl Declared for OdometryFigure {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            timeline: Timeline::default(),
+            timeline: Timeline::of_frames(),
             orbit: Orbit::new(-30.0, 32.0),
             asked: Asked::default(),
         };

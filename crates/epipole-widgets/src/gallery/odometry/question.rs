@@ -5,15 +5,15 @@ use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
 use crate::kit::sequence::{self, NUM_FRAMES, SIZE};
+use crate::kit::sfm_image::sfm_image;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use epipole::math::random::Random;
 use epipole::sfm::{
-    AlignmentKind, Odometry, OdometryOptions, OdometryResult, SfmImage, SfmInput,
-    absolute_trajectory_error,
+    AlignmentKind, Odometry, OdometryOptions, OdometryResult, SfmInput, absolute_trajectory_error,
 };
 use image::RgbImage;
-use nalgebra::{Point2, Point3, Similarity3};
+use nalgebra::{Point3, Similarity3};
 use serde::{Deserialize, Serialize};
 
 /// Largest stride over frames.
@@ -82,7 +82,7 @@ impl question::Question for Question {
         })?;
         tell(progress, 0.75)?;
         let images = (used.iter().zip(&corners.places))
-            .map(|(frame, places)| image(&frames[*frame], places));
+            .map(|(frame, places)| sfm_image(&frames[*frame], places));
         let input = SfmInput {
             images: images.collect(),
             cameras: vec![sequence::camera(0).camera],
@@ -152,18 +152,6 @@ impl Frame {
     /// Returns where the camera was found to be, in the true world.
     pub(super) fn center(&self) -> Option<Point3<f64>> {
         Some(Point3::from(self.world_from_cam?.translation.vector))
-    }
-}
-
-fn image(frame: &RgbImage, places: &[Point2<f64>]) -> SfmImage {
-    let color = |place: &Point2<f64>| {
-        let at = |value: f64, size: u32| (value.round().max(0.0) as u32).min(size - 1);
-        frame.get_pixel(at(place.x, SIZE.0), at(place.y, SIZE.1)).0
-    };
-    SfmImage {
-        keypoints: places.to_vec(),
-        colors: places.iter().map(color).collect(),
-        ..SfmImage::default()
     }
 }
 

@@ -178,10 +178,11 @@ fn draw_led(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut Canv
         canvas.marker(place, 4.5, Shape::Disk, role, true);
         labels.keep_free(place, 7.0);
     }
+    for pair in curves.iter().flat_map(|(places, ..)| places.windows(2)) {
+        let [from, to] = [pair[0], pair[1]].map(|place| panel.canvas_from_world(place));
+        labels.keep_line_free(from, to);
+    }
     for (places, name, stroke) in &curves {
-        for place in places {
-            labels.keep_free(panel.canvas_from_world(*place), 2.0);
-        }
         if let Some(place) = places.get(NAMED) {
             let place = panel.canvas_from_world(*place);
             labels.name(canvas, (place, 6.0), name, (stroke.role, SMALL));

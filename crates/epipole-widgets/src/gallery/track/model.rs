@@ -110,7 +110,7 @@ impl Declared for TrackFigure {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            timeline: Timeline::default(),
+            timeline: Timeline::of_frames(),
             asked: Asked::default(),
         };
         model.asked.ask(model.question());

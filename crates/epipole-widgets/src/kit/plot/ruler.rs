@@ -12,6 +12,8 @@ pub(crate) const SIGMAS: &[&str] = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅"
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
     Linear,
+    /// Linear, without ticks.
+    Bare,
     /// Logarithmic: each power of ten has the same length.
     Decades,
 }
@@ -44,6 +46,14 @@ impl Ruler {
             unit: "",
             times: 1.0,
             names: &[],
+        }
+    }
+
+    /// Creates a linear axis without ticks.
+    pub(crate) fn bare(from: f64, to: f64) -> Self {
+        Self {
+            scale: Scale::Bare,
+            ..Self::linear(from, to)
         }
     }
 
@@ -88,19 +98,24 @@ impl Ruler {
                 .map(|(k, name)| (k as f64 + 1.0, (*name).to_owned()))
                 .collect();
         }
+        if self.scale == Scale::Bare {
+            return Vec::new();
+        }
         let most = length / apart;
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         if self.scale == Scale::Decades && high - low < 2.0 {
             return within_decades(low, high);
         }
         let step = match self.scale {
-            Scale::Linear => round_step(self.times * (high - low) / most.max(1.0)) / self.times,
+            Scale::Linear | Scale::Bare => {
+                round_step(self.times * (high - low) / most.max(1.0)) / self.times
+            }
             Scale::Decades => ((high - low) / most.max(1.0)).ceil().max(1.0),
         };
         let first = (low / step - 1e-9).ceil() as i64;
         let last = (high / step + 1e-9).floor() as i64;
         let text = |at: f64| match self.scale {
-            Scale::Linear => {
+            Scale::Linear | Scale::Bare => {
                 let step = step * self.times;
                 let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 6.0) as usize;
                 format!("{}{}", format_number(at * self.times, digits), self.unit)

@@ -7,6 +7,7 @@ use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
 use crate::kit::question::tell;
 use crate::kit::scenes::{self, PHOTO_SIZE};
+use crate::kit::sfm_image::color_at;
 use epipole::Error;
 use epipole::camera::Camera;
 use epipole::feature::{
@@ -42,7 +43,7 @@ impl Question {
         let pixels1: Vec<_> = matches.iter().map(|m| keypoints[0][m.0 as usize]).collect();
         let pixels2: Vec<_> = matches.iter().map(|m| keypoints[1][m.1 as usize]).collect();
         let colors: Vec<_> = (matches.iter())
-            .map(|m| color_at(&pictures[0], &keypoints[0][m.0 as usize]))
+            .map(|m| color_at(pictures[0].image(), &keypoints[0][m.0 as usize]))
             .collect();
         let judged = judge([&pixels1, &pixels2], &cameras, self.max_error_px)?;
         tell(progress, 0.75)?;
@@ -162,11 +163,4 @@ fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error
         &options.sift(width, height),
         &mut |status: Status| progress(f64::from(status.share)),
     )
-}
-
-fn color_at(picture: &Picture, pixel: &Point2<f64>) -> [u8; 3] {
-    let (width, height) = picture.size();
-    let inside = |x: f64, size: u32| (x.round().max(0.0) as u32).min(size.max(1) - 1);
-    let (u, v) = (inside(pixel.x, width), inside(pixel.y, height));
-    picture.image().get_pixel(u, v).0
 }

@@ -29,6 +29,7 @@ const TEXT: f64 = 13.0;
 /// A scene in the reader's view, collected mark by mark and then drawn.
 pub(crate) struct Space<'a> {
     lens: Lens,
+    zoom: f64,
     /// Drawn first, in their order.
     ground: Vec<(Place, Place, Stroke)>,
     /// Far to near.
@@ -45,6 +46,7 @@ impl<'a> Space<'a> {
         let middle = panel.canvas_from_world(orbit.middle());
         Some(Self {
             lens: Lens::new(size, (1.0, 1.0), middle, orbit, subject)?,
+            zoom: orbit.zoom(),
             ground: Vec::new(),
             photographs: Vec::new(),
             marks: Vec::new(),
@@ -121,13 +123,14 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Adds a point of a surface, without a rim, so that neighbors merge; `side` is that of its
-    /// square at the center of the scene, CSS pixels.
+    /// Adds a point of a surface, without a rim, so that neighbors merge, also where it is enlarged;
+    /// `side` is that of its square at the center of the scene without zoom, CSS pixels.
     pub(crate) fn speck(&mut self, point: &Point3<f64>, side: f64, color: Rgb) {
         let in_eye = self.in_eye(point);
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
             let scale = (self.lens.distance / depth).clamp(0.6, 2.5);
-            self.push(&in_eye, &[place], Mark::Speck(place, side * scale, color));
+            let side = side * scale * self.zoom.max(1.0);
+            self.push(&in_eye, &[place], Mark::Speck(place, side, color));
         }
     }
 

@@ -1,0 +1,7 @@
+//! `three-rays`: three rays that nearly meet, and the singular values of their equations.
+
+mod model;
+mod view;
+mod words;
+
+pub(super) use view::ThreeRaysView as View;
