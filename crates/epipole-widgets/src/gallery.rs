@@ -39,6 +39,7 @@ mod scale_space;
 mod schur;
 mod sift_descriptor;
 mod stereo_slider;
+mod sub_pixel;
 mod three_rays;
 mod tournament;
 mod track;
@@ -86,6 +87,7 @@ figures![
     kernel_stepper::View,
     window_shift::View,
     harris::View,
+    sub_pixel::View,
     patch_match::View,
     ratio_test::View,
     sift_descriptor::View,

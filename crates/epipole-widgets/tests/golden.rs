@@ -57,6 +57,7 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         "optimal-plane.png",
         Theme::Dark,
     ),
+    ("sub-pixel", "noise=10", "sub-pixel.png", Theme::Light),
     ("three-rays", "", "three-rays.png", Theme::Light),
     ("flat-scene", "spread=0", "flat-scene.png", Theme::Light),
     ("ransac-race", "", "ransac-race.png", Theme::Light),
