@@ -14,7 +14,7 @@ use nalgebra::{Point2, Vector2};
 /// Size of a pixel in the enlarged picture.
 const TIMES: u32 = 8;
 /// Smallest gradient with a line, gray values a pixel, in [0, 1].
-const FAINTEST: f64 = 0.08;
+const FAINTEST: f64 = 0.14;
 /// Largest distance from the true corner in the close-up, pixels.
 const REACH_PX: f64 = 1.5;
 /// Between the panels and the legend, CSS pixels.
@@ -39,7 +39,7 @@ impl View for SubPixelView {
         let mut grid = Grid::new(width);
         let [patch, close] = match grid::is_narrow(width) {
             true => {
-                let [patch] = grid.row([grid::aspect(SIZE)], 176.0);
+                let [patch] = grid.row([grid::aspect(SIZE)], 166.0);
                 let [close] = grid.row([0.5], 96.0);
                 [patch, close]
             }
