@@ -4,6 +4,7 @@ mod bundler;
 mod cloud;
 mod colmap_binary;
 mod colmap_parts;
+mod colmap_rigs;
 mod colmap_text;
 #[cfg(test)]
 mod example;
@@ -16,14 +17,17 @@ mod nerfstudio;
 mod notes;
 mod openmvg;
 mod reconstruction;
+mod rig;
 
 pub use format::{ModelFormat, ReadModel, format_of_file, read_model_file, read_model_folder};
+pub use rig::{Rig, RigCamera, RigFrame};
 
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
 use std::collections::{BTreeSet, HashMap};
+use std::fmt::Display;
 use std::iter;
 
 /// Cameras, the images that they took, and points of the scene.
@@ -37,6 +41,10 @@ pub struct Model {
     pub images: Vec<ModelImage>,
     /// The points.
     pub points: Vec<ModelPoint>,
+    /// Number of each point in files that number them, no two equal; empty: counted from 1.
+    pub point_ids: Vec<u64>,
+    /// Cameras that are fixed to each other; empty: each camera moves alone.
+    pub rigs: Vec<Rig>,
 }
 
 /// An image with a known pose.
@@ -120,6 +128,20 @@ impl CameraList {
     }
 }
 
+/// # Errors
+/// [`Error::Malformed`] for another count or an ID that is there twice.
+fn check_ids<T: Copy + Ord + Display>(what: &str, count: usize, ids: &[T]) -> Result<()> {
+    if ![0, count].contains(&ids.len()) {
+        let message = format!("{count} {what} have {} IDs", ids.len());
+        return Err(Error::malformed(message));
+    }
+    let mut seen = BTreeSet::new();
+    match ids.iter().find(|id| !seen.insert(**id)) {
+        Some(id) => Err(Error::malformed(format!("two {what} have ID {id}"))),
+        None => Ok(()),
+    }
+}
+
 /// A file of a model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelFile {
@@ -140,19 +162,11 @@ impl ModelFile {
 
 impl Model {
     /// # Errors
-    /// [`Error::Malformed`] if an index is wrong or two images or cameras have the same number.
+    /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same
+    /// number, or an image is elsewhere than its rig has it.
     fn check(&self) -> Result<()> {
-        if ![0, self.cameras.len()].contains(&self.camera_ids.len()) {
-            return Err(Error::malformed(format!(
-                "{} cameras have {} IDs",
-                self.cameras.len(),
-                self.camera_ids.len()
-            )));
-        }
-        let mut ids = BTreeSet::new();
-        if let Some(id) = self.camera_ids.iter().find(|id| !ids.insert(**id)) {
-            return Err(Error::malformed(format!("two cameras have ID {id}")));
-        }
+        check_ids("cameras", self.cameras.len(), &self.camera_ids)?;
+        check_ids("points", self.points.len(), &self.point_ids)?;
         let mut ids = BTreeSet::new();
         for image in &self.images {
             if image.camera >= self.cameras.len() {
@@ -177,7 +191,7 @@ impl Model {
                 )));
             }
         }
-        Ok(())
+        self.check_rigs()
     }
 
     /// Number of a camera in files that number them.
@@ -186,6 +200,14 @@ impl Model {
     pub fn camera_id(&self, camera: usize) -> u32 {
         let id = self.camera_ids.get(camera).copied();
         id.unwrap_or(camera as u32 + 1)
+    }
+
+    /// Number of a point in files that number them.
+    ///
+    /// * `point`: index
+    pub fn point_id(&self, point: usize) -> u64 {
+        let id = self.point_ids.get(point).copied();
+        id.unwrap_or(point as u64 + 1)
     }
 
     /// The cameras with their numbers.

@@ -8,9 +8,10 @@
 //!
 //! Source: Agisoft Metashape Professional user manual, appendix "Camera models".
 
-use super::named::{Cameras, NamedCamera};
+use super::named::Cameras;
 use super::parts::{check_skew, lens};
 use crate::Result;
+use crate::error::set_aside;
 use crate::tree::Field;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
@@ -35,15 +36,13 @@ pub(super) fn read(root: &Field) -> Result<Cameras> {
         };
         let name = sensor.get("label").or_else(|| sensor.get("id"));
         let name = name.and_then(|name| name.text()).unwrap_or("camera");
-        cameras.push(NamedCamera::new(name, camera(&calibration, Some(sensor))?));
+        let camera = set_aside(camera(&calibration, Some(sensor)))?;
+        cameras.push((name.to_owned(), camera));
     }
     if cameras.is_empty() {
         return Err(root.missing("calibration", "a sensor with a calibration"));
     }
-    Ok(Cameras {
-        cameras,
-        right_from_left: None,
-    })
+    Cameras::of_list(cameras)
 }
 
 fn find_sensors<'a>(field: &Field<'a>, sensors: &mut Vec<Field<'a>>) {
