@@ -236,6 +236,13 @@ mod tests {
             (320, vec![0.1, 0.0, 0.0, 0.01])
         );
         let other = text.replace("type=\"fisheye\" class", "type=\"spherical\" class");
-        assert!(matches!(parse(&other), Err(Error::Unsupported { .. })));
+        let rest = parse(&other).unwrap();
+        assert_eq!((rest.cameras.len(), rest.notes.len()), (1, 1));
+        assert!(rest.notes[0].starts_with("camera wide is left out"));
+        let none = other.replace(
+            "type=\"frame\" class=\"adjusted\"",
+            "type=\"cylindrical\" class=\"adjusted\"",
+        );
+        assert!(matches!(parse(&none), Err(Error::Unsupported { .. })));
     }
 }

@@ -319,11 +319,9 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
 fn left_out(element: &Element) -> Option<String> {
     match (element.name.as_str(), element.count) {
         ("vertex", _) | (_, 0) => None,
-        ("face", 1) => Some("its face is not read: a mesh becomes points".to_owned()),
-        ("face", count) => Some(format!(
-            "its {count} faces are not read: a mesh becomes points"
-        )),
-        (name, count) => Some(format!("its element {name} is not read, {count} entries")),
+        ("face", 1) => Some("1 face is not read: a mesh becomes points".to_owned()),
+        ("face", count) => Some(format!("{count} faces are not read: a mesh becomes points")),
+        (name, count) => Some(format!("element {name} is not read, {count} entries")),
     }
 }
 
@@ -401,8 +399,8 @@ mod tests {
         };
         let notes = [
             "1 point has NaN or infinite coordinates: left out",
-            "its face is not read: a mesh becomes points",
-            "its element edge is not read, 9 entries",
+            "1 face is not read: a mesh becomes points",
+            "element edge is not read, 9 entries",
         ];
         let expected = (expected, notes.map(str::to_owned).to_vec());
         assert_eq!(read_ply(text.as_bytes()).unwrap(), expected);

@@ -130,7 +130,12 @@ impl Model {
                 ));
             }
         }
+        // Of points alone nobody expects more.
         let short = self.points.iter().filter(|point| point.track.len() < 2);
+        let short = short.take(match self.images.is_empty() {
+            true => 0,
+            false => usize::MAX,
+        });
         for (count, sentence) in [
             (behind, "observations are of points behind their cameras"),
             (outside, "observed keypoints are outside their images"),

@@ -124,7 +124,7 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 
 /// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
 ///
-/// Landmarks are left out, with a warning.
+/// Landmarks that are points are vertices without a rotation; others are left out, with a warning.
 ///
 /// Parameters
 /// ----------

@@ -36,6 +36,9 @@ use pyo3::types::PyDict;
 ///     Vertices that stay. In a connected part without one, its first vertex stays.
 /// ids : array_like of int, shape (V,), optional
 ///     Number of each vertex in a file.
+/// landmarks : array_like of int, optional
+///     Vertices that are points, which have no rotation: edges to them have an information of 0
+///     for it.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
 
