@@ -98,7 +98,7 @@ def loaded_by_nerfstudio(path):
             assert k4 == 0
             stop = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 100, 1e-15)
             lens = np.array([k1, k2, p1, p2, k3])
-            x, y = cv2.undistortPointsIter(pixels, matrix, lens, None, None, stop)[:, 0].T
+            x, y = cv2.undistortPoints(pixels, matrix, lens, criteria=stop)[:, 0].T
         world_from_cam = np.array(frame["transform_matrix"], float)
         directions = np.column_stack([x, -y, -np.ones_like(x)]) @ world_from_cam[:3, :3].T
         return world_from_cam[:3, 3], directions / np.linalg.norm(directions, axis=1)[:, None]

@@ -26,7 +26,7 @@ use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::fmt::Display;
 use std::iter;
 
@@ -41,8 +41,6 @@ pub struct Model {
     pub images: Vec<ModelImage>,
     /// The points.
     pub points: Vec<ModelPoint>,
-    /// Number of each point in files that number them, no two equal; empty: counted from 1.
-    pub point_ids: Vec<u64>,
     /// Cameras that are fixed to each other; empty: each camera moves alone.
     pub rigs: Vec<Rig>,
 }
@@ -73,6 +71,8 @@ impl ModelImage {
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPoint {
+    /// Number of the point in files that number them; no two are equal.
+    pub id: u64,
     /// Position in the world.
     pub position: Point3<f64>,
     /// Red, green, blue.
@@ -83,12 +83,13 @@ pub struct ModelPoint {
     pub track: Vec<(usize, usize)>,
 }
 
-/// Points without observations; gray without colors.
+/// Points without observations, numbered from 1; gray without colors.
 fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
     let colors = cloud.colors.into_iter().chain(iter::repeat([128; 3]));
-    let points = cloud.points.into_iter().zip(colors);
+    let points = (1..).zip(cloud.points).zip(colors);
     points
-        .map(|(position, color)| ModelPoint {
+        .map(|((id, position), color)| ModelPoint {
+            id,
             position,
             color,
             error_px: None,
@@ -129,15 +130,11 @@ impl CameraList {
 }
 
 /// # Errors
-/// [`Error::Malformed`] for another count or an ID that is there twice.
-fn check_ids<T: Copy + Ord + Display>(what: &str, count: usize, ids: &[T]) -> Result<()> {
-    if ![0, count].contains(&ids.len()) {
-        let message = format!("{count} {what} have {} IDs", ids.len());
-        return Err(Error::malformed(message));
-    }
-    let mut seen = BTreeSet::new();
-    match ids.iter().find(|id| !seen.insert(**id)) {
-        Some(id) => Err(Error::malformed(format!("two {what} have ID {id}"))),
+/// [`Error::Malformed`] for an ID that is there twice.
+fn check_ids<T: Ord + Display>(what: &str, mut ids: Vec<T>) -> Result<()> {
+    ids.sort_unstable();
+    match ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(Error::malformed(format!("two {what} have ID {}", pair[0]))),
         None => Ok(()),
     }
 }
@@ -165,9 +162,16 @@ impl Model {
     /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same
     /// number, or an image is elsewhere than its rig has it.
     fn check(&self) -> Result<()> {
-        check_ids("cameras", self.cameras.len(), &self.camera_ids)?;
-        check_ids("points", self.points.len(), &self.point_ids)?;
-        let mut ids = BTreeSet::new();
+        if ![0, self.cameras.len()].contains(&self.camera_ids.len()) {
+            return Err(Error::malformed(format!(
+                "{} cameras have {} IDs",
+                self.cameras.len(),
+                self.camera_ids.len()
+            )));
+        }
+        check_ids("cameras", self.camera_ids.clone())?;
+        check_ids("images", self.images.iter().map(|image| image.id).collect())?;
+        check_ids("points", self.points.iter().map(|point| point.id).collect())?;
         for image in &self.images {
             if image.camera >= self.cameras.len() {
                 return Err(Error::malformed(format!(
@@ -176,9 +180,6 @@ impl Model {
                     image.camera,
                     self.cameras.len()
                 )));
-            }
-            if !ids.insert(image.id) {
-                return Err(Error::malformed(format!("two images have ID {}", image.id)));
             }
         }
         for (index, point) in self.points.iter().enumerate() {
@@ -200,14 +201,6 @@ impl Model {
     pub fn camera_id(&self, camera: usize) -> u32 {
         let id = self.camera_ids.get(camera).copied();
         id.unwrap_or(camera as u32 + 1)
-    }
-
-    /// Number of a point in files that number them.
-    ///
-    /// * `point`: index
-    pub fn point_id(&self, point: usize) -> u64 {
-        let id = self.point_ids.get(point).copied();
-        id.unwrap_or(point as u64 + 1)
     }
 
     /// The cameras with their numbers.

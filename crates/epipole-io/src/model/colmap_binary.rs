@@ -125,13 +125,13 @@ impl Model {
             for (keypoint, point) in image.keypoints.iter().zip(point_of_keypoint) {
                 let pixel = pixel_to_colmap(keypoint);
                 extend(&mut images, &[pixel.x, pixel.y]);
-                let id = point.map_or(NO_POINT, |point| self.point_id(point));
+                let id = point.map_or(NO_POINT, |point| self.points[point].id);
                 images.extend(id.to_le_bytes());
             }
         }
         let mut points = (self.points.len() as u64).to_le_bytes().to_vec();
-        for (index, point) in self.points.iter().enumerate() {
-            points.extend(self.point_id(index).to_le_bytes());
+        for point in &self.points {
+            points.extend(point.id.to_le_bytes());
             extend(&mut points, point.position.coords.as_slice());
             points.extend(point.color);
             extend(&mut points, &[point.error_px.unwrap_or(-1.0)]);

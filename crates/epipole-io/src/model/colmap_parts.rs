@@ -233,7 +233,7 @@ impl Parts {
             ));
         }
         let (mut num_lost, mut num_not_finite) = (0_usize, 0);
-        let (mut points, mut point_ids) = (Vec::new(), Vec::new());
+        let mut points = Vec::new();
         for part in self.points {
             if !part.position.iter().all(|value| value.is_finite()) {
                 num_not_finite += 1;
@@ -250,8 +250,8 @@ impl Parts {
                     _ => num_lost += 1,
                 }
             }
-            point_ids.push(part.id);
             points.push(ModelPoint {
+                id: part.id,
                 position: part.position,
                 color: part.color,
                 // COLMAP has −1 where it did not compute one.
@@ -270,7 +270,6 @@ impl Parts {
             camera_ids,
             images,
             points,
-            point_ids,
             rigs: rigs.finish(),
         };
         model.check()?;

@@ -165,7 +165,7 @@ impl Model {
                 let pixel = pixel_to_colmap(keypoint);
                 let (x, y) = (pixel.x, pixel.y);
                 let _ = match point {
-                    Some(point) => write!(images, "{space}{x} {y} {}", self.point_id(*point)),
+                    Some(point) => write!(images, "{space}{x} {y} {}", self.points[*point].id),
                     None => write!(images, "{space}{x} {y} -1"),
                 };
             }
@@ -174,16 +174,13 @@ impl Model {
         let mut points = String::from(
             "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n",
         );
-        for (index, point) in self.points.iter().enumerate() {
+        for point in &self.points {
             let ([r, g, b], p) = (point.color, point.position);
             let error_px = point.error_px.unwrap_or(-1.0);
             let _ = write!(
                 points,
                 "{} {} {} {} {r} {g} {b} {error_px}",
-                self.point_id(index),
-                p.x,
-                p.y,
-                p.z
+                point.id, p.x, p.y, p.z
             );
             for &(image, keypoint) in &point.track {
                 let _ = write!(points, " {} {keypoint}", self.images[image].id);
@@ -228,7 +225,8 @@ mod tests {
             model.images[0].cam_from_world,
             epipole::camera::RigidTransform::translation(1.0, 2.0, 3.0)
         );
-        assert_eq!(model.point_ids, [77]);
+        assert_eq!(model.points.len(), 1);
+        assert_eq!(model.points[0].id, 77);
         let point = &model.points[0];
         assert_eq!((point.error_px, &point.track), (None, &vec![(0, 1)]));
         assert_eq!(notes.len(), 2, "{notes:?}");

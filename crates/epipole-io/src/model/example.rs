@@ -41,6 +41,7 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
     };
     let mut points: Vec<ModelPoint> = (0..8)
         .map(|n| ModelPoint {
+            id: 40 - 3 * n as u64,
             position: corner(n),
             color: [n as u8 * 30, 7, 255],
             error_px: Some(0.125 * n as f64),
@@ -71,7 +72,6 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
         camera_ids: (0..cameras.len() as u32).map(|n| 9 - 2 * n).collect(),
         cameras,
         images,
-        point_ids: (0..points.len() as u64).map(|n| 40 - 3 * n).collect(),
         points,
         rigs: Vec::new(),
     }

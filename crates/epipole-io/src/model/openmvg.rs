@@ -176,7 +176,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     }
     // Keypoints by their numbers, per image.
     let mut places: Vec<BTreeMap<u64, usize>> = vec![BTreeMap::new(); images.len()];
-    let (mut points, mut point_ids, mut num_lost) = (Vec::new(), Vec::new(), 0_usize);
+    let (mut points, mut num_lost) = (Vec::new(), 0_usize);
     for (key, value) in entries(&document, "structure")? {
         let mut track = Vec::new();
         for (view, value) in entries(&value, "observations")? {
@@ -197,8 +197,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             };
             track.push((image, place));
         }
-        point_ids.push(key);
         points.push(ModelPoint {
+            id: key,
             position: Point3::from(value.need("X", "a position")?.array::<3>()?),
             // The format has no colors.
             color: [128; 3],
@@ -215,7 +215,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
         cameras: cameras.into_list(),
         images,
         points,
-        point_ids,
         ..Model::default()
     };
     model.check()?;
@@ -304,7 +303,7 @@ impl Model {
             }}));
         }
         let mut structure = Vec::new();
-        for (index, point) in self.points.iter().enumerate() {
+        for point in &self.points {
             let seen = |&(image, keypoint): &(usize, usize)| {
                 let image = &self.images[image];
                 let x = image.keypoints[keypoint];
@@ -312,7 +311,7 @@ impl Model {
             };
             let observations: Vec<Value> = point.track.iter().map(seen).collect();
             let p = point.position;
-            structure.push(json!({ "key": self.point_id(index), "value": {
+            structure.push(json!({ "key": point.id, "value": {
                 "X": [p.x, p.y, p.z], "observations": observations,
             }}));
         }

@@ -226,9 +226,12 @@ impl Model {
         let errors = errors_px.unwrap_or_else(|| vec![None; count]);
         require_equal(("points", count), ("colors", colors.len()))?;
         require_equal(("points", count), ("errors_px", errors.len()))?;
-        let parts = positions.into_iter().zip(colors).zip(errors);
+        let ids = point_ids.unwrap_or_else(|| (1..=count as u64).collect());
+        require_equal(("points", count), ("point_ids", ids.len()))?;
+        let parts = positions.into_iter().zip(colors).zip(errors).zip(ids);
         let mut points: Vec<_> = parts
-            .map(|((position, color), error_px)| ModelPoint {
+            .map(|(((position, color), error_px), id)| ModelPoint {
+                id,
                 position,
                 color,
                 error_px,
@@ -248,7 +251,6 @@ impl Model {
             images: images.into_iter().map(|image| image.0).collect(),
             points,
             camera_ids: camera_ids.unwrap_or_default(),
-            point_ids: point_ids.unwrap_or_default(),
             rigs: rigs
                 .unwrap_or_default()
                 .into_iter()
@@ -342,9 +344,7 @@ impl Model {
     /// Number of each point in files that number them.
     #[getter]
     fn point_ids(&self) -> Vec<u64> {
-        (0..self.0.points.len())
-            .map(|n| self.0.point_id(n))
-            .collect()
+        self.0.points.iter().map(|point| point.id).collect()
     }
 
     /// Cameras that are fixed to each other, a list of `Rig`.

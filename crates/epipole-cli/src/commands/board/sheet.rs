@@ -67,8 +67,8 @@ impl SheetArguments {
         let gap = self.gap_mm.map_or(GAP_SHARE, |gap_mm| gap_mm / side_mm);
         if gap * num_cells < 1.0 {
             return Err(Failure::usage(format!(
-                "--gap-mm must be {:.2} at least: a marker is found by the white around it, as wide as one of its bits",
-                side_mm / num_cells
+                "--gap-mm must be {} at least: a marker is found by the white around it, as wide as one of its bits",
+                (100.0 * side_mm / num_cells).ceil() / 100.0
             )));
         }
         let mut sheet = Sheet {
