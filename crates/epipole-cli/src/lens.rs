@@ -64,9 +64,11 @@ pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure>
                 "there is no camera {name} in it; there are {}",
                 names.join(", ")
             );
-            Failure::new("malformed", message).about(path)
+            let notes = cameras.notes.iter().map(|note| format!("; {note}"));
+            Failure::new("malformed", message + &notes.collect::<String>()).about(path)
         });
     }
+    check_whole(&cameras, path)?;
     let fits = |camera: &Camera| {
         let (width, height) = (camera.width, camera.height);
         size.is_some_and(|size| size == (width, height) || size == (height, width))
@@ -83,6 +85,7 @@ pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure>
 /// As [`read`].
 pub(crate) fn read_right(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
     let cameras = read_all(path, photo.and_then(size_of))?;
+    check_whole(&cameras, path)?;
     let right = cameras.cameras.get(1).ok_or_else(|| no_right(path))?;
     Ok(right.camera)
 }
@@ -96,6 +99,7 @@ pub(crate) fn read_rig(
     photo: Option<&Path>,
 ) -> Result<([Camera; 2], RigidTransform), Failure> {
     let rig = read_all(path, photo.and_then(size_of))?;
+    check_whole(&rig, path)?;
     let [left, right] = &rig.cameras[..] else {
         return Err(match rig.cameras.len() {
             1 => no_right(path),
@@ -122,6 +126,18 @@ fn no_right(path: &Path) -> Failure {
         "there is no right camera in it; calibrate with --right",
     )
     .about(path)
+}
+
+/// Refuses a file with cameras that are left out where nobody named one: it may be one of these.
+fn check_whole(cameras: &Cameras, path: &Path) -> Result<(), Failure> {
+    let Some(note) = cameras.notes.first() else {
+        return Ok(());
+    };
+    let names: Vec<String> = (cameras.cameras.iter().take(3))
+        .map(|named| format!("{}#{}", path.display(), named.name))
+        .collect();
+    let message = format!("{note}; choose one of the others: {}", names.join(", "));
+    Err(Failure::new("unsupported", message).about(path))
 }
 
 fn read_all(path: &Path, size: Option<(u32, u32)>) -> Result<Cameras, Failure> {

@@ -89,5 +89,20 @@ impl Error {
     }
 }
 
+/// Part of a list, or the sentence why it is left out.
+pub(crate) type Listed<T> = std::result::Result<T, String>;
+
+/// Splits off what is not supported, so that the rest of a list is read without it.
+///
+/// # Errors
+/// Every other error.
+pub(crate) fn set_aside<T>(read: Result<T>) -> Result<Listed<T>> {
+    match read {
+        Ok(read) => Ok(Ok(read)),
+        Err(Error::Unsupported { message }) => Ok(Err(message)),
+        Err(error) => Err(error),
+    }
+}
+
 /// Result of reading or writing a file.
 pub type Result<T> = std::result::Result<T, Error>;

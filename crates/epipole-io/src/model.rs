@@ -4,6 +4,7 @@ mod bundler;
 mod cloud;
 mod colmap_binary;
 mod colmap_parts;
+mod colmap_rigs;
 mod colmap_text;
 #[cfg(test)]
 mod example;
@@ -16,14 +17,17 @@ mod nerfstudio;
 mod notes;
 mod openmvg;
 mod reconstruction;
+mod rig;
 
 pub use format::{ModelFormat, ReadModel, format_of_file, read_model_file, read_model_folder};
+pub use rig::{Rig, RigCamera, RigFrame};
 
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::stereo::PointCloud;
 use nalgebra::{Point2, Point3};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
+use std::fmt::Display;
 use std::iter;
 
 /// Cameras, the images that they took, and points of the scene.
@@ -37,6 +41,8 @@ pub struct Model {
     pub images: Vec<ModelImage>,
     /// The points.
     pub points: Vec<ModelPoint>,
+    /// Cameras that are fixed to each other; empty: each camera moves alone.
+    pub rigs: Vec<Rig>,
 }
 
 /// An image with a known pose.
@@ -65,6 +71,8 @@ impl ModelImage {
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPoint {
+    /// Number of the point in files that number them; no two are equal.
+    pub id: u64,
     /// Position in the world.
     pub position: Point3<f64>,
     /// Red, green, blue.
@@ -75,12 +83,13 @@ pub struct ModelPoint {
     pub track: Vec<(usize, usize)>,
 }
 
-/// Points without observations; gray without colors.
+/// Points without observations, numbered from 1; gray without colors.
 fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
     let colors = cloud.colors.into_iter().chain(iter::repeat([128; 3]));
-    let points = cloud.points.into_iter().zip(colors);
+    let points = (1..).zip(cloud.points).zip(colors);
     points
-        .map(|(position, color)| ModelPoint {
+        .map(|((id, position), color)| ModelPoint {
+            id,
             position,
             color,
             error_px: None,
@@ -120,6 +129,16 @@ impl CameraList {
     }
 }
 
+/// # Errors
+/// [`Error::Malformed`] for an ID that is there twice.
+fn check_ids<T: Ord + Display>(what: &str, mut ids: Vec<T>) -> Result<()> {
+    ids.sort_unstable();
+    match ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(Error::malformed(format!("two {what} have ID {}", pair[0]))),
+        None => Ok(()),
+    }
+}
+
 /// A file of a model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelFile {
@@ -140,7 +159,8 @@ impl ModelFile {
 
 impl Model {
     /// # Errors
-    /// [`Error::Malformed`] if an index is wrong or two images or cameras have the same number.
+    /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same
+    /// number, or an image is elsewhere than its rig has it.
     fn check(&self) -> Result<()> {
         if ![0, self.cameras.len()].contains(&self.camera_ids.len()) {
             return Err(Error::malformed(format!(
@@ -149,11 +169,9 @@ impl Model {
                 self.camera_ids.len()
             )));
         }
-        let mut ids = BTreeSet::new();
-        if let Some(id) = self.camera_ids.iter().find(|id| !ids.insert(**id)) {
-            return Err(Error::malformed(format!("two cameras have ID {id}")));
-        }
-        let mut ids = BTreeSet::new();
+        check_ids("cameras", self.camera_ids.clone())?;
+        check_ids("images", self.images.iter().map(|image| image.id).collect())?;
+        check_ids("points", self.points.iter().map(|point| point.id).collect())?;
         for image in &self.images {
             if image.camera >= self.cameras.len() {
                 return Err(Error::malformed(format!(
@@ -162,9 +180,6 @@ impl Model {
                     image.camera,
                     self.cameras.len()
                 )));
-            }
-            if !ids.insert(image.id) {
-                return Err(Error::malformed(format!("two images have ID {}", image.id)));
             }
         }
         for (index, point) in self.points.iter().enumerate() {
@@ -177,7 +192,7 @@ impl Model {
                 )));
             }
         }
-        Ok(())
+        self.check_rigs()
     }
 
     /// Number of a camera in files that number them.

@@ -27,8 +27,9 @@ pub struct ReadGraph {
 /// `EDGE_SE3:QUAT`, or `VERTEX_SIM3:QUAT` and `EDGE_SIM3:QUAT`, and `FIX`.
 ///
 /// Priors are `EDGE_PRIOR_SE2` and `EDGE_PRIOR_SE2_XY`, or `EDGE_SE3_PRIOR` with its
-/// `PARAMS_SE3OFFSET` and `EDGE_SE3_XYZ_PRIOR`. Landmarks and their measurements are left out,
-/// which [`ReadGraph::notes`] say.
+/// `PARAMS_SE3OFFSET` and `EDGE_SE3_XYZ_PRIOR`. Landmarks are `VERTEX_XY` with `EDGE_SE2_XY`, or
+/// `VERTEX_TRACKXYZ` with `EDGE_SE3_TRACKXYZ` and its offset. Others, such as bearings, are left
+/// out, which [`ReadGraph::notes`] say.
 ///
 /// The similarities are an extension, `EDGE_SIM3_PRIOR` included: as SE(3), with the scale after
 /// the quaternion and an information matrix of 7×7. Quaternions are written x, y, z, w and are
@@ -37,8 +38,8 @@ pub struct ReadGraph {
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus values,
-/// values that are not finite, vertices that are there twice or not at all, offsets that are not
-/// there, and information matrices that are not positive semi-definite; [`Error::Invalid`] without
+/// values that are not finite, vertices that are there twice or not at all or of the other kind,
+/// offsets that are not there, and information matrices that are not positive semi-definite; [`Error::Invalid`] without
 /// vertices.
 ///
 /// ```
@@ -56,7 +57,7 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
     let mut se3 = Reader::<Isometry3<f64>, 6>::new();
     let mut sim3 = Reader::<Similarity3<f64>, 7>::new();
     let mut shared = Shared::default();
-    let mut num_of_landmarks = 0;
+    let mut num_left_out = 0;
     let mut kind = None;
     for (index, content) in text.lines().enumerate() {
         let line = index + 1;
@@ -90,7 +91,7 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
         } else if words::is_of_landmark(tag) {
             match (tag.starts_with("VERTEX"), words.first()) {
                 (true, Some(id)) => _ = shared.landmarks.insert(parse_id(line, id)?),
-                _ => num_of_landmarks += 1,
+                _ => num_left_out += 1,
             }
             continue;
         } else {
@@ -114,7 +115,7 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
             .into());
         }
     };
-    let left_out = words::left_out(shared.landmarks.len(), num_of_landmarks);
+    let left_out = words::left_out(shared.landmarks.len(), num_left_out);
     Ok(ReadGraph {
         graph,
         notes: left_out.into_iter().collect(),

@@ -139,13 +139,80 @@ def test_other_models(tmp_path, model):
     np.testing.assert_allclose(again.points, model.points)
 
 
+def test_numbers_and_rigs_of_models(tmp_path, model, motion):
+    assert model.camera_ids == [1] and model.point_ids == list(range(1, 21)) and model.rigs == []
+    other = epipole.Camera.pinhole(epipole.Intrinsics.centered(500.0, 640, 480), 640, 480)
+    images = [model.images[0], io.ModelImage(2, "1.jpg", 1, motion, model.images[1].keypoints)]
+    rig = io.Rig(4, [(0, epipole.RigidTransform()), (1, motion)], [(9, epipole.RigidTransform(), [0, 1])])
+    ids = list(range(100, 80, -1))
+    parts = (model.points, model.tracks, model.colors, None, [7, 5], ids, [rig])
+    in_rig = io.Model([model.cameras[0], other], images, *parts)
+    assert pickle.loads(pickle.dumps(in_rig)) == in_rig
+    for format in ["colmap-text", "colmap-binary"]:
+        in_rig.write(tmp_path / format, format)
+        again = io.read_model_folder(tmp_path / format).model
+        assert again.camera_ids == [7, 5] and again.point_ids == ids
+        assert again.rigs == [rig] and again.rigs[0].id == 4
+        assert again.rigs[0].frames[0][2] == [0, 1]
+        np.testing.assert_allclose(again.rigs[0].cameras[1][1].translation, motion.translation)
+    moved = [images[0], io.ModelImage(2, "1.jpg", 1, epipole.RigidTransform(), model.images[1].keypoints)]
+    with pytest.raises(ValueError, match="is not where frame 9"):
+        io.Model([model.cameras[0], other], moved, *parts).to_files("colmap-text")
+
+
+def test_notes(tmp_path):
+    path = tmp_path / "cameras.txt"
+    path.write_text("1 PINHOLE 640 480 500 500 320 240\n2 FOV 640 480 500 500 320 240 0.9\n")
+    _, cameras = io.read_cameras(path)
+    (note,) = cameras.notes
+    assert len(cameras) == 1 and note.startswith("camera 2 is left out: camera model FOV")
+    _, trajectory = io.read_trajectory(b"0,0,0,0,1,0,0,0\n5000000,0,0,0,1,0,0,0\n")
+    assert "w, x, y, z" in trajectory.notes[0]
+    assert pickle.loads(pickle.dumps(trajectory)) == trajectory
+    mesh = (
+        b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        b"element face 1\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n1 0\n"
+    )
+    cloud, notes = io.read_ply(mesh)
+    assert len(cloud.points) == 1 and notes == ["1 face is not read: a mesh becomes points"]
+
+
+def test_q(tmp_path):
+    q = np.array([[1, 0, 0, -320.5], [0, 1, 0, -240], [0, 0, 0, 700], [0, 0, 8.25, 0]])
+    np.savetxt(tmp_path / "q.txt", q)
+    np.testing.assert_array_equal(io.read_q(tmp_path / "q.txt"), q)
+    cv2 = pytest.importorskip("cv2")
+    storage = cv2.FileStorage(str(tmp_path / "q.yml"), cv2.FILE_STORAGE_WRITE)
+    storage.write("Q", q)
+    storage.release()
+    np.testing.assert_array_equal(io.read_q(tmp_path / "q.yml"), q)
+    with pytest.raises(ValueError, match="has 4 numbers, not 16"):
+        io.read_q(b"1 2 3 4")
+
+
+def test_sensor_width(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    photo = image.new("RGB", (600, 400), (90, 90, 90))
+    exif = photo.getexif()
+    # FocalLength, of the IFD of the camera.
+    exif.get_ifd(0x8769)[0x920A] = 50.0
+    photo.save(tmp_path / "photo.jpg", exif=exif)
+    prepared = io.prepare_photo(tmp_path / "photo.jpg")
+    assert prepared.focal_mm == 50.0 and prepared.focal_px is None
+    assert io.decode_rgb(tmp_path / "photo.jpg").focal_mm == 50.0
+    # 50 mm on a sensor of 25 mm are two widths.
+    prepared = io.prepare_photo(tmp_path / "photo.jpg", sensor_width_mm=25.0)
+    assert prepared.focal_px == pytest.approx(1200)
+    assert pickle.loads(pickle.dumps(prepared)) == prepared
+
+
 def test_clouds(tmp_path):
     points = np.random.default_rng(3).normal(size=(30, 3)).astype(np.float32)
     colors = np.arange(90, dtype=np.uint8).reshape(30, 3)
     path = tmp_path / "cloud.ply"
     io.write_ply(path, stereo.PointCloud(points.astype(float), colors))
-    cloud, num_left_out = io.read_ply(path)
-    assert num_left_out == 0
+    cloud, notes = io.read_ply(path)
+    assert notes == []
     np.testing.assert_array_equal(cloud.points, points)
     np.testing.assert_array_equal(cloud.colors, colors)
     io.write_ply(path, points)
@@ -187,15 +254,17 @@ def test_pose_graphs(tmp_path):
         np.testing.assert_array_equal(again.ids, graph.ids)
 
 
-def test_g2o_has_priors_and_leaves_out_landmarks(tmp_path):
+def test_g2o_has_priors_and_landmarks(tmp_path):
     text = (b"VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_XY 2 4 4\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"
-            b"EDGE_SE2_XY 0 2 4 4 1 0 1\nEDGE_PRIOR_SE2 0 5 6 0 1 0 0 1 0 1\n")
-    with pytest.warns(UserWarning, match="1 landmark and 1 measurement of them are left out"):
+            b"EDGE_SE2_XY 0 2 4 5 1 0 1\nEDGE_BEARING_SE2_XY 0 2 1 1\nEDGE_PRIOR_SE2 0 5 6 0 1 0 0 1 0 1\n")
+    with pytest.warns(UserWarning, match="left out: 1 measurement"):
         graph = io.read_g2o(text)
+    assert list(graph.landmarks) == [2] and pickle.loads(pickle.dumps(graph)) == graph
     graph, _ = graph.optimize()
-    np.testing.assert_allclose(graph.vertices, [[5, 6, 0], [6, 6, 0]], atol=1e-6)
+    np.testing.assert_allclose(graph.vertices, [[5, 6, 0], [6, 6, 0], [9, 11, 0]], atol=1e-6)
     io.write_g2o(tmp_path / "graph.g2o", graph)
-    assert io.read_g2o(tmp_path / "graph.g2o").chi2() < 1e-12
+    again = io.read_g2o(tmp_path / "graph.g2o")
+    assert again.chi2() < 1e-12 and list(again.landmarks) == [2]
 
 
 def test_bal(tmp_path):

@@ -4,10 +4,12 @@ mod page;
 mod paper;
 mod pdf;
 mod png;
+mod sheet;
 mod svg;
 
 use self::page::Page;
 use self::paper::{Paper, paper};
+use self::sheet::{Sheet, SheetArguments};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::files;
@@ -19,7 +21,10 @@ use epipole::calibration::{Board, Pattern};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Draw a calibration board to print, true to scale.
+/// Last line of a caption.
+const AT_SCALE: &str = "Print at 100%, and measure the ruler.";
+
+/// Draw a calibration board or markers to print, true to scale.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole board --kind charuco --size 7x5 --square-mm 30 --marker-mm 22 -o board.pdf\n\n\
@@ -28,15 +33,17 @@ use std::path::PathBuf;
     ChArUco boards are those of OpenCV from 4.6 on: the upper left square is black (no legacyPattern), and\n\
     markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is the lower left one, and borders have\n\
     two bits; --square-mm is the side of a tag.\n\n\
+    Single markers: epipole board --markers 36h11 --size 3x4 --square-mm 45 --first-id 10 -o markers.pdf\n\n\
     JSON: files, kind, size (columns and rows), square_mm, paper_mm and board_mm (width and height of what is\n\
-    black), calibrate (options of `epipole calibrate` for this board)."
+    black), calibrate (options of `epipole calibrate` for this board). With --markers kind is \"markers\", and in\n\
+    place of calibrate: detect (options of `epipole detect`), ids (first and last), gap_mm."
 )]
 pub(crate) struct Arguments {
     /// Marks of the board. Inner corners of a chessboard, squares of a ChArUco board, tags of an
-    /// AprilGrid, disks.
+    /// AprilGrid, disks; single markers.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     size: (usize, usize),
-    /// Side of a square or tag, mm. Of circles the distance of two rows.
+    /// Side of a square, tag or marker, mm. Of circles the distance of two rows.
     #[arg(long, value_name = "S", default_value_t = 25.0, value_parser = positive)]
     square_mm: f64,
     /// Side of a ChArUco marker, mm (without, three quarters of a square).
@@ -54,9 +61,18 @@ pub(crate) struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     pattern: PatternArguments,
+    #[command(flatten)]
+    sheet: SheetArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure> {
+    match (arguments.sheet).sheet(arguments.size, arguments.square_mm)? {
+        Some(sheet) => draw_sheet(arguments, &sheet),
+        None => draw_board(arguments),
+    }
+}
+
+fn draw_board(arguments: &Arguments) -> Result<Report, Failure> {
     let pattern = arguments
         .pattern
         .pattern(arguments.marker_mm, arguments.square_mm);
@@ -72,14 +88,51 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
     let caption = [
         sizes(arguments, pattern),
         format!("epipole calibrate PHOTOS {options}"),
-        "Print at 100%, and measure the ruler.".to_owned(),
+        AT_SCALE.to_owned(),
     ];
-    let page = Page::new(&board, arguments.paper, &caption)?;
+    let mm = 1000.0 * board.square_m();
+    let page = Page::new(&board.drawing(), &[], mm, arguments.paper, &caption)?;
+    write(arguments, &page)?;
+    Ok(report(arguments, &page, arguments.pattern.name())
+        .field("calibrate", &options)
+        .row("calibrate with", options))
+}
+
+fn draw_sheet(arguments: &Arguments, sheet: &Sheet) -> Result<Report, Failure> {
+    let [first, last] = sheet.ids;
+    let name = sheet.dictionary.name();
+    let options = format!("--markers {name}");
+    let caption = [
+        format!(
+            "Markers {name}, {first} to {last}, of {} mm, {:.2} mm apart",
+            arguments.square_mm, sheet.gap_mm
+        ),
+        format!("epipole detect PHOTO {options}"),
+        AT_SCALE.to_owned(),
+    ];
+    let page = Page::new(
+        &sheet.drawing,
+        &sheet.labels,
+        arguments.square_mm,
+        arguments.paper,
+        &caption,
+    )?;
+    write(arguments, &page)?;
+    Ok(report(arguments, &page, "markers".to_owned())
+        .field("detect", &options)
+        .field("ids", sheet.ids)
+        .field("gap_mm", sheet.gap_mm)
+        .row("markers", format!("{name}, {first} to {last}"))
+        .row("detect with", options))
+}
+
+/// Writes the page to the file, whose ending is the format.
+fn write(arguments: &Arguments, page: &Page) -> Result<(), Failure> {
     let extension = arguments.output.extension().and_then(|e| e.to_str());
     let bytes = match extension.map(str::to_ascii_lowercase).as_deref() {
-        Some("pdf") => pdf::pdf(&page),
-        Some("svg") => svg::svg(&page).into_bytes(),
-        Some("png") => png::png(&page, arguments.dpi)?,
+        Some("pdf") => pdf::pdf(page),
+        Some("svg") => svg::svg(page).into_bytes(),
+        Some("png") => png::png(page, arguments.dpi)?,
         _ => {
             return Err(Failure::usage(format!(
                 "{} must end in .pdf, .svg or .png",
@@ -87,23 +140,24 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
             )));
         }
     };
-    files::write(&arguments.output, &bytes)?;
-    let [width, height] = page.board_mm;
-    Ok(Report::default()
+    files::write(&arguments.output, &bytes)
+}
+
+fn report(arguments: &Arguments, page: &Page, kind: String) -> Report {
+    let ((columns, rows), [width, height]) = (arguments.size, page.board_mm);
+    Report::default()
         .field("files", [&arguments.output])
-        .field("kind", arguments.pattern.name())
+        .field("kind", kind)
         .field("size", json!([columns, rows]))
         .field("square_mm", arguments.square_mm)
         .field("paper_mm", page.paper_mm)
         .field("board_mm", page.board_mm)
-        .field("calibrate", &options)
         .row("board", format!("{width:.1} × {height:.1} mm"))
         .row(
             "paper",
             format!("{} × {} mm", page.paper_mm[0], page.paper_mm[1]),
         )
-        .row("calibrate with", options)
-        .row("written", arguments.output.display()))
+        .row("written", arguments.output.display())
 }
 
 /// Options of `epipole calibrate` that describe the board.

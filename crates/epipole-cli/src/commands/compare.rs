@@ -78,6 +78,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let paths = [&arguments.truth, &arguments.estimate];
     let both = [Poses::read(paths[0])?, Poses::read(paths[1])?];
+    for (poses, path) in both.iter().zip(paths) {
+        for note in &poses.trajectory.notes {
+            context.warn(&format!("{}: {note}", path.display()));
+        }
+    }
     let max_difference_s = (!arguments.by_index).then_some(arguments.max_difference_s);
     let Association { pairs, by } = associate(&both, max_difference_s)?;
     let [truth, estimate] = both.each_ref().map(|poses| &poses.trajectory);

@@ -81,7 +81,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (format.name(), written)
         }
         (Target::Cameras(format), content) => {
-            let cameras = cameras_of(content)?;
+            let mut cameras = cameras_of(content)?;
+            notes.append(&mut cameras.notes);
             if format == CameraFormat::Colmap && cameras.right_from_left.is_some() {
                 notes.push("the motion between the cameras of the rig is not written".to_owned());
             }
@@ -89,7 +90,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (format.name(), write_text(text)?)
         }
         (Target::Trajectory(format), content) => {
-            let text = write_trajectory(format, &trajectory_of(content)?)?;
+            let mut trajectory = trajectory_of(content)?;
+            notes.append(&mut trajectory.notes);
+            let text = write_trajectory(format, &trajectory)?;
             (format.name(), write_text(text)?)
         }
         (Target::Model(format), content) => {
@@ -169,7 +172,8 @@ fn cameras_of(content: Content) -> Result<Cameras, Failure> {
             };
             Ok(Cameras {
                 cameras: model.cameras.iter().enumerate().map(named).collect(),
-                right_from_left: None,
+                notes: read.notes,
+                ..Cameras::default()
             })
         }
         Content::Trajectory(..) => Err(Failure::usage("a trajectory has no cameras to write")),
@@ -186,8 +190,9 @@ fn trajectory_of(content: Content) -> Result<Trajectory, Failure> {
                 .iter()
                 .map(|image| image.cam_from_world.inverse());
             Ok(Trajectory {
-                stamps_ns: None,
                 world_from_cam: poses.collect(),
+                notes: read.notes,
+                ..Trajectory::default()
             })
         }
         Content::Cameras(..) => Err(Failure::usage("cameras have no path to write")),

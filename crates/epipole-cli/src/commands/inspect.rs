@@ -71,7 +71,7 @@ fn of_model(report: Report, read: &ReadModel) -> Result<Report, Failure> {
             json!({
                 "cameras": model.cameras.len(), "images": model.images.len(),
                 "keypoints": keypoints, "points": model.points.len(),
-                "observations": observations,
+                "observations": observations, "rigs": model.rigs.len(),
             }),
         )
         .field("mean_reprojection_px", mean_px)
@@ -83,6 +83,9 @@ fn of_model(report: Report, read: &ReadModel) -> Result<Report, Failure> {
         .row("keypoints", keypoints)
         .row("points", model.points.len())
         .row("observations", observations);
+    if !model.rigs.is_empty() {
+        report = report.row("rigs", model.rigs.len());
+    }
     if let Some(mean_px) = mean_px {
         report = report.row("mean reprojection error", format!("{mean_px:.3} px"));
     }
@@ -113,7 +116,7 @@ fn of_cameras(report: Report, cameras: &Cameras) -> Report {
     let mut report = report
         .field("counts", json!({ "cameras": cameras.cameras.len() }))
         .field("cameras", each.collect::<Vec<_>>())
-        .field("notes", [""; 0])
+        .field("notes", &cameras.notes)
         .field("right_from_left", translation.map(|t| [t.x, t.y, t.z]));
     for named in &cameras.cameras {
         let (camera, k) = (&named.camera, &named.camera.intrinsics);
@@ -128,6 +131,9 @@ fn of_cameras(report: Report, cameras: &Cameras) -> Report {
             camera.lens.kind().name(),
         );
         report = report.row(&named.name, words);
+    }
+    for note in &cameras.notes {
+        report = report.row("note", note);
     }
     match translation {
         Some(t) => report.row(
@@ -147,13 +153,16 @@ fn of_trajectory(report: Report, trajectory: &Trajectory) -> Report {
     let stamps = trajectory.stamps_ns.as_deref().unwrap_or_default();
     let seconds = (stamps.first().zip(stamps.last()))
         .map(|(first, last)| last.saturating_sub(*first) as f64 * 1e-9);
-    let report = report
+    let mut report = report
         .field("counts", json!({ "poses": poses.len() }))
         .field("length", length)
         .field("seconds", seconds)
-        .field("notes", [""; 0])
+        .field("notes", &trajectory.notes)
         .row("poses", poses.len())
         .row("length", format!("{length:.3}, in the unit of the file"));
+    for note in &trajectory.notes {
+        report = report.row("note", note);
+    }
     match seconds {
         Some(seconds) => report.row("time", format!("{seconds:.3} s")),
         None => report,

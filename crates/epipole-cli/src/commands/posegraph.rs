@@ -18,11 +18,11 @@ use std::path::PathBuf;
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
     JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information\n\
     whatever the loss, iterations, termination (why it ended), num_vertices, num_edges,\n\
-    num_priors, notes (what was left out)."
+    num_landmarks, num_priors, notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// A g2o file with poses in the plane, in space, or in space with scale; priors count,
-    /// landmarks are left out.
+    /// A g2o file with poses in the plane, in space, or in space with scale, priors of poses, and
+    /// landmarks that are points.
     graph: PathBuf,
     /// Place the vertices from the measurements first, wherever the file puts them.
     #[arg(long)]
@@ -70,17 +70,21 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if let Some(path) = &arguments.output {
         result = result.file(path, write_g2o(&graph).into_bytes())?;
     }
-    let (vertices, edges) = graph.size();
+    let (num_vertices, edges) = graph.size();
+    let landmarks = graph.num_landmarks();
+    let vertices = num_vertices - landmarks;
     Ok(result
         .field("initial_chi2", initial_chi2)
         .field("final_chi2", final_chi2)
         .field("iterations", iterations)
         .field("termination", ended_by)
         .field("num_vertices", vertices)
+        .field("num_landmarks", landmarks)
         .field("num_edges", edges)
         .field("num_priors", graph.num_priors())
         .field("notes", read.notes)
         .row("vertices and edges", format!("{vertices} and {edges}"))
+        .row("landmarks", landmarks)
         .row("priors", graph.num_priors())
         .row("initial χ²", format!("{:.3}", initial_chi2))
         .row("final χ²", format!("{:.3}", final_chi2))

@@ -47,7 +47,7 @@ use std::path::PathBuf;
     --camera, or one whose distortion was refined. Give --undistort for programs that know PINHOLE alone.\n\n\
     Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
     begin, and one factor for all focal lengths is refined. Where nothing is given of the cameras, focal length\n\
-    and radial distortion are refined at the end, if five photographs or more show that this lowers the error by 5 %.\n\n\
+    and radial distortion are refined at the end, if five photographs or more show that this lowers the error by 5%.\n\n\
     JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px, lens: brown,\n\
     rational, fisheye or division, distortion: its coefficients as in the file of a camera, of a usual lens k1,\n\
     k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\

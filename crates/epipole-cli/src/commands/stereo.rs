@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
     }
     let range = (arguments.min_disparity, arguments.max_disparity);
-    // It takes as long as matching a small pair.
+    // Nobody would read it.
     if !context.quiet {
         pair::check(&photos, range, context)?;
     }

@@ -6,6 +6,7 @@ use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::imaging::GrayImage32;
 use image::{GrayImage, Luma};
 use nalgebra::Vector3;
+use serde_json::json;
 
 const CHARUCO: Pattern = Pattern::Charuco {
     dictionary: MarkerDictionary::Aruco5x5_100,
@@ -108,6 +109,67 @@ fn vectors_have_the_size_of_the_paper() {
     // 10 × 7 squares, half of them black, and the ruler with its ticks.
     assert_eq!(text.matches("h25.0000v25.0000").count(), 35);
     assert!(text.contains("h100.0000"));
+}
+
+#[test]
+fn single_markers_are_drawn_to_scale_and_found() {
+    let folder = Folder::new("markers");
+    let file = folder.file("markers.png");
+    let output = ["--dpi", "127", "-o", path(&file)];
+    for (name, first) in [("36h11", 560), ("5x5_100", 0)] {
+        let first_id = first.to_string();
+        let arguments = [
+            "board",
+            "--markers",
+            name,
+            "--size",
+            "3x4",
+            "--square-mm",
+            "40",
+        ];
+        let ids = ["--first-id", &first_id];
+        let result = json(&[&arguments[..], &ids, &output].concat());
+        assert_eq!(
+            (&result["kind"], &result["gap_mm"]),
+            (&json!("markers"), &json!(10.0))
+        );
+        assert_eq!(result["ids"], json!([first, first + 11]));
+        // Three markers and two gaps, four and three.
+        let board = numbers(&result["board_mm"]);
+        assert!((board[0] - 140.0).abs() < 1e-9 && (board[1] - 190.0).abs() < 1e-9);
+        let found = json(&["detect", path(&file), "--markers", name]);
+        let markers = found["markers"].as_array().unwrap();
+        assert_eq!(markers.len(), 12, "{name}");
+        for marker in markers {
+            let place = marker["id"].as_u64().unwrap() - first;
+            let corners: Vec<Vec<f64>> = marker["corners"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(numbers)
+                .collect();
+            let origin = numbers(&markers.iter().find(|m| m["id"] == first).unwrap()["corners"][0]);
+            // Five pixels a millimeter, upright, row by row.
+            let expected = [250.0 * (place % 3) as f64, 250.0 * (place / 3) as f64];
+            for axis in 0..2 {
+                assert!((corners[0][axis] - origin[axis] - expected[axis]).abs() < 0.5);
+            }
+            assert!((corners[1][0] - corners[0][0] - 200.0).abs() < 0.5);
+        }
+        let pdf = folder.file("markers.pdf");
+        json(&[&arguments[..], &ids, &["-o", path(&pdf)]].concat());
+        assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF-"));
+    }
+    for (more, why) in [
+        (&["--first-id", "580"][..], "whose markers are 0 to 586"),
+        (&["--gap-mm", "2"], "--gap-mm must be 3.13 at least"),
+        (&["--kind", "charuco"], "cannot be used with"),
+        (&["--square-mm", "100"], "does not fit"),
+    ] {
+        let arguments = ["board", "--markers", "36h11", "--size", "3x4"];
+        let all = [&arguments[..], more, &output].concat();
+        fails(&folder, &all, 2, why);
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use crate::common::{Folder, epipole, fails, field, json, matrix, numbers, path};
 use image::{GrayImage, Luma};
 use nalgebra::{Point2, Vector3};
+use serde_json::json;
 
 /// Standard error of a command that succeeds.
 fn told(arguments: &[&str]) -> String {
@@ -291,16 +292,29 @@ fn pose_graphs_have_priors_or_name_the_cause() {
 }
 
 #[test]
-fn landmarks_of_pose_graphs_are_left_out_with_a_sentence() {
+fn landmarks_of_pose_graphs_count_and_others_get_a_sentence() {
     let folder = Folder::new("landmarks");
     let graph = folder.write(
         "landmarks.g2o",
         "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 2 0 0\nVERTEX_XY 2 4 4\n\
-         EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 2 4 4 1 0 1\n",
+         EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 2 4 0 1 0 1\n\
+         EDGE_SE2_XY 1 2 2 0 1 0 1\nEDGE_BEARING_SE2_XY 1 2 0.7 1\n",
     );
     let sentence = told(&["posegraph", path(&graph)]);
-    let why = "warning: 1 landmark and 1 measurement of them are left out";
-    assert!(sentence.contains(why), "{sentence}");
+    assert!(
+        sentence.contains("warning: left out: 1 measurement. "),
+        "{sentence}"
+    );
+    let result = json(&["posegraph", path(&graph)]);
+    // Measured 4 ahead of the start, and 2 ahead of what is 1 ahead: each bears a third of 1.
+    assert!(
+        (result["final_chi2"].as_f64().unwrap() - 1.0 / 3.0).abs() < 1e-9,
+        "{result}"
+    );
+    assert_eq!(
+        (&result["num_vertices"], &result["num_landmarks"]),
+        (&json!(2), &json!(1))
+    );
 }
 
 #[test]

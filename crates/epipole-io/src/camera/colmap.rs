@@ -2,10 +2,11 @@
 //!
 //! Source: COLMAP's documentation, "Output format".
 
-use super::named::{Cameras, NamedCamera};
+use super::named::Cameras;
 use crate::Result;
-use crate::colmap::cameras::{read_cameras_binary, read_cameras_text, write_cameras_text};
-use epipole::camera::Camera;
+use crate::colmap::cameras::{
+    ListedCamera, read_cameras_binary, read_cameras_text, write_cameras_text,
+};
 use std::collections::BTreeSet;
 
 /// Whether a first line with content is `ID MODEL WIDTH …`.
@@ -27,21 +28,16 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read_text(text: &str) -> Result<Cameras> {
-    read_cameras_text(text).map(named)
+    named(read_cameras_text(text)?)
 }
 
 pub(super) fn read_binary(bytes: &[u8]) -> Result<Cameras> {
-    read_cameras_binary(bytes).map(named)
+    named(read_cameras_binary(bytes)?)
 }
 
-fn named(cameras: Vec<(u32, Camera)>) -> Cameras {
+fn named(cameras: Vec<ListedCamera>) -> Result<Cameras> {
     let named = cameras.into_iter();
-    Cameras {
-        cameras: named
-            .map(|(id, camera)| NamedCamera::new(id.to_string(), camera))
-            .collect(),
-        right_from_left: None,
-    }
+    Cameras::of_list(named.map(|(id, camera)| (id.to_string(), camera)))
 }
 
 /// `cameras.txt`. Names that are IDs, no two equal, stay; others are lost, and IDs count from 1.

@@ -178,7 +178,7 @@ mod tests {
         assert!(off.amax() < 1e-15);
         let three = Cameras {
             cameras: [&rig.cameras[..], &rig.cameras[..1]].concat(),
-            right_from_left: None,
+            ..Cameras::default()
         };
         assert!(matches!(write(&three), Err(Error::Unsupported { .. })));
     }

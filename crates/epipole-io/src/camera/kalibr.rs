@@ -6,9 +6,10 @@
 //! Source: Kalibr's wiki, "YAML formats"; Burri et al. 2016, "The EuRoC micro aerial vehicle
 //! datasets".
 
-use super::named::{Cameras, NamedCamera};
+use super::named::Cameras;
 use super::parts::{fisheye, lens, matrix_rotation};
 use crate::Result;
+use crate::error::set_aside;
 use crate::tree::Field;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use nalgebra::Translation3;
@@ -42,12 +43,14 @@ pub(super) fn read(root: &Field) -> Result<Cameras> {
     }
     let mut cameras = Vec::new();
     for (name, field) in &chain {
-        cameras.push(NamedCamera::new(name, camera(field)?));
+        cameras.push((name.clone(), set_aside(camera(field))?));
     }
-    let second = chain.get(1).and_then(|(_, field)| field.get("T_cn_cnm1"));
+    let has_both = cameras.iter().take(2).all(|(_, camera)| camera.is_ok());
+    let second = chain.get(1).filter(|_| has_both);
+    let second = second.and_then(|(_, field)| field.get("T_cn_cnm1"));
     Ok(Cameras {
-        cameras,
         right_from_left: second.map(|field| motion(&field)).transpose()?,
+        ..Cameras::of_list(cameras)?
     })
 }
 
@@ -201,9 +204,16 @@ cam1:
                 "cam0.distortion_model \"fov\"",
             ),
         ] {
-            let error = parse(&CHAIN.replacen(from, to, 1)).unwrap_err();
+            let rest = parse(&CHAIN.replacen(from, to, 1)).unwrap();
+            assert_eq!((rest.cameras.len(), &*rest.cameras[0].name), (1, "cam1"));
+            assert_eq!(rest.right_from_left, None);
+            let note = format!("camera cam0 is left out: {message}");
+            assert!(rest.notes[0].starts_with(&note), "{:?}", rest.notes);
+            // Nothing remains without the second camera.
+            let alone = CHAIN.split("cam1:").next().unwrap().replacen(from, to, 1);
+            let error = parse(&alone).unwrap_err();
             assert!(matches!(error, Error::Unsupported { .. }));
-            assert!(error.to_string().starts_with(message), "{error}");
+            assert!(error.to_string().starts_with(&note), "{error}");
         }
         let short = CHAIN.replacen(", 362.680", "", 1);
         let message = "line 3: cam0.intrinsics is not [fx, fy, cx, cy]";

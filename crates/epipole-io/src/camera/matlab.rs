@@ -55,6 +55,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
             NamedCamera::new("right", camera(&right, size)?),
         ],
         right_from_left: motion(&params)?,
+        ..Cameras::default()
     })
 }
 

@@ -8,9 +8,10 @@
 //!
 //! Source: Agisoft Metashape Professional user manual, appendix "Camera models".
 
-use super::named::{Cameras, NamedCamera};
+use super::named::Cameras;
 use super::parts::{check_skew, lens};
 use crate::Result;
+use crate::error::set_aside;
 use crate::tree::Field;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
@@ -35,15 +36,13 @@ pub(super) fn read(root: &Field) -> Result<Cameras> {
         };
         let name = sensor.get("label").or_else(|| sensor.get("id"));
         let name = name.and_then(|name| name.text()).unwrap_or("camera");
-        cameras.push(NamedCamera::new(name, camera(&calibration, Some(sensor))?));
+        let camera = set_aside(camera(&calibration, Some(sensor)))?;
+        cameras.push((name.to_owned(), camera));
     }
     if cameras.is_empty() {
         return Err(root.missing("calibration", "a sensor with a calibration"));
     }
-    Ok(Cameras {
-        cameras,
-        right_from_left: None,
-    })
+    Cameras::of_list(cameras)
 }
 
 fn find_sensors<'a>(field: &Field<'a>, sensors: &mut Vec<Field<'a>>) {
@@ -237,6 +236,13 @@ mod tests {
             (320, vec![0.1, 0.0, 0.0, 0.01])
         );
         let other = text.replace("type=\"fisheye\" class", "type=\"spherical\" class");
-        assert!(matches!(parse(&other), Err(Error::Unsupported { .. })));
+        let rest = parse(&other).unwrap();
+        assert_eq!((rest.cameras.len(), rest.notes.len()), (1, 1));
+        assert!(rest.notes[0].starts_with("camera wide is left out"));
+        let none = other.replace(
+            "type=\"frame\" class=\"adjusted\"",
+            "type=\"cylindrical\" class=\"adjusted\"",
+        );
+        assert!(matches!(parse(&none), Err(Error::Unsupported { .. })));
     }
 }

@@ -1,5 +1,7 @@
 //! Cameras with names.
 
+use crate::error::Listed;
+use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 
 /// A camera and its name in the file.
@@ -21,14 +23,36 @@ pub struct Cameras {
     /// Motion of a rig, from the first camera to the second: `x_in_right = R x_in_left + t`, in the
     /// unit of the file.
     pub right_from_left: Option<RigidTransform>,
+    /// Sentences on cameras of the file that are left out, as the library has no such lens.
+    pub notes: Vec<String>,
 }
 
 impl Cameras {
+    /// The cameras of a list, without those that are left out.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if none remain.
+    pub(super) fn of_list(
+        list: impl IntoIterator<Item = (String, Listed<Camera>)>,
+    ) -> Result<Self> {
+        let mut all = Self::default();
+        for (name, camera) in list {
+            match camera {
+                Ok(camera) => all.cameras.push(NamedCamera::new(name, camera)),
+                Err(why) => all.notes.push(format!("camera {name} is left out: {why}")),
+            }
+        }
+        match (&all.cameras[..], all.notes.first()) {
+            ([], Some(note)) => Err(Error::unsupported(note)),
+            _ => Ok(all),
+        }
+    }
+
     /// One camera, named "camera".
     pub fn of(camera: Camera) -> Self {
         Self {
             cameras: vec![NamedCamera::new("camera", camera)],
-            right_from_left: None,
+            ..Self::default()
         }
     }
 
@@ -40,6 +64,7 @@ impl Cameras {
                 NamedCamera::new("right", right),
             ],
             right_from_left: Some(right_from_left),
+            ..Self::default()
         }
     }
 

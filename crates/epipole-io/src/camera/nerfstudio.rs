@@ -7,9 +7,10 @@
 //!
 //! Source: nerfstudio's documentation, "Data conventions"; instant-ngp, `scripts/colmap2nerf.py`.
 
-use super::named::{Cameras, NamedCamera};
+use super::named::Cameras;
 use super::parts::{Size, lens, size_or};
 use crate::Result;
+use crate::error::set_aside;
 use crate::tree::Field;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
@@ -29,13 +30,10 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     let mut cameras = Vec::new();
     for frame in &frames {
         let name = frame.need("file_path", "the image of the frame")?;
-        let camera = camera(&Keys([frame, root]), size)?;
-        cameras.push(NamedCamera::new(name.text().unwrap_or_default(), camera));
+        let camera = set_aside(camera(&Keys([frame, root]), size))?;
+        cameras.push((name.text().unwrap_or_default().to_owned(), camera));
     }
-    Ok(Cameras {
-        cameras,
-        right_from_left: None,
-    })
+    Cameras::of_list(cameras)
 }
 
 /// Keys of a frame, and of the whole file where the frame has none.

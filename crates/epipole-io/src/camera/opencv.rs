@@ -89,6 +89,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
                 NamedCamera::new("right", side(1, &right)?),
             ],
             right_from_left,
+            ..Cameras::default()
         });
     }
     let matrix = root

@@ -42,7 +42,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     };
     Ok(Cameras {
         cameras: vec![NamedCamera::new(name.unwrap_or("camera"), camera)],
-        right_from_left: None,
+        ..Cameras::default()
     })
 }
 

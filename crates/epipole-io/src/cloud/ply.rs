@@ -1,10 +1,11 @@
 //! PLY: points with colors, ASCII or binary.
 //!
 //! Read are the properties x, y, z and red, green, blue of the element `vertex`, of any type and
-//! order; other properties and elements, such as faces, are skipped.
+//! order; other properties are skipped, and other elements, such as faces, are told.
 //!
 //! Source: Turk 1994, "The PLY polygon file format".
 
+use super::not_finite;
 use crate::bytes::Bytes;
 use crate::{Error, Result, text};
 use epipole::stereo::PointCloud;
@@ -228,8 +229,8 @@ impl Body<'_> {
     }
 }
 
-/// Points of a PLY file. Returned with them: the number of points with NaN or infinite coordinates,
-/// which are left out.
+/// Points of a PLY file. Returned with them: sentences on what was left out, points with NaN or
+/// infinite coordinates, and the faces of a mesh.
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line or byte.
@@ -238,11 +239,11 @@ impl Body<'_> {
 /// use epipole_io::cloud::read_ply;
 /// let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n\
 ///             property double z\nend_header\n1 2 3.5\n";
-/// let (cloud, _) = read_ply(text.as_bytes()).unwrap();
+/// let (cloud, notes) = read_ply(text.as_bytes()).unwrap();
 /// assert_eq!(cloud.points, [nalgebra::Point3::new(1.0, 2.0, 3.5)]);
-/// assert!(cloud.colors.is_empty());
+/// assert!(cloud.colors.is_empty() && notes.is_empty());
 /// ```
-pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, usize)> {
+pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
     let header = header(bytes)?;
     let mut body = match header.encoding {
         Encoding::Ascii => Body::Ascii {
@@ -309,7 +310,19 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, usize)> {
             cloud.colors.push(color);
         }
     }
-    Ok((cloud, num_not_finite))
+    let mut notes: Vec<String> = not_finite(num_not_finite).into_iter().collect();
+    notes.extend(header.elements.iter().filter_map(left_out));
+    Ok((cloud, notes))
+}
+
+/// Sentence on an element that is not read, if it has entries.
+fn left_out(element: &Element) -> Option<String> {
+    match (element.name.as_str(), element.count) {
+        ("vertex", _) | (_, 0) => None,
+        ("face", 1) => Some("1 face is not read: a mesh becomes points".to_owned()),
+        ("face", count) => Some(format!("{count} faces are not read: a mesh becomes points")),
+        (name, count) => Some(format!("element {name} is not read, {count} entries")),
+    }
 }
 
 /// Bytes of a binary little-endian PLY file: x, y, z as `float`, and red, green, blue as `uchar` if
@@ -365,7 +378,7 @@ mod tests {
         assert_eq!(&ply[header + 12..], [10, 20, 30]);
         cloud.colors.clear();
         assert!(write_ply(&cloud).ends_with(&ply[header..header + 12]));
-        assert_eq!(read_ply(&write_ply(&cloud)).unwrap(), (cloud, 0));
+        assert_eq!(read_ply(&write_ply(&cloud)).unwrap(), (cloud, Vec::new()));
     }
 
     #[test]
@@ -384,7 +397,13 @@ mod tests {
             points: vec![Point3::new(1.0, 2.0, 3.0)],
             colors: vec![[255, 128, 0]],
         };
-        assert_eq!(read_ply(text.as_bytes()).unwrap(), (expected.clone(), 1));
+        let notes = [
+            "1 point has NaN or infinite coordinates: left out",
+            "1 face is not read: a mesh becomes points",
+            "element edge is not read, 9 entries",
+        ];
+        let expected = (expected, notes.map(str::to_owned).to_vec());
+        assert_eq!(read_ply(text.as_bytes()).unwrap(), expected);
         let mut big = head("binary_big_endian").into_bytes();
         big.extend([1, 0, 0, 0, 7]);
         for z in [3.0, f64::INFINITY] {
@@ -394,7 +413,7 @@ mod tests {
             big.extend(1i16.to_be_bytes());
             big.extend([1f32, 0.5, 0.0].iter().flat_map(|c| c.to_be_bytes()));
         }
-        assert_eq!(read_ply(&big).unwrap(), (expected, 1));
+        assert_eq!(read_ply(&big).unwrap(), expected);
     }
 
     #[test]

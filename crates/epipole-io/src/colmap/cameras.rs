@@ -5,24 +5,27 @@
 use super::models::{camera_from_colmap, colmap_from_camera, model_of_id};
 use super::words::{Words, content};
 use crate::bytes::{Bytes, extend};
+use crate::error::{Listed, set_aside};
 use crate::{Error, Result};
 use epipole::camera::Camera;
 use std::fmt::Write;
 
-/// Cameras of `cameras.txt` with their IDs.
+/// A camera with its ID, or the sentence why the library does not have it.
+pub(crate) type ListedCamera = (u32, Listed<Camera>);
+
+/// Cameras of `cameras.txt`.
 ///
 /// # Errors
-/// [`Error::Malformed`] with the line, [`Error::Unsupported`] for a model that the library does not
-/// have.
-pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<(u32, Camera)>> {
+/// [`Error::Malformed`] with the line.
+pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<ListedCamera>> {
     let mut cameras = Vec::new();
     for (line, content) in content(text) {
         let mut words = Words::new(line, content);
         let id = words.whole("the camera ID")?;
         let name = words.word("the camera model")?;
         let [width, height] = [words.whole("the width")?, words.whole("the height")?];
-        let camera = camera_from_colmap(name, width, height, &words.rest()?)
-            .map_err(|error| error.on_line(line))?;
+        let camera = camera_from_colmap(name, width, height, &words.rest()?);
+        let camera = set_aside(camera).map_err(|error| error.on_line(line))?;
         cameras.push((id, camera));
     }
     Ok(cameras)
@@ -46,12 +49,12 @@ pub(crate) fn write_cameras_text(cameras: &[(u32, Camera)]) -> String {
     text
 }
 
-/// Cameras of `cameras.bin` with their IDs.
+/// Cameras of `cameras.bin`.
 ///
 /// # Errors
-/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a model that the library does
-/// not have.
-pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<(u32, Camera)>> {
+/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a number of a model that is
+/// not known: nor is its length.
+pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<ListedCamera>> {
     let mut bytes = Bytes::new(bytes);
     let mut cameras = Vec::new();
     for _ in 0..bytes.count("cameras", 24)? {
@@ -61,17 +64,11 @@ pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<(u32, Camera)>> {
         let params = (0..num_params).map(|_| bytes.f64());
         let params = params.collect::<Result<Vec<f64>>>()?;
         let camera = camera_from_colmap(name, width, height, &params);
-        cameras.push((id, camera.map_err(|error| in_camera(id, error))?));
+        let named = |error| Error::malformed(format!("camera {id}: {error}"));
+        cameras.push((id, set_aside(camera).map_err(named)?));
     }
     bytes.end()?;
     Ok(cameras)
-}
-
-fn in_camera(id: u32, error: Error) -> Error {
-    match error {
-        Error::Unsupported { message } => Error::Unsupported { message },
-        other => Error::malformed(format!("camera {id}: {other}")),
-    }
 }
 
 /// Bytes of `cameras.bin`.

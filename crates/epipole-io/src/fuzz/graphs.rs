@@ -17,7 +17,7 @@ const BAL: [&str; 2] = [
      0.1 0.2 -5\n-1 0.4 -6\n0.3 -0.2 -4\n",
 ];
 
-const G2O: [&str; 5] = [
+const G2O: [&str; 6] = [
     "VERTEX_SE2 5 0 0 0\nVERTEX_SE2 9 1.5 0 0.25\nFIX 5\nEDGE_SE2 5 9 1 0 0 4 0.5 0 3 0 2\n",
     "# two\n\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 -2\n\
      EDGE_SE3:QUAT 0 1 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n",
@@ -28,6 +28,8 @@ const G2O: [&str; 5] = [
     "PARAMS_SE3OFFSET 3 0.5 0 0 0 0.6 0 0.8\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n\
      EDGE_SE3_PRIOR 0 3 1 2 3 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n\
      EDGE_SE3_XYZ_PRIOR 0 3 1 2 3 1 0 0 1 0 1\n",
+    "PARAMS_SE3OFFSET 3 0.5 0 0 0 0.6 0 0.8\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_TRACKXYZ 1 4 -5 6\n\
+     EDGE_SE3_TRACKXYZ 0 1 3 0.1 0.2 0.3 2 0.5 0.25 3 1 5\n",
 ];
 
 /// Whether the error names a line of the text.

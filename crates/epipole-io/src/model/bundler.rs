@@ -190,8 +190,9 @@ pub(super) fn read(
             keys.enumerate().map(|(place, key)| (*key, place)).collect()
         })
         .collect();
-    let points = points.into_iter().zip(tracks);
-    let points = points.map(|((position, color), track)| ModelPoint {
+    let points = (1..).zip(points).zip(tracks);
+    let points = points.map(|((id, (position, color)), track)| ModelPoint {
+        id,
         position,
         color,
         error_px: None,

@@ -6,7 +6,7 @@
 //! `src/colmap/scene/reconstruction_io_binary.cc`.
 
 use super::colmap_parts::{ImagePart, Parts, PointPart};
-use super::{Model, ModelFile};
+use super::{Model, ModelFile, colmap_rigs};
 use crate::bytes::{Bytes, extend};
 use crate::colmap::cameras::{read_cameras_binary, write_cameras_binary};
 use crate::{Error, Result};
@@ -53,7 +53,7 @@ fn read_points(bytes: &[u8]) -> Result<Vec<PointPart>> {
     let mut bytes = Bytes::new(bytes);
     let mut points = Vec::new();
     for _ in 0..bytes.count("points", 51)? {
-        bytes.u64()?;
+        let id = bytes.u64()?;
         let position = Point3::from(bytes.f64s::<3>()?);
         let color = [bytes.u8()?, bytes.u8()?, bytes.u8()?];
         let error_px = bytes.f64()?;
@@ -62,6 +62,7 @@ fn read_points(bytes: &[u8]) -> Result<Vec<PointPart>> {
             track.push((bytes.u32()?, bytes.u32()?));
         }
         points.push(PointPart {
+            id,
             position,
             color,
             error_px,
@@ -74,12 +75,19 @@ fn read_points(bytes: &[u8]) -> Result<Vec<PointPart>> {
 
 /// Reads a binary model.
 ///
+/// * `rigs`: `rigs.bin` and `frames.bin`
+///
 /// Returned with it: sentences on what was left out.
 pub(super) fn read(
     cameras: &[u8],
     images: &[u8],
     points: Option<&[u8]>,
+    rigs: Option<[&[u8]; 2]>,
 ) -> Result<(Model, Vec<String>)> {
+    let (rigs, frames) = match rigs {
+        Some([rigs, frames]) => colmap_rigs::read_binary(rigs, frames)?,
+        None => Default::default(),
+    };
     let parts = Parts {
         cameras: read_cameras_binary(cameras).map_err(|error| error.in_file("cameras.bin"))?,
         images: read_images(images).map_err(|error| error.in_file("images.bin"))?,
@@ -87,13 +95,15 @@ pub(super) fn read(
             Some(points) => read_points(points).map_err(|error| error.in_file("points3D.bin"))?,
             None => Vec::new(),
         },
+        rigs,
+        frames,
     };
     parts.join()
 }
 
 impl Model {
-    /// COLMAP's binary model: `cameras.bin`, `images.bin` and `points3D.bin`, with the cameras and
-    /// IDs of [`to_colmap_text`](Self::to_colmap_text). Names may hold blanks; a byte 0 in them
+    /// COLMAP's binary model: `cameras.bin`, `images.bin`, `points3D.bin`, and `rigs.bin` with
+    /// `frames.bin`, with the cameras and IDs of [`to_colmap_text`](Self::to_colmap_text). Names may hold blanks; a byte 0 in them
     /// becomes `_`.
     ///
     /// # Errors
@@ -115,13 +125,13 @@ impl Model {
             for (keypoint, point) in image.keypoints.iter().zip(point_of_keypoint) {
                 let pixel = pixel_to_colmap(keypoint);
                 extend(&mut images, &[pixel.x, pixel.y]);
-                let id = point.map_or(NO_POINT, |point| point as u64 + 1);
+                let id = point.map_or(NO_POINT, |point| self.points[point].id);
                 images.extend(id.to_le_bytes());
             }
         }
         let mut points = (self.points.len() as u64).to_le_bytes().to_vec();
-        for (index, point) in self.points.iter().enumerate() {
-            points.extend((index as u64 + 1).to_le_bytes());
+        for point in &self.points {
+            points.extend(point.id.to_le_bytes());
             extend(&mut points, point.position.coords.as_slice());
             points.extend(point.color);
             extend(&mut points, &[point.error_px.unwrap_or(-1.0)]);
@@ -131,14 +141,14 @@ impl Model {
                 points.extend((keypoint as u32).to_le_bytes());
             }
         }
-        Ok(vec![
-            ModelFile::new(
-                "cameras.bin",
-                write_cameras_binary(&self.numbered_cameras()),
-            ),
+        let cameras = write_cameras_binary(&self.numbered_cameras());
+        let mut files = vec![
+            ModelFile::new("cameras.bin", cameras),
             ModelFile::new("images.bin", images),
             ModelFile::new("points3D.bin", points),
-        ])
+        ];
+        files.extend(self.rigs_binary());
+        Ok(files)
     }
 }
 
@@ -157,7 +167,7 @@ mod tests {
 
     #[test]
     fn bytes_are_those_of_the_definition() {
-        let [(id, camera)] = read_cameras_binary(&cameras()).unwrap()[..] else {
+        let [(id, Ok(camera))] = read_cameras_binary(&cameras()).unwrap()[..] else {
             panic!("one camera");
         };
         assert_eq!((id, camera.width, camera.height), (12, 640, 480));
@@ -178,6 +188,8 @@ mod tests {
         assert!(of(&[cameras(), vec![0]].concat()).contains("1 bytes follow"));
         let mut other = cameras();
         other[12] = 7;
-        assert!(of(&[other, vec![0; 8]].concat()).contains("FOV is not supported"));
+        let listed = read_cameras_binary(&[other, vec![0; 8]].concat()).unwrap();
+        let why = listed[0].1.as_ref().unwrap_err();
+        assert!(why.contains("FOV is not supported"), "{why}");
     }
 }

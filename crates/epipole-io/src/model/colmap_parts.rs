@@ -1,18 +1,23 @@
-//! COLMAP's three lists, with the IDs that join them.
+//! COLMAP's lists, with the IDs that join them.
 
-use super::notes::not_finite;
-use super::{Model, ModelImage, ModelPoint};
+use super::colmap_rigs::{FramePart, RigPart};
+use super::notes::LeftOut;
+use super::{Model, ModelImage, ModelPoint, Rig, RigCamera, RigFrame};
+use crate::cloud::not_finite;
+use crate::colmap::cameras::ListedCamera;
 use crate::rotation::{pose, rotation_from_quaternion};
 use crate::{Error, Result};
-use epipole::camera::{Camera, RigidTransform};
+use epipole::camera::RigidTransform;
 use nalgebra::{Point2, Point3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Lists of cameras, images and points as files have them.
 pub(super) struct Parts {
-    pub(super) cameras: Vec<(u32, Camera)>,
+    pub(super) cameras: Vec<ListedCamera>,
     pub(super) images: Vec<ImagePart>,
     pub(super) points: Vec<PointPart>,
+    pub(super) rigs: Vec<RigPart>,
+    pub(super) frames: Vec<FramePart>,
 }
 
 /// An image of the list.
@@ -28,6 +33,7 @@ pub(super) struct ImagePart {
 
 /// A point of the list.
 pub(super) struct PointPart {
+    pub(super) id: u64,
     pub(super) position: Point3<f64>,
     pub(super) color: [u8; 3],
     pub(super) error_px: f64,
@@ -42,24 +48,151 @@ impl ImagePart {
     }
 }
 
+/// Rigs with the cameras that are there, and the place of each image in them.
+struct Rigs {
+    rigs: Vec<Rig>,
+    /// Rig and frame, by ID of the image.
+    place_of_image: HashMap<u32, (usize, usize)>,
+    /// IDs of the images of frames without a pose.
+    lost: HashSet<u32>,
+    num_other_sensors: usize,
+}
+
+impl Rigs {
+    /// The frame of a rig becomes that of the first camera that is there and has a place.
+    fn join(
+        rigs: Vec<RigPart>,
+        frames: Vec<FramePart>,
+        camera_of_id: &HashMap<u32, usize>,
+    ) -> Result<Self> {
+        let mut all = Self {
+            rigs: Vec::new(),
+            place_of_image: HashMap::new(),
+            lost: HashSet::new(),
+            num_other_sensors: 0,
+        };
+        let mut place_of_rig = HashMap::new();
+        for part in rigs {
+            let mut first_from_rig = None;
+            let mut cameras = Vec::new();
+            for sensor in &part.sensors {
+                all.num_other_sensors += usize::from(sensor.camera.is_none());
+                let camera = sensor.camera.and_then(|id| camera_of_id.get(&id));
+                if let (Some(&camera), Some(cam_from_rig)) = (camera, sensor.pose) {
+                    let first = *first_from_rig.get_or_insert(cam_from_rig);
+                    let cam_from_rig = match cameras.is_empty() {
+                        true => RigidTransform::identity(),
+                        false if first == RigidTransform::identity() => cam_from_rig,
+                        false => cam_from_rig * first.inverse(),
+                    };
+                    cameras.push(RigCamera {
+                        camera,
+                        cam_from_rig,
+                    });
+                }
+            }
+            let place = first_from_rig.map(|first| (all.rigs.len(), first));
+            if place_of_rig.insert(part.id, place).is_some() {
+                return Err(Error::malformed(format!("two rigs have ID {}", part.id)));
+            }
+            if place.is_some() {
+                all.rigs.push(Rig {
+                    id: part.id,
+                    cameras,
+                    frames: Vec::new(),
+                });
+            }
+        }
+        for part in frames {
+            let place = place_of_rig.get(&part.rig).ok_or_else(|| {
+                Error::malformed(format!(
+                    "frame {} has rig {}, which is not listed",
+                    part.id, part.rig
+                ))
+            })?;
+            let (Some((rig, first_from_rig)), Some(rig_from_world)) = (*place, part.rig_from_world)
+            else {
+                all.lost.extend(part.images);
+                continue;
+            };
+            let place = (rig, all.rigs[rig].frames.len());
+            for image in part.images {
+                if all.place_of_image.insert(image, place).is_some() {
+                    return Err(Error::malformed(format!("image {image} is in two frames")));
+                }
+            }
+            all.rigs[rig].frames.push(RigFrame {
+                id: part.id,
+                rig_from_world: match first_from_rig == RigidTransform::identity() {
+                    true => rig_from_world,
+                    false => first_from_rig * rig_from_world,
+                },
+                images: Vec::new(),
+            });
+        }
+        Ok(all)
+    }
+
+    /// Pose of an image, which is added to its frame; `None` without one.
+    fn place(&mut self, part: &ImagePart, camera: usize, index: usize) -> Option<RigidTransform> {
+        let Some(&(rig, frame)) = self.place_of_image.get(&part.id) else {
+            return part.pose().filter(|_| !self.lost.contains(&part.id));
+        };
+        let Rig {
+            cameras, frames, ..
+        } = &mut self.rigs[rig];
+        let of_rig = cameras.iter().find(|other| other.camera == camera)?;
+        let found = of_rig.cam_from_rig * frames[frame].rig_from_world;
+        let found = pose(found.rotation, found.translation.vector)?;
+        frames[frame].images.push(index);
+        Some(found)
+    }
+
+    /// The rigs, if one of them has several cameras.
+    fn finish(mut self) -> Vec<Rig> {
+        if self.rigs.iter().all(|rig| rig.cameras.len() < 2) {
+            return Vec::new();
+        }
+        for rig in &mut self.rigs {
+            rig.frames.retain(|frame| !frame.images.is_empty());
+        }
+        self.rigs
+    }
+}
+
 impl Parts {
     /// The model, with sentences on what was left out.
     pub(super) fn join(self) -> Result<(Model, Vec<String>)> {
-        let mut notes = Vec::new();
-        let mut camera_of_id = HashMap::new();
+        let mut left_out = LeftOut::default();
+        let (mut camera_of_id, mut why_of_id) = (HashMap::new(), HashMap::new());
         let (mut cameras, mut camera_ids) = (Vec::new(), Vec::new());
         for (id, camera) in self.cameras {
-            if camera_of_id.insert(id, cameras.len()).is_some() {
+            if camera_of_id.contains_key(&id) || why_of_id.contains_key(&id) {
                 return Err(Error::malformed(format!("two cameras have ID {id}")));
             }
-            cameras.push(camera);
-            camera_ids.push(id);
+            match camera {
+                Ok(camera) => {
+                    camera_of_id.insert(id, cameras.len());
+                    cameras.push(camera);
+                    camera_ids.push(id);
+                }
+                Err(why) => {
+                    let why = format!("camera {id}: {why}");
+                    left_out.add(&why, None);
+                    why_of_id.insert(id, why);
+                }
+            }
         }
-        let mut image_of_id = HashMap::new();
+        let mut rigs = Rigs::join(self.rigs, self.frames, &camera_of_id)?;
+        let (mut image_of_id, mut num_without) = (HashMap::new(), 0_usize);
         let mut images = Vec::new();
         for part in self.images {
-            if image_of_id.insert(part.id, images.len()).is_some() {
+            if image_of_id.insert(part.id, None).is_some() {
                 return Err(Error::malformed(format!("two images have ID {}", part.id)));
+            }
+            if let Some(why) = why_of_id.get(&part.camera) {
+                left_out.add(why, Some(&part.name));
+                continue;
             }
             let camera = *camera_of_id.get(&part.camera).ok_or_else(|| {
                 Error::malformed(format!(
@@ -67,18 +200,37 @@ impl Parts {
                     part.id, part.name, part.camera
                 ))
             })?;
+            let Some(cam_from_world) = rigs.place(&part, camera, images.len()) else {
+                let is_of_rig = rigs.lost.contains(&part.id);
+                if is_of_rig || rigs.place_of_image.contains_key(&part.id) {
+                    num_without += 1;
+                    continue;
+                }
+                return Err(Error::malformed(format!(
+                    "the pose of image {} ({}) is not finite, or its quaternion is 0",
+                    part.id, part.name
+                )));
+            };
+            image_of_id.insert(part.id, Some(images.len()));
             images.push(ModelImage {
                 id: part.id,
                 camera,
-                cam_from_world: part.pose().ok_or_else(|| {
-                    Error::malformed(format!(
-                        "the pose of image {} ({}) is not finite, or its quaternion is 0",
-                        part.id, part.name
-                    ))
-                })?,
+                cam_from_world,
                 name: part.name,
                 keypoints: part.keypoints,
             });
+        }
+        let mut notes = left_out.notes(images.len())?;
+        if num_without > 0 {
+            notes.push(format!(
+                "{num_without} images have no pose in their rig: left out"
+            ));
+        }
+        if rigs.num_other_sensors > 0 {
+            notes.push(format!(
+                "{} sensors of rigs are no cameras: left out",
+                rigs.num_other_sensors
+            ));
         }
         let (mut num_lost, mut num_not_finite) = (0_usize, 0);
         let mut points = Vec::new();
@@ -89,13 +241,17 @@ impl Parts {
             }
             let mut track = Vec::new();
             for (image, keypoint) in part.track {
-                let image = image_of_id.get(&image).copied();
-                match image.filter(|i| (keypoint as usize) < images[*i].keypoints.len()) {
-                    Some(image) => track.push((image, keypoint as usize)),
-                    None => num_lost += 1,
+                match image_of_id.get(&image) {
+                    // Its image is left out.
+                    Some(None) => {}
+                    Some(Some(image)) if (keypoint as usize) < images[*image].keypoints.len() => {
+                        track.push((*image, keypoint as usize));
+                    }
+                    _ => num_lost += 1,
                 }
             }
             points.push(ModelPoint {
+                id: part.id,
                 position: part.position,
                 color: part.color,
                 // COLMAP has −1 where it did not compute one.
@@ -114,7 +270,9 @@ impl Parts {
             camera_ids,
             images,
             points,
+            rigs: rigs.finish(),
         };
+        model.check()?;
         Ok((model, notes))
     }
 }

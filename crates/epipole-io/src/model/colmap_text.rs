@@ -6,7 +6,7 @@
 //! Source: COLMAP's documentation, "Output format", "Text format".
 
 use super::colmap_parts::{ImagePart, Parts, PointPart};
-use super::{Model, ModelFile};
+use super::{Model, ModelFile, colmap_rigs};
 use crate::colmap::cameras::{read_cameras_text, write_cameras_text};
 use crate::colmap::words::{Words, content, is_skipped};
 use crate::text::number;
@@ -63,7 +63,7 @@ fn read_points(text: &str) -> Result<Vec<PointPart>> {
     let mut points = Vec::new();
     for (line, content) in content(text) {
         let mut words = Words::new(line, content);
-        words.whole::<u64>("the point ID")?;
+        let id = words.whole("the point ID")?;
         let mut position = [0.0; 3];
         for value in &mut position {
             *value = words.any_number("the position")?;
@@ -80,6 +80,7 @@ fn read_points(text: &str) -> Result<Vec<PointPart>> {
             track.push((image, words.whole("the keypoint of an observation")?));
         }
         points.push(PointPart {
+            id,
             position: Point3::from(position),
             color,
             error_px,
@@ -91,12 +92,19 @@ fn read_points(text: &str) -> Result<Vec<PointPart>> {
 
 /// Reads a text model.
 ///
+/// * `rigs`: `rigs.txt` and `frames.txt`
+///
 /// Returned with it: sentences on what was left out.
 pub(super) fn read(
     cameras: &[u8],
     images: &[u8],
     points: Option<&[u8]>,
+    rigs: Option<[&[u8]; 2]>,
 ) -> Result<(Model, Vec<String>)> {
+    let (rigs, frames) = match rigs {
+        Some([rigs, frames]) => colmap_rigs::read_text(rigs, frames)?,
+        None => Default::default(),
+    };
     let parts = Parts {
         cameras: read_cameras_text(text::decode(cameras)?)
             .map_err(|error| error.in_file("cameras.txt"))?,
@@ -107,17 +115,20 @@ pub(super) fn read(
             }
             None => Vec::new(),
         },
+        rigs,
+        frames,
     };
     parts.join()
 }
 
 impl Model {
-    /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
+    /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`, and where a rig has
+    /// several cameras, `rigs.txt` and `frames.txt`, which COLMAP reads from 3.12 on.
     ///
     /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
     /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
     /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
-    /// more off the axis of a fisheye to be behind the camera. Points are numbered from one on. A
+    /// more off the axis of a fisheye to be behind the camera. A
     /// name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads it up
     /// to the first blank, in text files only.
     ///
@@ -154,7 +165,7 @@ impl Model {
                 let pixel = pixel_to_colmap(keypoint);
                 let (x, y) = (pixel.x, pixel.y);
                 let _ = match point {
-                    Some(point) => write!(images, "{space}{x} {y} {}", point + 1),
+                    Some(point) => write!(images, "{space}{x} {y} {}", self.points[*point].id),
                     None => write!(images, "{space}{x} {y} -1"),
                 };
             }
@@ -163,27 +174,26 @@ impl Model {
         let mut points = String::from(
             "# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n",
         );
-        for (index, point) in self.points.iter().enumerate() {
+        for point in &self.points {
             let ([r, g, b], p) = (point.color, point.position);
             let error_px = point.error_px.unwrap_or(-1.0);
             let _ = write!(
                 points,
                 "{} {} {} {} {r} {g} {b} {error_px}",
-                index + 1,
-                p.x,
-                p.y,
-                p.z
+                point.id, p.x, p.y, p.z
             );
             for &(image, keypoint) in &point.track {
                 let _ = write!(points, " {} {keypoint}", self.images[image].id);
             }
             points.push('\n');
         }
-        Ok(vec![
+        let mut files = vec![
             ModelFile::new("cameras.txt", write_cameras_text(&self.numbered_cameras())),
             ModelFile::new("images.txt", images),
             ModelFile::new("points3D.txt", points),
-        ])
+        ];
+        files.extend(self.rigs_text());
+        Ok(files)
     }
 }
 
@@ -202,6 +212,7 @@ mod tests {
             CAMERAS.as_bytes(),
             IMAGES.as_bytes(),
             Some(POINTS.as_bytes()),
+            None,
         )
         .unwrap();
         let names = model.images.iter().map(|image| (image.id, &*image.name));
@@ -215,10 +226,11 @@ mod tests {
             epipole::camera::RigidTransform::translation(1.0, 2.0, 3.0)
         );
         assert_eq!(model.points.len(), 1);
+        assert_eq!(model.points[0].id, 77);
         let point = &model.points[0];
         assert_eq!((point.error_px, &point.track), (None, &vec![(0, 1)]));
         assert_eq!(notes.len(), 2, "{notes:?}");
-        assert!(notes[0].contains("1 points") && notes[1].contains("2 observations"));
+        assert!(notes[0].contains("1 point has") && notes[1].contains("2 observations"));
     }
 
     #[test]
@@ -228,6 +240,7 @@ mod tests {
                 cameras.as_bytes(),
                 images.as_bytes(),
                 Some(points.as_bytes()),
+                None,
             );
             read.unwrap_err().to_string()
         };

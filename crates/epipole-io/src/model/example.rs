@@ -1,7 +1,7 @@
 //! A small model for tests: points that every image sees exactly.
 
-use super::{Model, ModelImage, ModelPoint};
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, look_at};
+use super::{Model, ModelImage, ModelPoint, Rig, RigCamera, RigFrame};
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform, look_at};
 use nalgebra::{Point3, Vector3};
 
 /// Names that files, shells and text models stumble over.
@@ -41,6 +41,7 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
     };
     let mut points: Vec<ModelPoint> = (0..8)
         .map(|n| ModelPoint {
+            id: 40 - 3 * n as u64,
             position: corner(n),
             color: [n as u8 * 30, 7, 255],
             error_px: Some(0.125 * n as f64),
@@ -72,7 +73,40 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
         cameras,
         images,
         points,
+        rigs: Vec::new(),
     }
+}
+
+/// The same with the first two cameras in a rig, and the third in one of its own.
+pub(super) fn in_rigs(mut model: Model) -> Model {
+    let cam_from_rig =
+        RigidTransform::new(Vector3::new(0.5, 0.0, 0.1), Vector3::new(0.1, 0.2, 0.3));
+    let identity = RigidTransform::identity();
+    let poses: Vec<RigidTransform> = model.images.iter().map(|i| i.cam_from_world).collect();
+    // Images are by camera 0, 1, 2 and 0.
+    model.images[1].cam_from_world = cam_from_rig * poses[0];
+    let frame = |id, rig_from_world, images| RigFrame {
+        id,
+        rig_from_world,
+        images,
+    };
+    let camera = |camera, cam_from_rig| RigCamera {
+        camera,
+        cam_from_rig,
+    };
+    model.rigs = vec![
+        Rig {
+            id: 5,
+            cameras: vec![camera(0, identity), camera(1, cam_from_rig)],
+            frames: vec![frame(8, poses[0], vec![0, 1]), frame(2, poses[3], vec![3])],
+        },
+        Rig {
+            id: 3,
+            cameras: vec![camera(2, identity)],
+            frames: vec![frame(4, poses[2], vec![2])],
+        },
+    ];
+    model
 }
 
 /// Largest difference of cameras, poses, keypoints and points; the rest is asserted to be equal.

@@ -2,11 +2,11 @@
 
 use super::notes::has_blank;
 use super::{
-    Beside, Model, ModelFile, bundler, colmap_binary, colmap_text, nerfstudio, notes, openmvg,
-    points_of,
+    Beside, Model, ModelFile, bundler, colmap_binary, colmap_text, nerfstudio, openmvg, points_of,
 };
 use crate::cloud::read_ply;
 use crate::{Error, Result};
+use epipole::camera::LensKind;
 
 /// Formats of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,6 +80,22 @@ impl ModelFormat {
         }
         let has_tracks = model.num_observations() > 0;
         let has_images = !model.images.is_empty();
+        let is_colmap = matches!(self, Self::ColmapText | Self::ColmapBinary);
+        if !model.rigs.is_empty() && !is_colmap && self != Self::Ply {
+            losses.push("rigs are not written: each image has its pose".to_owned());
+        }
+        let mut kinds = model
+            .cameras
+            .iter()
+            .map(|c| c.lens.kind() == LensKind::Fisheye);
+        let first = kinds.next();
+        if self == Self::Transforms && kinds.any(|kind| Some(kind) != first) {
+            losses.push(
+                "nerfstudio reads one camera model for all images, and these have several: convert \
+                 those of fisheyes apart"
+                    .to_owned(),
+            );
+        }
         match self {
             Self::Transforms if has_tracks => {
                 losses.push("keypoints and tracks are not written".to_owned());
@@ -139,7 +155,7 @@ fn with_format(format: ModelFormat, (model, notes): (Model, Vec<String>)) -> Rea
 /// # Ok::<(), epipole_io::Error>(())
 /// ```
 pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
-    type Read = fn(&[u8], &[u8], Option<&[u8]>) -> Result<(Model, Vec<String>)>;
+    type Read = fn(&[u8], &[u8], Option<&[u8]>, Option<[&[u8]; 2]>) -> Result<(Model, Vec<String>)>;
     let readers: [(_, _, Read); 2] = [
         ("bin", ModelFormat::ColmapBinary, colmap_binary::read),
         ("txt", ModelFormat::ColmapText, colmap_text::read),
@@ -153,14 +169,19 @@ pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
             (None, Some(_)) => return Err(alone("images", "cameras", ending)),
             (None, None) => continue,
         };
-        let mut read = with_format(format, read(&cameras, &images, points.as_deref())?);
+        let [rigs, frames] = ["rigs", "frames"].map(|name| file(&format!("{name}.{ending}")));
+        let of_rigs = rigs.as_deref().zip(frames.as_deref()).map(|(r, f)| [r, f]);
+        let joined = read(&cameras, &images, points.as_deref(), of_rigs)?;
+        let mut read = with_format(format, joined);
         if points.is_none() {
             (read.notes).push(format!("points3D.{ending} is not there: no points"));
         }
-        if file(&format!("rigs.{ending}")).is_some() {
-            (read.notes).push(format!(
-                "rigs.{ending} and frames.{ending} are not read: poses are those of the images"
-            ));
+        for (name, this, other) in [("rigs", &rigs, &frames), ("frames", &frames, &rigs)] {
+            if this.is_none() && other.is_some() {
+                read.notes.push(format!(
+                    "{name}.{ending} is not there: no rigs, and poses are those of the images"
+                ));
+            }
         }
         return Ok(Some(read));
     }
@@ -201,12 +222,12 @@ pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<
     let format = format_of_file(bytes).ok_or_else(unknown)?;
     let read = match format {
         ModelFormat::Ply => {
-            let (cloud, num_lost) = read_ply(bytes)?;
+            let (cloud, notes) = read_ply(bytes)?;
             let model = Model {
                 points: points_of(cloud),
                 ..Model::default()
             };
-            (model, notes::not_finite(num_lost).into_iter().collect())
+            (model, notes)
         }
         ModelFormat::Bundler => {
             let stem = name.strip_suffix(".out").unwrap_or(name);

@@ -1,6 +1,6 @@
 //! Round trips of every format, and damaged files: no panic, and every number is finite.
 
-use super::example::{difference, example, lenses};
+use super::example::{difference, example, in_rigs, lenses};
 use super::{Model, ModelFile, ModelFormat, read_model_file, read_model_folder};
 use crate::damage::{config, damage_bytes, some_damage};
 use epipole::camera::Lens;
@@ -71,11 +71,70 @@ fn a_model_survives_each_format() {
             let read = back(&model, format);
             if matches!(format, ModelFormat::ColmapText | ModelFormat::ColmapBinary) {
                 assert_eq!(read.camera_ids, model.camera_ids);
+                let ids =
+                    |model: &Model| -> Vec<u64> { model.points.iter().map(|p| p.id).collect() };
+                assert_eq!(ids(&read), ids(&model));
             }
             let error = difference(&read, &expected);
             assert!(error < 1e-12, "{format:?}: {error}");
         }
     }
+}
+
+#[test]
+fn rigs_survive_colmap() {
+    let model = in_rigs(example(&lenses()[..3], false));
+    for format in [ModelFormat::ColmapText, ModelFormat::ColmapBinary] {
+        let read = back(&model, format);
+        assert_eq!(read.rigs, model.rigs);
+        assert!(difference(&read, &model) < 1e-12);
+        // A camera and an image without a rig get one.
+        let mut without = model.clone();
+        without.rigs.pop();
+        without.rigs[0].frames.pop();
+        let read = back(&without, format);
+        let [rig, alone] = &read.rigs[..] else {
+            panic!("two rigs");
+        };
+        assert_eq!((rig.frames.len(), alone.id, alone.frames.len()), (2, 6, 1));
+        assert!(difference(&read, &model) < 1e-12);
+    }
+}
+
+/// The reference of a rig is a sensor that is no camera, or a camera that is not supported.
+#[test]
+fn the_first_camera_that_is_there_becomes_the_reference() {
+    let model = in_rigs(example(&lenses()[..3], false));
+    let mut files = model.to_files(ModelFormat::ColmapText).unwrap();
+    let text =
+        |files: &[ModelFile], place: usize| String::from_utf8(files[place].bytes.clone()).unwrap();
+    let rigs = text(&files, 3);
+    files[3].bytes = rigs.replace("5 2 CAMERA 9", "5 2 IMU 9").into_bytes();
+    let read = read_model_folder(&find(&files)).unwrap().unwrap();
+    // Those of camera 9 are images 0 and 3.
+    assert_eq!(read.model.images.len(), 2);
+    let off = read.model.images[0].cam_from_world.to_matrix()
+        - model.images[1].cam_from_world.to_matrix();
+    assert!(off.amax() < 1e-14, "{off}");
+    assert_eq!(read.notes.len(), 2, "{:?}", read.notes);
+    files[3].bytes = rigs.into_bytes();
+    let cameras = text(&files, 0).replace("9 PINHOLE 640 480 500", "9 FOV 640 480 0.9 500");
+    files[0].bytes = cameras.into_bytes();
+    let read = read_model_folder(&find(&files)).unwrap().unwrap();
+    assert_eq!(read.model.images.len(), 2);
+    let off = read.model.images[0].cam_from_world.to_matrix()
+        - model.images[1].cam_from_world.to_matrix();
+    assert!(off.amax() < 1e-14, "{off}");
+    let note = &read.notes[0];
+    assert!(
+        note.starts_with("camera 9: camera model FOV is not supported"),
+        "{note}"
+    );
+    assert!(
+        note.ends_with("left out with its 2 images: \"a b.jpg\", \"plain\""),
+        "{note}"
+    );
+    assert_eq!(read.model.num_observations(), 16);
 }
 
 /// Bundler has no principal point; the projections fit all the same, in units of the focal length.
@@ -170,9 +229,14 @@ proptest! {
         let (lenses, is_square) = match format {
             ModelFormat::Bundler => (vec![none], false),
             ModelFormat::OpenMvg => (vec![none, brown], true),
-            _ => (vec![none, fisheye], false),
+            _ => (vec![none, brown, fisheye], false),
         };
-        let mut files = example(&lenses, is_square).to_files(format).unwrap();
+        let model = example(&lenses, is_square);
+        let model = match format {
+            ModelFormat::ColmapText | ModelFormat::ColmapBinary => in_rigs(model),
+            _ => model,
+        };
+        let mut files = model.to_files(format).unwrap();
         let which = file.index(files.len());
         files[which].bytes = damage_bytes(&files[which].bytes, &changes);
         match read_model_folder(&find(&files)) {
@@ -194,8 +258,8 @@ proptest! {
         if let Ok(read) = read_model_file("a.out", &bytes, &|_| Some(bytes.clone())) {
             check(&read.model)?;
         }
-        for names in [["cameras.bin", "images.bin", "points3D.bin"], ["cameras.txt", "images.txt", "points3D.txt"]] {
-            let file = |name: &str| names.contains(&name).then(|| bytes.clone());
+        for ending in ["bin", "txt"] {
+            let file = |name: &str| name.ends_with(ending).then(|| bytes.clone());
             if let Ok(Some(read)) = read_model_folder(&file) {
                 check(&read.model)?;
             }

@@ -247,6 +247,7 @@ mod tests {
                 keypoints: Vec::new(),
             }],
             points: vec![super::super::ModelPoint {
+                id: 1,
                 position: Point3::new(1.0, 2.0, 3.0),
                 color: [1, 2, 3],
                 error_px: None,

@@ -8,9 +8,11 @@
 //! equation of the lens.
 
 use super::image_size::image_size;
+use super::notes::LeftOut;
 use super::{Beside, CameraList, Model, ModelFile, ModelImage, points_of};
 use crate::camera::nerfstudio::camera_of_frame;
 use crate::cloud::read_ply;
+use crate::error::set_aside;
 use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
 use crate::tree::{Field, Syntax};
 use crate::{Error, Result, text};
@@ -18,6 +20,9 @@ use epipole::camera::{Camera, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
+
+/// Key of the camera model.
+const MODEL: &str = "camera_model";
 
 /// Usual name of the file of points.
 const POINTS: &str = "sparse_pc.ply";
@@ -49,7 +54,7 @@ fn cam_from_world(matrix: &Field<'_>) -> Result<RigidTransform> {
 pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<String>)> {
     let node = Syntax::Json.parse(text::decode(bytes)?)?;
     let document = Field::root(&node);
-    let (mut cameras, mut images, mut notes) = (CameraList::default(), Vec::new(), Vec::new());
+    let (mut cameras, mut images) = (CameraList::default(), Vec::new());
     let frames = document.need("frames", "the images")?.list()?;
     let size = match document.get("w") {
         Some(_) => None,
@@ -58,23 +63,31 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
             .and_then(|frame| frame.get("file_path")?.text()))
         .and_then(|name| image_size(name, beside)),
     };
+    let (mut left_out, mut kept) = (LeftOut::default(), Vec::new());
     for (index, frame) in frames.iter().enumerate() {
+        let name = frame.need("file_path", "the image of the frame")?.word()?;
+        let camera = match set_aside(camera_of_frame(frame, &document, size))? {
+            Ok(camera) => cameras.number_of(camera),
+            Err(why) => {
+                left_out.add(&why, Some(name));
+                continue;
+            }
+        };
+        kept.push(frame);
         images.push(ModelImage {
             id: u32::try_from(index + 1).unwrap_or(u32::MAX),
-            name: frame
-                .need("file_path", "the image of the frame")?
-                .word()?
-                .to_owned(),
-            camera: cameras.number_of(camera_of_frame(frame, &document, size)?),
+            name: name.to_owned(),
+            camera,
             cam_from_world: cam_from_world(&frame.need("transform_matrix", "world from camera")?)?,
             keypoints: Vec::new(),
         });
     }
+    let mut notes = left_out.notes(images.len())?;
     let id = |frame: &Field<'_>| {
         let id = frame.get("colmap_im_id")?.whole().ok()?;
         u32::try_from(id).ok()
     };
-    let ids: Vec<u32> = frames.iter().filter_map(id).collect();
+    let ids: Vec<u32> = kept.iter().filter_map(|frame| id(frame)).collect();
     if ids.len() == images.len() && ids.iter().collect::<BTreeSet<_>>().len() == ids.len() {
         for (image, id) in images.iter_mut().zip(ids) {
             image.id = id;
@@ -85,9 +98,9 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
         let path = path.word()?;
         match beside(path.trim_start_matches("./")) {
             Some(bytes) => {
-                let (cloud, num_lost) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
+                let (cloud, of_points) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
                 points = points_of(cloud);
-                notes.extend(super::notes::not_finite(num_lost));
+                notes.extend(of_points);
             }
             None => notes.push(format!("{path} is not there: no points")),
         }
@@ -125,7 +138,7 @@ fn fields(camera: &Camera) -> Result<Map<String, Value>> {
         }
     };
     let mut fields = json!({
-        "camera_model": model, "w": camera.width, "h": camera.height,
+        MODEL: model, "w": camera.width, "h": camera.height,
         "fl_x": fx, "fl_y": fy, "cx": cx, "cy": cy,
     });
     if let (Value::Object(fields), Value::Object(lens)) = (&mut fields, lens) {
@@ -155,6 +168,10 @@ impl Model {
         let cameras = cameras.collect::<Result<Vec<_>>>()?;
         let mut document = match &cameras[..] {
             [camera] => camera.clone(),
+            // nerfstudio reads the model of the file alone, and other values of frames.
+            [first, rest @ ..] if rest.iter().all(|camera| camera[MODEL] == first[MODEL]) => {
+                Map::from_iter([(MODEL.to_owned(), first[MODEL].clone())])
+            }
             _ => Map::new(),
         };
         let mut frames = Vec::new();

@@ -1,19 +1,43 @@
 //! Sentences on oddities of a model.
 
 use super::Model;
-use std::collections::BTreeSet;
+use crate::{Error, Result};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Points that were left out, if any.
-pub(super) fn not_finite(count: usize) -> Option<String> {
-    (count > 0).then(|| format!("{count} points have NaN or infinite coordinates: left out"))
+/// Cameras that the library does not have: the sentence why, and the images that they took.
+#[derive(Default)]
+pub(super) struct LeftOut(BTreeMap<String, Vec<String>>);
+
+impl LeftOut {
+    /// Adds a camera, or one of its images.
+    pub(super) fn add(&mut self, why: &str, image: Option<&str>) {
+        let images = self.0.entry(why.to_owned()).or_default();
+        images.extend(image.map(str::to_owned));
+    }
+
+    /// A sentence for each camera.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if no image remains.
+    pub(super) fn notes(&self, num_kept: usize) -> Result<Vec<String>> {
+        if let (0, Some((why, _))) = (num_kept, self.0.first_key_value()) {
+            return Err(Error::unsupported(why));
+        }
+        let sentence = |(why, images): (&String, &Vec<String>)| match images.len() {
+            0 => format!("{why}; left out"),
+            1 => format!("{why}; left out with its image {}", some(images)),
+            count => format!("{why}; left out with its {count} images: {}", some(images)),
+        };
+        Ok(self.0.iter().map(sentence).collect())
+    }
 }
 
 /// Names in a sentence: the first three.
-fn some(names: &[&str]) -> String {
+fn some(names: &[impl AsRef<str>]) -> String {
     let first: Vec<String> = names
         .iter()
         .take(3)
-        .map(|name| format!("\"{name}\""))
+        .map(|name| format!("\"{}\"", name.as_ref()))
         .collect();
     match names.len() {
         0..=3 => first.join(", "),
@@ -31,8 +55,8 @@ impl Model {
     /// their cameras.
     ///
     /// # Errors
-    /// [`Error::Malformed`](crate::Error::Malformed) if an index of the model is wrong.
-    pub fn mean_reprojection_px(&self) -> crate::Result<Option<f64>> {
+    /// [`Error::Malformed`] if an index of the model is wrong.
+    pub fn mean_reprojection_px(&self) -> Result<Option<f64>> {
         self.check()?;
         let (mut sum, mut count) = (0.0, 0.0);
         for (image, keypoint, point) in self.observations() {
@@ -56,8 +80,8 @@ impl Model {
     /// points, points behind cameras, keypoints outside their images.
     ///
     /// # Errors
-    /// [`Error::Malformed`](crate::Error::Malformed) if an index of the model is wrong.
-    pub fn oddities(&self) -> crate::Result<Vec<String>> {
+    /// [`Error::Malformed`] if an index of the model is wrong.
+    pub fn oddities(&self) -> Result<Vec<String>> {
         self.check()?;
         let mut notes = Vec::new();
         let names = self.images.iter().map(|image| image.name.as_str());
@@ -106,7 +130,12 @@ impl Model {
                 ));
             }
         }
+        // Of points alone nobody expects more.
         let short = self.points.iter().filter(|point| point.track.len() < 2);
+        let short = short.take(match self.images.is_empty() {
+            true => 0,
+            false => usize::MAX,
+        });
         for (count, sentence) in [
             (behind, "observations are of points behind their cameras"),
             (outside, "observed keypoints are outside their images"),

@@ -6,7 +6,9 @@
 //!
 //! Source: openMVG, `src/openMVG/sfm/sfm_data_io_cereal.cpp`, `src/openMVG/cameras/`.
 
+use super::notes::LeftOut;
 use super::{CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use crate::error::set_aside;
 use crate::rotation::{FOUR_DIGITS, pose, rotation_from_matrix};
 use crate::tree::{Field, Syntax};
 use crate::{Error, Result, text};
@@ -118,14 +120,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     let mut names = HashMap::new();
     let (mut cameras, mut camera_of_key) = (CameraList::default(), HashMap::new());
     for (key, value) in entries(&document, "intrinsics")? {
-        camera_of_key.insert(key, cameras.number_of(camera(&value, &mut names)?));
+        let camera = set_aside(camera(&value, &mut names))?;
+        camera_of_key.insert(key, camera.map(|camera| cameras.number_of(camera)));
     }
     let mut poses = HashMap::new();
     for (key, value) in entries(&document, "extrinsics")? {
         poses.insert(key, cam_from_world(&value)?);
     }
     let (mut images, mut image_of_view) = (Vec::new(), HashMap::new());
-    let mut num_without = 0_usize;
+    let (mut left_out, mut num_without) = (LeftOut::default(), 0_usize);
     for (key, value) in entries(&document, "views")? {
         let data = value
             .need("ptr_wrapper", "an object of cereal")?
@@ -144,6 +147,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             .get("local_path")
             .map_or(Ok(""), |folder| folder.word())?;
         let name = view.need("filename", "the file of an image")?.word()?;
+        let camera = match camera {
+            Ok(camera) => *camera,
+            Err(why) => {
+                left_out.add(why, Some(name));
+                continue;
+            }
+        };
         if image_of_view.insert(key, images.len()).is_some() {
             return Err(Error::malformed(format!("two views have the key {key}")));
         }
@@ -153,12 +163,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
                 "" => name.to_owned(),
                 folder => format!("{folder}/{name}"),
             },
-            camera: *camera,
+            camera,
             cam_from_world: *pose,
             keypoints: Vec::new(),
         });
     }
-    let mut notes = Vec::new();
+    let mut notes = left_out.notes(images.len())?;
     if num_without > 0 {
         notes.push(format!(
             "{num_without} views have no pose or camera: left out"
@@ -167,7 +177,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     // Keypoints by their numbers, per image.
     let mut places: Vec<BTreeMap<u64, usize>> = vec![BTreeMap::new(); images.len()];
     let (mut points, mut num_lost) = (Vec::new(), 0_usize);
-    for (_, value) in entries(&document, "structure")? {
+    for (key, value) in entries(&document, "structure")? {
         let mut track = Vec::new();
         for (view, value) in entries(&value, "observations")? {
             let Some(&image) = image_of_view.get(&view) else {
@@ -188,6 +198,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             track.push((image, place));
         }
         points.push(ModelPoint {
+            id: key,
             position: Point3::from(value.need("X", "a position")?.array::<3>()?),
             // The format has no colors.
             color: [128; 3],
@@ -206,6 +217,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
         points,
         ..Model::default()
     };
+    model.check()?;
     Ok((model, notes))
 }
 
@@ -291,7 +303,7 @@ impl Model {
             }}));
         }
         let mut structure = Vec::new();
-        for (index, point) in self.points.iter().enumerate() {
+        for point in &self.points {
             let seen = |&(image, keypoint): &(usize, usize)| {
                 let image = &self.images[image];
                 let x = image.keypoints[keypoint];
@@ -299,7 +311,7 @@ impl Model {
             };
             let observations: Vec<Value> = point.track.iter().map(seen).collect();
             let p = point.position;
-            structure.push(json!({ "key": index, "value": {
+            structure.push(json!({ "key": point.id, "value": {
                 "X": [p.x, p.y, p.z], "observations": observations,
             }}));
         }

@@ -31,7 +31,9 @@ impl Model {
             let keypoint = element.keypoint as usize;
             (keypoint < model.images[image].keypoints.len()).then_some((image, keypoint))
         };
-        let points = reconstruction.points.iter().map(|point| ModelPoint {
+        let points = (1..).zip(&reconstruction.points);
+        let points = points.map(|(id, point)| ModelPoint {
+            id,
             position: point.position,
             color: point.color,
             error_px: Some(point.error_px),

@@ -1,8 +1,8 @@
 //! The tags and numbers of poses in g2o's text format.
 
 use nalgebra::{
-    Isometry2, Isometry3, Matrix3, Quaternion, SMatrix, Similarity3, Translation3, UnitQuaternion,
-    Vector2,
+    Isometry2, Isometry3, Matrix3, Point3, Quaternion, SMatrix, Similarity3, Translation3,
+    UnitQuaternion, Vector2,
 };
 
 /// A pose in a file: tags and numbers.
@@ -12,7 +12,11 @@ pub(super) trait Written<const D: usize>: Sized {
     const PRIOR: &'static str;
     /// Prior of the position alone.
     const POSITION: &'static str;
-    /// Whether priors name a parameter, the offset of a sensor.
+    /// A point.
+    const LANDMARK: &'static str;
+    /// Position of a point in the frame of a pose, or of its sensor.
+    const SIGHTING: &'static str;
+    /// Whether priors and sightings name a parameter, the offset of a sensor.
     const HAS_OFFSET: bool;
     /// Numbers of the identity.
     const ORIGIN: &'static [f64];
@@ -28,6 +32,14 @@ pub(super) trait Written<const D: usize>: Sized {
     ) -> (Self, SMatrix<f64, D, D>) {
         (self, information)
     }
+    /// A sighting in the frame of a vertex from that of a sensor at an offset from it, exactly.
+    fn seen_from_vertex(
+        self,
+        information: SMatrix<f64, D, D>,
+        _vertex_from_sensor: &Isometry3<f64>,
+    ) -> (Self, SMatrix<f64, D, D>) {
+        (self, information)
+    }
 }
 
 impl Written<3> for Isometry2<f64> {
@@ -35,6 +47,8 @@ impl Written<3> for Isometry2<f64> {
     const EDGE: &'static str = "EDGE_SE2";
     const PRIOR: &'static str = "EDGE_PRIOR_SE2";
     const POSITION: &'static str = "EDGE_PRIOR_SE2_XY";
+    const LANDMARK: &'static str = "VERTEX_XY";
+    const SIGHTING: &'static str = "EDGE_SE2_XY";
     const HAS_OFFSET: bool = false;
     const ORIGIN: &'static [f64] = &[0.0; 3];
     const NUM_AXES: usize = 2;
@@ -67,6 +81,8 @@ impl Written<6> for Isometry3<f64> {
     const EDGE: &'static str = "EDGE_SE3:QUAT";
     const PRIOR: &'static str = "EDGE_SE3_PRIOR";
     const POSITION: &'static str = "EDGE_SE3_XYZ_PRIOR";
+    const LANDMARK: &'static str = "VERTEX_TRACKXYZ";
+    const SIGHTING: &'static str = "EDGE_SE3_TRACKXYZ";
     const HAS_OFFSET: bool = true;
     const ORIGIN: &'static [f64] = &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     const NUM_AXES: usize = 3;
@@ -107,6 +123,20 @@ impl Written<6> for Isometry3<f64> {
         let symmetric = (moved + moved.transpose()) * 0.5;
         (self * vertex_from_sensor.inverse(), symmetric)
     }
+    fn seen_from_vertex(
+        self,
+        information: SMatrix<f64, 6, 6>,
+        vertex_from_sensor: &Isometry3<f64>,
+    ) -> (Self, SMatrix<f64, 6, 6>) {
+        let turn = *vertex_from_sensor.rotation.to_rotation_matrix().matrix();
+        let position = vertex_from_sensor * Point3::from(self.translation.vector);
+        let turned = turn * information.fixed_view::<3, 3>(0, 0) * turn.transpose();
+        let mut of_vertex = SMatrix::<f64, 6, 6>::zeros();
+        let symmetric = (turned + turned.transpose()) * 0.5;
+        of_vertex.fixed_view_mut::<3, 3>(0, 0).copy_from(&symmetric);
+        let seen = Isometry3::from_parts(position.coords.into(), UnitQuaternion::identity());
+        (seen, of_vertex)
+    }
 }
 
 impl Written<7> for Similarity3<f64> {
@@ -114,6 +144,8 @@ impl Written<7> for Similarity3<f64> {
     const EDGE: &'static str = "EDGE_SIM3:QUAT";
     const PRIOR: &'static str = "EDGE_SIM3_PRIOR";
     const POSITION: &'static str = "EDGE_SIM3_XYZ_PRIOR";
+    const LANDMARK: &'static str = "VERTEX_SIM3_XYZ";
+    const SIGHTING: &'static str = "EDGE_SIM3_XYZ";
     const HAS_OFFSET: bool = false;
     const ORIGIN: &'static [f64] = &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
     const NUM_AXES: usize = 3;

@@ -15,6 +15,9 @@ enum Kind {
     Prior,
     /// A prior of the position alone.
     Position,
+    Landmark,
+    /// A landmark in the frame of a pose.
+    Sighting,
 }
 
 impl Kind {
@@ -24,6 +27,8 @@ impl Kind {
             (T::EDGE, Self::Edge),
             (T::PRIOR, Self::Prior),
             (T::POSITION, Self::Position),
+            (T::LANDMARK, Self::Landmark),
+            (T::SIGHTING, Self::Sighting),
         ];
         kinds
             .iter()
@@ -33,12 +38,14 @@ impl Kind {
 
     /// Counts of ids, numbers of the pose and rows of the information matrix.
     fn counts<T: Written<D>, const D: usize>(self) -> [usize; 3] {
-        let of_prior = 1 + usize::from(T::HAS_OFFSET);
+        let of_offset = usize::from(T::HAS_OFFSET);
         match self {
             Self::Vertex => [1, T::ORIGIN.len(), 0],
             Self::Edge => [2, T::ORIGIN.len(), D],
-            Self::Prior => [of_prior, T::ORIGIN.len(), D],
-            Self::Position => [of_prior, T::NUM_AXES, T::NUM_AXES],
+            Self::Prior => [1 + of_offset, T::ORIGIN.len(), D],
+            Self::Position => [1 + of_offset, T::NUM_AXES, T::NUM_AXES],
+            Self::Landmark => [1, T::NUM_AXES, 0],
+            Self::Sighting => [2 + of_offset, T::NUM_AXES, T::NUM_AXES],
         }
     }
 }
@@ -47,7 +54,7 @@ impl Kind {
 struct Measurement<T, const D: usize> {
     line: usize,
     kind: Kind,
-    ids: [u64; 2],
+    ids: [u64; 3],
     pose: T,
     information: SMatrix<f64, D, D>,
 }
@@ -59,7 +66,7 @@ pub(super) struct Shared {
     pub(super) fixed: Vec<(usize, u64)>,
     /// `PARAMS_SE3OFFSET`: `vertex_from_sensor`.
     pub(super) offsets: BTreeMap<u64, Isometry3<f64>>,
-    /// Vertices that are landmarks.
+    /// Landmarks that are not read.
     pub(super) landmarks: BTreeSet<u64>,
 }
 
@@ -95,10 +102,13 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
         let mut of_pose = T::ORIGIN.to_vec();
         of_pose[..num_numbers].copy_from_slice(&numbers[..num_numbers]);
         let pose = T::read(&of_pose).map_err(|why| Error::at(line, why))?;
-        if kind == Kind::Vertex {
+        if matches!(kind, Kind::Vertex | Kind::Landmark) {
             let next = self.graph.vertices.len();
             if self.index.insert(ids[0], next).is_some() {
                 return Err(Error::at(line, format!("vertex {} is there twice", ids[0])));
+            }
+            if kind == Kind::Landmark {
+                self.graph.landmarks.push(next);
             }
             self.graph.ids.push(ids[0]);
             self.graph.vertices.push(pose);
@@ -109,7 +119,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             let why = "the information matrix is not positive semi-definite";
             return Err(Error::at(line, why));
         }
-        if kind == Kind::Edge && ids[0] == ids[1] {
+        if matches!(kind, Kind::Edge | Kind::Sighting) && ids[0] == ids[1] {
             let why = format!("the edge joins vertex {} with itself", ids[0]);
             return Err(Error::at(line, why));
         }
@@ -125,11 +135,31 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
 
     pub(super) fn finish(self, shared: &Shared) -> Result<Graph<T, D>> {
         let mut graph = self.graph;
+        let landmarks: BTreeSet<usize> = graph.landmarks.iter().copied().collect();
         let find = |line: usize, id: u64| {
             self.index
                 .get(&id)
                 .copied()
                 .ok_or_else(|| Error::at(line, format!("there is no vertex {id}")))
+        };
+        // A pose, or a landmark.
+        let find_kind = |line: usize, id: u64, is_landmark: bool| {
+            let vertex = find(line, id)?;
+            match (landmarks.contains(&vertex), is_landmark) {
+                (true, false) => Err(Error::at(
+                    line,
+                    format!("vertex {id} is a landmark, no pose"),
+                )),
+                (false, true) => Err(Error::at(
+                    line,
+                    format!("vertex {id} is a pose, no landmark"),
+                )),
+                _ => Ok(vertex),
+            }
+        };
+        let offset = |line: usize, id: u64| {
+            let offset = shared.offsets.get(&id);
+            offset.ok_or_else(|| Error::at(line, format!("there is no line PARAMS_SE3OFFSET {id}")))
         };
         for measured in self.measurements {
             let Measurement {
@@ -139,24 +169,23 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
                 pose,
                 information,
             } = measured;
-            if kind == Kind::Edge {
+            if matches!(kind, Kind::Edge | Kind::Sighting) {
+                let is_sighting = kind == Kind::Sighting;
+                let (from_from_to, information) = match T::HAS_OFFSET && is_sighting {
+                    true => pose.seen_from_vertex(information, offset(line, ids[2])?),
+                    false => (pose, information),
+                };
                 graph.edges.push(Edge {
-                    from: find(line, ids[0])?,
-                    to: find(line, ids[1])?,
-                    from_from_to: pose,
+                    from: find_kind(line, ids[0], false)?,
+                    to: find_kind(line, ids[1], is_sighting)?,
+                    from_from_to,
                     information,
                 });
                 continue;
             }
             // A position is that of the vertex, whatever the offset: so g2o has it.
             let (world_from_vertex, information) = if T::HAS_OFFSET && kind == Kind::Prior {
-                let offset = shared.offsets.get(&ids[1]).ok_or_else(|| {
-                    Error::at(
-                        line,
-                        format!("there is no line PARAMS_SE3OFFSET {}", ids[1]),
-                    )
-                })?;
-                let (pose, information) = pose.without_offset(information, offset);
+                let (pose, information) = pose.without_offset(information, offset(line, ids[1])?);
                 if !is_positive_semidefinite(&information) {
                     let why = "the offset is too far for the information matrix";
                     return Err(Error::at(line, why));
@@ -166,7 +195,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
                 (pose, information)
             };
             graph.priors.push(PosePrior {
-                vertex: find(line, ids[0])?,
+                vertex: find_kind(line, ids[0], false)?,
                 world_from_vertex,
                 information,
             });
@@ -187,13 +216,13 @@ pub(super) fn parse(
     words: &[&str],
     num_ids: usize,
     num_numbers: usize,
-) -> Result<([u64; 2], Vec<f64>)> {
+) -> Result<([u64; 3], Vec<f64>)> {
     let needed = num_ids + num_numbers;
     if words.len() != needed {
         let why = format!("{tag} needs {needed} values, but has {}", words.len());
         return Err(Error::at(line, why));
     }
-    let mut ids = [0; 2];
+    let mut ids = [0; 3];
     for (id, word) in ids.iter_mut().zip(&words[..num_ids]) {
         *id = parse_id(line, word)?;
     }

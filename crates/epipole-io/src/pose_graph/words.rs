@@ -9,7 +9,7 @@ pub(super) fn no_number(word: &str) -> String {
     }
 }
 
-/// Whether a line is of a landmark, which is no pose.
+/// Whether a line is of a landmark or of a measurement that is not read.
 pub(super) fn is_of_landmark(tag: &str) -> bool {
     const PARTS: [&str; 8] = [
         "XY",
@@ -40,18 +40,23 @@ pub(super) fn unknown(tag: &str) -> String {
     }
 }
 
-/// Landmarks that were left out, if any.
+/// Landmarks and measurements that were left out, if any.
 pub(super) fn left_out(num_landmarks: usize, num_measurements: usize) -> Option<String> {
     let count = |number: usize, what: &str| match number {
-        1 => format!("1 {what}"),
-        _ => format!("{number} {what}s"),
+        0 => None,
+        1 => Some(format!("1 {what}")),
+        _ => Some(format!("{number} {what}s")),
     };
-    (num_landmarks + num_measurements > 0).then(|| {
+    let both = [
+        count(num_landmarks, "landmark"),
+        count(num_measurements, "measurement"),
+    ];
+    let both: Vec<String> = both.into_iter().flatten().collect();
+    (!both.is_empty()).then(|| {
         format!(
-            "{} and {} of them are left out: only poses are optimized, so the result lacks what \
-             landmarks tell about them",
-            count(num_landmarks, "landmark"),
-            count(num_measurements, "measurement")
+            "left out: {}. Of landmarks, points are read (VERTEX_XY, VERTEX_TRACKXYZ) and their \
+             positions as poses see them (EDGE_SE2_XY, EDGE_SE3_TRACKXYZ)",
+            both.join(" and ")
         )
     })
 }

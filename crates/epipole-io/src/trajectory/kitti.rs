@@ -40,8 +40,8 @@ pub(super) fn read(text: &str) -> Result<Trajectory> {
         ));
     }
     Ok(Trajectory {
-        stamps_ns: None,
         world_from_cam,
+        ..Trajectory::default()
     })
 }
 

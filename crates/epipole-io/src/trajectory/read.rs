@@ -9,11 +9,16 @@ use super::words::words;
 use crate::text::{decode, lines};
 use crate::{Error, Result};
 
+/// Note on rows of eight values between commas with nanoseconds, but without names.
+const W_FIRST: &str = "no line names the columns: quaternions are taken to be w, x, y, z, as EuRoC has them; if w is last, put \
+                       the line \"t,x,y,z,qx,qy,qz,qw\" in front";
+
 /// Reads a trajectory, and tells its format by its content.
 ///
 /// Columns are those that a first line or a comment names. Without names, twelve numbers a line are
 /// KITTI's; eight values and more are EuRoC's if commas separate them and times are nanoseconds,
-/// else eight are TUM's: the order of the quaternion follows from that. Times are nanoseconds where
+/// else eight are TUM's: the order of the quaternion follows from that. Eight values between commas
+/// with nanoseconds may be either: [`Trajectory::notes`] say what was taken. Times are nanoseconds where
 /// seconds were 30,000 years, or a day apart. Quaternions are normalized, matrices replaced by the
 /// nearest rotation.
 ///
@@ -98,12 +103,14 @@ fn recognize(text: &str) -> Result<(TrajectoryFormat, Option<Layout>)> {
             true => TrajectoryFormat::EuRoC,
             false => TrajectoryFormat::Tum,
         };
+        let is_open = is_euroc && named.is_none() && words(content).len() == 8;
         let layout = Layout {
             columns,
             unit,
             num_header,
             max_width,
             expected,
+            note: is_open.then_some(W_FIRST),
         };
         (format, Some(layout))
     };
@@ -153,6 +160,7 @@ mod tests {
                     .collect(),
             ),
             world_from_cam: (0..20).map(pose).collect(),
+            ..Trajectory::default()
         }
     }
 
@@ -208,6 +216,12 @@ mod tests {
         assert_eq!(format, TrajectoryFormat::EuRoC);
         assert_eq!(path.stamps_ns, Some(vec![0, 5_000_000]));
         assert!((path.world_from_cam[0].rotation.k - 0.6).abs() < 1e-15);
+        // The same by TUM's order: a line of names decides, and without one a note says so.
+        assert!(path.notes[0].contains("w, x, y, z"), "{:?}", path.notes);
+        let named = "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0.8,0,0,0.6\n5000000,0,0,0,1,0,0,0\n";
+        let (format, path) = read(named).unwrap();
+        assert_eq!((format, path.notes.len()), (TrajectoryFormat::Tum, 0));
+        assert!((path.world_from_cam[0].rotation.i - 0.8).abs() < 1e-15);
         // As ORB-SLAM3 writes EuRoC's: TUM's columns, nanoseconds.
         let slam = "1403636579763555584.000000 1 2 3 0 0 0.6 0.8\n1403636579813555456.000000 1 2 3 0 0 0.6 0.8\n";
         let (format, path) = read(slam).unwrap();

@@ -37,6 +37,8 @@ pub(super) struct Layout {
     pub(super) max_width: usize,
     /// The columns in words, for errors.
     pub(super) expected: &'static str,
+    /// Sentence on an assumed order.
+    pub(super) note: Option<&'static str>,
 }
 
 pub(super) fn read(text: &str, layout: &Layout) -> Result<Trajectory> {
@@ -63,5 +65,6 @@ pub(super) fn read(text: &str, layout: &Layout) -> Result<Trajectory> {
     Ok(Trajectory {
         stamps_ns: Some(stamps.iter().map(|(_, stamp)| *stamp).collect()),
         world_from_cam,
+        notes: layout.note.map(str::to_owned).into_iter().collect(),
     })
 }

@@ -18,6 +18,7 @@ use crate::{Error, Result};
 /// let trajectory = Trajectory {
 ///     stamps_ns: Some(vec![500_000_000]),
 ///     world_from_cam: vec![RigidTransform::translation(1.0, 2.0, 3.0)],
+///     ..Trajectory::default()
 /// };
 /// let text = write_trajectory(TrajectoryFormat::Tum, &trajectory)?;
 /// assert_eq!(text.lines().last(), Some("0.5 1 2 3 0 0 0 1"));

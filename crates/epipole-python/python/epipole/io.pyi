@@ -26,6 +26,7 @@ __all__ = [
     "NamedCamera",
     "PreparedPhoto",
     "ReadModel",
+    "Rig",
     "Trajectory",
     "decode_gray",
     "decode_rgb",
@@ -40,6 +41,7 @@ __all__ = [
     "read_ply",
     "read_points",
     "read_points_with_pixels",
+    "read_q",
     "read_trajectory",
     "sensor_size",
     "write_bal",
@@ -90,11 +92,14 @@ class Cameras:
     cameras : list of NamedCamera
     right_from_left : RigidTransform, optional
         Motion of a rig, from the first camera to the second, in the unit of the file.
+    notes : list of str, optional
+        Sentences on cameras of a file that are left out.
     """
     def __new__(
         cls,
         cameras: Sequence[NamedCamera],
         right_from_left: RigidTransform | None = None,
+        notes: Sequence[str] | None = None,
     ) -> Cameras: ...
     @property
     def cameras(self) -> list[NamedCamera]:
@@ -102,6 +107,9 @@ class Cameras:
     @property
     def right_from_left(self) -> RigidTransform | None:
         """Motion of a rig, from the first camera to the second, or None."""
+    @property
+    def notes(self) -> list[str]:
+        """Sentences on cameras of the file that are left out, as there is no such lens, a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def of(camera: Camera) -> Cameras:
@@ -149,6 +157,20 @@ def read_cameras(
     format : str
     cameras : Cameras
     """
+def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
+    """Reads Q of a rectified pair, from pixels with disparities to points.
+
+    Parameters
+    ----------
+    source : str, os.PathLike or bytes
+        File with the key ``Q`` of OpenCV or of ``epipole rectify --json``, or sixteen numbers row
+        by row.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (4, 4).
+    """
 def write_cameras(
     path: str | os.PathLike[str],
     cameras: Cameras,
@@ -172,6 +194,8 @@ class Decoded:
         Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1].
     focal_px
         First guess of the focal length from the EXIF data, pixels of this image, or None.
+    focal_mm
+        Focal length from the EXIF data, millimeters, or None.
     place
         Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
     orientation
@@ -183,6 +207,7 @@ class Decoded:
         cls,
         image: Any,
         focal_px: float | None,
+        focal_mm: float | None,
         place: Geodetic | None,
         orientation: int,
         range: Sequence[float] | None,
@@ -193,6 +218,9 @@ class Decoded:
     @property
     def focal_px(self) -> float | None:
         """First guess of the focal length from the EXIF data, pixels of this image, or None."""
+    @property
+    def focal_mm(self) -> float | None:
+        """Focal length from the EXIF data, millimeters, or None."""
     @property
     def place(self) -> Geodetic | None:
         """Position of the camera, `epipole.math.Geodetic`, if the file has GPS data."""
@@ -212,7 +240,7 @@ class PreparedPhoto:
     Parameters
     ----------
     image : array_like of uint8, shape (H, W, 3)
-    focal_px : float, optional
+    focal_px, focal_mm : float, optional
     place : epipole.math.Geodetic, optional
     intrinsics : Intrinsics, optional
     full_size, sensor_size : tuple of int
@@ -224,6 +252,7 @@ class PreparedPhoto:
         cls,
         image: ArrayLike,
         focal_px: float | None,
+        focal_mm: float | None,
         place: Geodetic | None,
         intrinsics: Intrinsics | None,
         full_size: tuple[int, int],
@@ -238,6 +267,9 @@ class PreparedPhoto:
     @property
     def focal_px(self) -> float | None:
         """First guess of the focal length from the EXIF data, pixels of `image`, or None."""
+    @property
+    def focal_mm(self) -> float | None:
+        """Focal length from the EXIF data, millimeters, or None."""
     @property
     def place(self) -> Geodetic | None:
         """Position of the camera, `epipole.math.Geodetic`, or None."""
@@ -344,6 +376,7 @@ def prepare_photo(
     max_pixels: int | None = None,
     max_file_pixels: int | None = None,
     range: str | Sequence[float] | None = None,
+    sensor_width_mm: float | None = None,
     undistortion: Undistortion | None = None,
 ) -> PreparedPhoto:
     """Color image of a file, undistorted, turned upright and downscaled.
@@ -358,6 +391,9 @@ def prepare_photo(
     range : str or tuple of float, optional
         ``"auto"`` or ``"full"``, or the values that become black and white.
         As in `decode_rgb`.
+    sensor_width_mm : float, optional
+        Length of the longer side of the sensor, millimeters, for files that have the focal length
+        in millimeters only.
     undistortion : epipole.calibration.Undistortion, optional
         Applied to images with the size of its camera.
 
@@ -410,6 +446,37 @@ class ModelImage:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
+class Rig:
+    """Cameras that are fixed to each other, and the moments in which they took images.
+
+    Parameters
+    ----------
+    id : int
+        Number of the rig in files that number them; no two are equal.
+    cameras : list of tuple
+        Index of each camera and its ``cam_from_rig``, the identity of the first one.
+    frames : list of tuple
+        Number of each frame, its ``rig_from_world``, and the indices of its images.
+    """
+    def __new__(
+        cls,
+        id: int,
+        cameras: Sequence[tuple[int, RigidTransform]],
+        frames: Sequence[tuple[int, RigidTransform, Sequence[int]]],
+    ) -> Rig: ...
+    @property
+    def id(self) -> int:
+        """Number of the rig."""
+    @property
+    def cameras(self) -> list[tuple[int, RigidTransform]]:
+        """Index of each camera and its ``cam_from_rig``, a list of tuple."""
+    @property
+    def frames(self) -> list[tuple[int, RigidTransform, list[int]]]:
+        """Number of each frame, its ``rig_from_world``, and the indices of its images, a list of tuple."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
 class Model:
     """Cameras, the images that they took, and points of the scene.
 
@@ -424,6 +491,12 @@ class Model:
         Red, green, blue. Gray if not given.
     errors_px : list of float or None, optional
         Mean reprojection error of each point, pixels.
+    camera_ids : list of int, optional
+        Number of each camera in files that number them. Counted from 1 if not given.
+    point_ids : list of int, optional
+        The same of the points.
+    rigs : list of Rig, optional
+        Cameras that are fixed to each other.
     """
     def __new__(
         cls,
@@ -433,6 +506,9 @@ class Model:
         tracks: ArrayLike,
         colors: ArrayLike | None = None,
         errors_px: Sequence[float | None] | None = None,
+        camera_ids: Sequence[int] | None = None,
+        point_ids: Sequence[int] | None = None,
+        rigs: Sequence[Rig] | None = None,
     ) -> Model: ...
     @property
     def cameras(self) -> list[Camera]:
@@ -452,6 +528,15 @@ class Model:
     @property
     def errors_px(self) -> list[float | None]:
         """Mean reprojection error of each point, pixels; None if the file has none."""
+    @property
+    def camera_ids(self) -> list[int]:
+        """Number of each camera in files that number them."""
+    @property
+    def point_ids(self) -> list[int]:
+        """Number of each point in files that number them."""
+    @property
+    def rigs(self) -> list[Rig]:
+        """Cameras that are fixed to each other, a list of `Rig`."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_reconstruction(
@@ -573,7 +658,7 @@ def read_model_file(path: str | os.PathLike[str]) -> ReadModel:
     -------
     ReadModel
     """
-def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, int]:
+def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, list[str]]:
     """Reads the points of a PLY file.
 
     Parameters
@@ -583,8 +668,8 @@ def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, int]:
     Returns
     -------
     cloud : epipole.stereo.PointCloud
-    num_left_out : int
-        Number of points with NaN or infinity, which are left out.
+    notes : list of str
+        Sentences on what was left out: points with NaN or infinity, faces of a mesh.
     """
 def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> None:
     """Writes points as a binary PLY file.
@@ -627,7 +712,7 @@ def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
 def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
     """Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
 
-    Landmarks are left out, with a warning.
+    Landmarks that are points are vertices without a rotation; others are left out, with a warning.
 
     Parameters
     ----------
@@ -735,11 +820,14 @@ class Trajectory:
     world_from_cam : list of RigidTransform
     stamps_ns : array_like of int, shape (N,), optional
         Time of each pose, nanoseconds, not descending.
+    notes : list of str, optional
+        Sentences on what a reader assumed.
     """
     def __new__(
         cls,
         world_from_cam: Sequence[RigidTransform],
         stamps_ns: Sequence[int] | None = None,
+        notes: Sequence[str] | None = None,
     ) -> Trajectory: ...
     @property
     def world_from_cam(self) -> list[RigidTransform]:
@@ -747,6 +835,9 @@ class Trajectory:
     @property
     def stamps_ns(self) -> NDArray[np.int64] | None:
         """Time of each pose, nanoseconds, int64 of shape (N,), or None."""
+    @property
+    def notes(self) -> list[str]:
+        """Sentences on what a reader assumed, a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]

@@ -920,6 +920,9 @@ class PoseGraph:
         Vertices that stay. In a connected part without one, its first vertex stays.
     ids : array_like of int, shape (V,), optional
         Number of each vertex in a file.
+    landmarks : array_like of int, optional
+        Vertices that are points, which have no rotation: edges to them have an information of 0
+        for it.
     """
     def __new__(
         cls,
@@ -930,6 +933,7 @@ class PoseGraph:
         information: ArrayLike | None = None,
         fixed: ArrayLike | None = None,
         ids: ArrayLike | None = None,
+        landmarks: ArrayLike | None = None,
     ) -> PoseGraph: ...
     @property
     def kind(self) -> str:
@@ -949,6 +953,9 @@ class PoseGraph:
     @property
     def fixed(self) -> NDArray[np.int64]:
         """Vertices that stay, int64 array."""
+    @property
+    def landmarks(self) -> NDArray[np.int64]:
+        """Vertices that are points, whose rotation is none, int64 array."""
     @property
     def ids(self) -> NDArray[np.int64]:
         """Number of each vertex in a file, int64 of shape (V,)."""

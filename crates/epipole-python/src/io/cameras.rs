@@ -1,9 +1,11 @@
 //! Files of cameras.
 
 use super::source::{Source, format_of, or_raise, write};
+use crate::arrays::from_rows;
 use crate::camera::{Camera, RigidTransform};
 use crate::sfm::wrapper::wrapper;
 use epipole_io::camera::{self, CameraFormat};
+use numpy::PyArray2;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 
@@ -71,19 +73,26 @@ impl NamedCamera {
 /// cameras : list of NamedCamera
 /// right_from_left : RigidTransform, optional
 ///     Motion of a rig, from the first camera to the second, in the unit of the file.
+/// notes : list of str, optional
+///     Sentences on cameras of a file that are left out.
 #[pyclass(frozen, module = "epipole.io")]
 struct Cameras(camera::Cameras);
 
-wrapper!(Cameras: cameras, right_from_left);
+wrapper!(Cameras: cameras, right_from_left, notes);
 
 #[pymethods]
 impl Cameras {
     #[new]
-    #[pyo3(signature = (cameras, right_from_left=None))]
-    fn new(cameras: Vec<NamedCamera>, right_from_left: Option<&RigidTransform>) -> Self {
+    #[pyo3(signature = (cameras, right_from_left=None, notes=None))]
+    fn new(
+        cameras: Vec<NamedCamera>,
+        right_from_left: Option<&RigidTransform>,
+        notes: Option<Vec<String>>,
+    ) -> Self {
         Self(camera::Cameras {
             cameras: cameras.into_iter().map(|camera| camera.0).collect(),
             right_from_left: right_from_left.map(|motion| motion.0),
+            notes: notes.unwrap_or_default(),
         })
     }
 
@@ -120,6 +129,12 @@ impl Cameras {
     #[getter]
     fn right_from_left(&self) -> Option<RigidTransform> {
         self.0.right_from_left.map(RigidTransform::from)
+    }
+
+    /// Sentences on cameras of the file that are left out, as there is no such lens, a list of str.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
     }
 
     /// Camera of a name; `KeyError` without one.
@@ -163,6 +178,27 @@ fn read_cameras(
     Ok((named.map_or("other", |(name, _)| name), Cameras(cameras)))
 }
 
+/// Reads Q of a rectified pair, from pixels with disparities to points.
+///
+/// Parameters
+/// ----------
+/// source : str, os.PathLike or bytes
+///     File with the key ``Q`` of OpenCV or of ``epipole rectify --json``, or sixteen numbers row
+///     by row.
+///
+/// Returns
+/// -------
+/// numpy.ndarray
+///     Shape (4, 4).
+#[pyfunction]
+fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    let q = source.done(camera::read_q(&source.bytes))?;
+    let rows: Vec<_> = (0..4).map(|row| q.row(row).transpose()).collect();
+    from_rows(py, &rows)
+}
+
 /// Writes cameras with all digits.
 ///
 /// Parameters
@@ -182,5 +218,6 @@ pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<NamedCamera>()?;
     module.add_class::<Cameras>()?;
     module.add_function(wrap_pyfunction!(read_cameras, module)?)?;
+    module.add_function(wrap_pyfunction!(read_q, module)?)?;
     module.add_function(wrap_pyfunction!(write_cameras, module)?)
 }

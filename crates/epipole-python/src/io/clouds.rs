@@ -35,14 +35,14 @@ pub(super) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<B
 /// Returns
 /// -------
 /// cloud : epipole.stereo.PointCloud
-/// num_left_out : int
-///     Number of points with NaN or infinity, which are left out.
+/// notes : list of str
+///     Sentences on what was left out: points with NaN or infinity, faces of a mesh.
 #[pyfunction]
-fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, usize)> {
+fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
     let py = source.py();
     let source = Source::read(source)?;
-    let (cloud, num_left_out) = source.done(cloud::read_ply(&source.bytes))?;
-    Ok((give_cloud(py, &cloud)?, num_left_out))
+    let (cloud, notes) = source.done(cloud::read_ply(&source.bytes))?;
+    Ok((give_cloud(py, &cloud)?, notes))
 }
 
 /// Writes points as a binary PLY file.
@@ -124,7 +124,7 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 
 /// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
 ///
-/// Landmarks are left out, with a warning.
+/// Landmarks that are points are vertices without a rotation; others are left out, with a warning.
 ///
 /// Parameters
 /// ----------

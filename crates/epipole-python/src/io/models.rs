@@ -10,7 +10,7 @@ use crate::sfm::wrapper::{
     colors, give_colors, give_index_rows, index_rows, require_equal, wrapper,
 };
 use crate::sfm::{Reconstruction, SfmImage};
-use epipole_io::model::{self, ModelFormat, ModelPoint};
+use epipole_io::model::{self, ModelFormat, ModelPoint, RigCamera, RigFrame};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
@@ -106,6 +106,71 @@ impl ModelImage {
     }
 }
 
+/// Cameras that are fixed to each other, and the moments in which they took images.
+///
+/// Parameters
+/// ----------
+/// id : int
+///     Number of the rig in files that number them; no two are equal.
+/// cameras : list of tuple
+///     Index of each camera and its ``cam_from_rig``, the identity of the first one.
+/// frames : list of tuple
+///     Number of each frame, its ``rig_from_world``, and the indices of its images.
+#[pyclass(frozen, from_py_object, module = "epipole.io")]
+#[derive(Clone)]
+struct Rig(model::Rig);
+
+wrapper!(Rig: id, cameras, frames);
+
+#[pymethods]
+impl Rig {
+    #[new]
+    fn new(
+        id: u32,
+        cameras: Vec<(usize, RigidTransform)>,
+        frames: Vec<(u32, RigidTransform, Vec<usize>)>,
+    ) -> Self {
+        let camera = |(camera, cam_from_rig): (usize, RigidTransform)| RigCamera {
+            camera,
+            cam_from_rig: cam_from_rig.0,
+        };
+        let frame = |(id, rig_from_world, images): (u32, RigidTransform, Vec<usize>)| RigFrame {
+            id,
+            rig_from_world: rig_from_world.0,
+            images,
+        };
+        Self(model::Rig {
+            id,
+            cameras: cameras.into_iter().map(camera).collect(),
+            frames: frames.into_iter().map(frame).collect(),
+        })
+    }
+
+    /// Number of the rig.
+    #[getter]
+    fn id(&self) -> u32 {
+        self.0.id
+    }
+
+    /// Index of each camera and its ``cam_from_rig``, a list of tuple.
+    #[getter]
+    fn cameras(&self) -> Vec<(usize, RigidTransform)> {
+        let cameras = self.0.cameras.iter();
+        cameras
+            .map(|of_rig| (of_rig.camera, of_rig.cam_from_rig.into()))
+            .collect()
+    }
+
+    /// Number of each frame, its ``rig_from_world``, and the indices of its images, a list of tuple.
+    #[getter]
+    fn frames(&self) -> Vec<(u32, RigidTransform, Vec<usize>)> {
+        let frames = self.0.frames.iter();
+        frames
+            .map(|frame| (frame.id, frame.rig_from_world.into(), frame.images.clone()))
+            .collect()
+    }
+}
+
 /// Cameras, the images that they took, and points of the scene.
 ///
 /// Parameters
@@ -119,16 +184,28 @@ impl ModelImage {
 ///     Red, green, blue. Gray if not given.
 /// errors_px : list of float or None, optional
 ///     Mean reprojection error of each point, pixels.
+/// camera_ids : list of int, optional
+///     Number of each camera in files that number them. Counted from 1 if not given.
+/// point_ids : list of int, optional
+///     The same of the points.
+/// rigs : list of Rig, optional
+///     Cameras that are fixed to each other.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]
 pub(crate) struct Model(model::Model);
 
-wrapper!(Model: cameras, images, points, tracks, colors, errors_px);
+wrapper!(
+    Model: cameras, images, points, tracks, colors, errors_px, camera_ids, point_ids, rigs
+);
 
 #[pymethods]
 impl Model {
     #[new]
-    #[pyo3(signature = (cameras, images, points, tracks, colors=None, errors_px=None))]
+    #[pyo3(signature = (
+        cameras, images, points, tracks, colors=None, errors_px=None, camera_ids=None,
+        point_ids=None, rigs=None
+    ))]
+    #[allow(clippy::too_many_arguments, reason = "the parts of a model")]
     fn new(
         cameras: Vec<Camera>,
         images: Vec<ModelImage>,
@@ -136,6 +213,9 @@ impl Model {
         tracks: &Bound<'_, PyAny>,
         colors: Option<&Bound<'_, PyAny>>,
         errors_px: Option<Vec<Option<f64>>>,
+        camera_ids: Option<Vec<u32>>,
+        point_ids: Option<Vec<u64>>,
+        rigs: Option<Vec<Rig>>,
     ) -> PyResult<Self> {
         let positions = points3("points", points)?;
         let count = positions.len();
@@ -146,9 +226,12 @@ impl Model {
         let errors = errors_px.unwrap_or_else(|| vec![None; count]);
         require_equal(("points", count), ("colors", colors.len()))?;
         require_equal(("points", count), ("errors_px", errors.len()))?;
-        let parts = positions.into_iter().zip(colors).zip(errors);
+        let ids = point_ids.unwrap_or_else(|| (1..=count as u64).collect());
+        require_equal(("points", count), ("point_ids", ids.len()))?;
+        let parts = positions.into_iter().zip(colors).zip(errors).zip(ids);
         let mut points: Vec<_> = parts
-            .map(|((position, color), error_px)| ModelPoint {
+            .map(|(((position, color), error_px), id)| ModelPoint {
+                id,
                 position,
                 color,
                 error_px,
@@ -167,7 +250,12 @@ impl Model {
             cameras: cameras.into_iter().map(|camera| camera.0).collect(),
             images: images.into_iter().map(|image| image.0).collect(),
             points,
-            ..model::Model::default()
+            camera_ids: camera_ids.unwrap_or_default(),
+            rigs: rigs
+                .unwrap_or_default()
+                .into_iter()
+                .map(|rig| rig.0)
+                .collect(),
         }))
     }
 
@@ -243,6 +331,26 @@ impl Model {
     #[getter]
     fn errors_px(&self) -> Vec<Option<f64>> {
         self.0.points.iter().map(|point| point.error_px).collect()
+    }
+
+    /// Number of each camera in files that number them.
+    #[getter]
+    fn camera_ids(&self) -> Vec<u32> {
+        (0..self.0.cameras.len())
+            .map(|n| self.0.camera_id(n))
+            .collect()
+    }
+
+    /// Number of each point in files that number them.
+    #[getter]
+    fn point_ids(&self) -> Vec<u64> {
+        self.0.points.iter().map(|point| point.id).collect()
+    }
+
+    /// Cameras that are fixed to each other, a list of `Rig`.
+    #[getter]
+    fn rigs(&self) -> Vec<Rig> {
+        self.0.rigs.iter().cloned().map(Rig).collect()
     }
 
     /// Points without observations.
@@ -406,6 +514,7 @@ fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<ModelImage>()?;
+    module.add_class::<Rig>()?;
     module.add_class::<Model>()?;
     module.add_class::<ReadModel>()?;
     module.add_function(wrap_pyfunction!(read_model_folder, module)?)?;

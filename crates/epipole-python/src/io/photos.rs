@@ -20,6 +20,8 @@ record! {
         image: Py<PyAny>,
         /// First guess of the focal length from the EXIF data, pixels of this image, or None.
         focal_px: Option<f64>,
+        /// Focal length from the EXIF data, millimeters, or None.
+        focal_mm: Option<f64>,
         /// Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
         place: Option<Geodetic>,
         /// EXIF orientation of the file, 1 to 8, applied or not.
@@ -92,6 +94,7 @@ fn decode_rgb(
     Ok(Decoded {
         image: from_rgb(py, decoded.image)?.into_any().unbind(),
         focal_px: decoded.focal_px,
+        focal_mm: decoded.focal_mm,
         place: decoded.place.map(Geodetic),
         orientation: decoded.orientation.to_exif(),
         range: decoded.range,
@@ -131,6 +134,7 @@ fn decode_gray(
     Ok(Decoded {
         image: from_gray(py, decoded.image)?.into_any().unbind(),
         focal_px: decoded.focal_px,
+        focal_mm: decoded.focal_mm,
         place: decoded.place.map(Geodetic),
         orientation: decoded.orientation.to_exif(),
         range: decoded.range,
@@ -157,7 +161,7 @@ fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
 /// Parameters
 /// ----------
 /// image : array_like of uint8, shape (H, W, 3)
-/// focal_px : float, optional
+/// focal_px, focal_mm : float, optional
 /// place : epipole.math.Geodetic, optional
 /// intrinsics : Intrinsics, optional
 /// full_size, sensor_size : tuple of int
@@ -168,8 +172,8 @@ fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
 struct PreparedPhoto(photo::PreparedPhoto);
 
 wrapper!(
-    PreparedPhoto: image, focal_px, place, intrinsics, full_size, sensor_size, quarters, range,
-    is_as_stored
+    PreparedPhoto: image, focal_px, focal_mm, place, intrinsics, full_size, sensor_size, quarters,
+    range, is_as_stored
 );
 
 #[pymethods]
@@ -179,6 +183,7 @@ impl PreparedPhoto {
     fn new(
         image: &Bound<'_, PyAny>,
         focal_px: Option<f64>,
+        focal_mm: Option<f64>,
         place: Option<Geodetic>,
         intrinsics: Option<&Intrinsics>,
         full_size: (u32, u32),
@@ -190,7 +195,7 @@ impl PreparedPhoto {
         Ok(Self(photo::PreparedPhoto {
             image: rgb("image", image)?,
             focal_px,
-            focal_mm: None,
+            focal_mm,
             place: place.map(|place| place.0),
             intrinsics: intrinsics.map(|intrinsics| intrinsics.0),
             full_size,
@@ -211,6 +216,12 @@ impl PreparedPhoto {
     #[getter]
     fn focal_px(&self) -> Option<f64> {
         self.0.focal_px
+    }
+
+    /// Focal length from the EXIF data, millimeters, or None.
+    #[getter]
+    fn focal_mm(&self) -> Option<f64> {
+        self.0.focal_mm
     }
 
     /// Position of the camera, `epipole.math.Geodetic`, or None.
@@ -288,6 +299,9 @@ impl PreparedPhoto {
 /// range : str or tuple of float, optional
 ///     ``"auto"`` or ``"full"``, or the values that become black and white.
 ///     As in `decode_rgb`.
+/// sensor_width_mm : float, optional
+///     Length of the longer side of the sensor, millimeters, for files that have the focal length
+///     in millimeters only.
 /// undistortion : epipole.calibration.Undistortion, optional
 ///     Applied to images with the size of its camera.
 ///
@@ -296,13 +310,15 @@ impl PreparedPhoto {
 /// PreparedPhoto
 #[pyfunction]
 #[pyo3(signature = (
-    source, *, max_pixels=None, max_file_pixels=None, range=None, undistortion=None
+    source, *, max_pixels=None, max_file_pixels=None, range=None, sensor_width_mm=None,
+    undistortion=None
 ))]
 fn prepare_photo(
     source: &Bound<'_, PyAny>,
     max_pixels: Option<u64>,
     max_file_pixels: Option<u64>,
     range: Option<&Bound<'_, PyAny>>,
+    sensor_width_mm: Option<f64>,
     undistortion: Option<&Undistortion>,
 ) -> PyResult<PreparedPhoto> {
     let py = source.py();
@@ -311,6 +327,7 @@ fn prepare_photo(
         .with_max_pixels(max_pixels.unwrap_or(defaults.max_pixels))
         .with_max_file_pixels(max_file_pixels.unwrap_or(defaults.max_file_pixels))
         .with_range(pixel_range(range)?)
+        .with_sensor_width_mm(sensor_width_mm)
         .with_undistortion(undistortion.map(Undistortion::core));
     let source = Source::read(source)?;
     let prepared = progress::detach(py, || photo::prepare_photo(&source.bytes, &options));

@@ -21,16 +21,22 @@ const FORMATS: [(&str, TrajectoryFormat); 3] = [
 /// world_from_cam : list of RigidTransform
 /// stamps_ns : array_like of int, shape (N,), optional
 ///     Time of each pose, nanoseconds, not descending.
+/// notes : list of str, optional
+///     Sentences on what a reader assumed.
 #[pyclass(frozen, module = "epipole.io")]
 struct Trajectory(trajectory::Trajectory);
 
-wrapper!(Trajectory: world_from_cam, stamps_ns);
+wrapper!(Trajectory: world_from_cam, stamps_ns, notes);
 
 #[pymethods]
 impl Trajectory {
     #[new]
-    #[pyo3(signature = (world_from_cam, stamps_ns=None))]
-    fn new(world_from_cam: Vec<RigidTransform>, stamps_ns: Option<Vec<i64>>) -> PyResult<Self> {
+    #[pyo3(signature = (world_from_cam, stamps_ns=None, notes=None))]
+    fn new(
+        world_from_cam: Vec<RigidTransform>,
+        stamps_ns: Option<Vec<i64>>,
+        notes: Option<Vec<String>>,
+    ) -> PyResult<Self> {
         if let Some(stamps) = &stamps_ns {
             let count = world_from_cam.len();
             require_equal(("world_from_cam", count), ("stamps_ns", stamps.len()))?;
@@ -38,6 +44,7 @@ impl Trajectory {
         Ok(Self(trajectory::Trajectory {
             stamps_ns,
             world_from_cam: world_from_cam.into_iter().map(|pose| pose.0).collect(),
+            notes: notes.unwrap_or_default(),
         }))
     }
 
@@ -53,6 +60,12 @@ impl Trajectory {
     fn stamps_ns<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<i64>>> {
         let stamps = self.0.stamps_ns.as_ref()?;
         Some(PyArray1::from_slice(py, stamps))
+    }
+
+    /// Sentences on what a reader assumed, a list of str.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
     }
 
     fn __len__(&self) -> usize {

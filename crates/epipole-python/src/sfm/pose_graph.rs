@@ -36,10 +36,13 @@ use pyo3::types::PyDict;
 ///     Vertices that stay. In a connected part without one, its first vertex stays.
 /// ids : array_like of int, shape (V,), optional
 ///     Number of each vertex in a file.
+/// landmarks : array_like of int, optional
+///     Vertices that are points, which have no rotation: edges to them have an information of 0
+///     for it.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
 
-wrapper!(PoseGraph: kind, vertices, edges, measurements, information, fixed, ids);
+wrapper!(PoseGraph: kind, vertices, edges, measurements, information, fixed, ids, landmarks);
 
 /// Arguments of the constructor.
 struct Parts<'a, 'py> {
@@ -49,6 +52,7 @@ struct Parts<'a, 'py> {
     information: Option<&'a Bound<'py, PyAny>>,
     fixed: Vec<usize>,
     ids: Option<Vec<usize>>,
+    landmarks: Vec<usize>,
 }
 
 impl Parts<'_, '_> {
@@ -68,11 +72,12 @@ impl Parts<'_, '_> {
             None => vec![SMatrix::identity(); count],
         };
         require_equal(("edges", count), ("information", information.len()))?;
-        let mut used = self.edges.iter().flatten().chain(&self.fixed);
+        let used = self.edges.iter().flatten().chain(&self.fixed);
+        let mut used = used.chain(&self.landmarks);
         if let Some(index) = used.find(|&&index| index >= vertices.len()) {
             return Err(PyValueError::new_err(format!(
-                "edges and fixed must have indices of vertices, but there is {index} for {} \
-                 vertices",
+                "edges, fixed and landmarks must have indices of vertices, but there is {index} for \
+                 {} vertices",
                 vertices.len()
             )));
         }
@@ -94,6 +99,7 @@ impl Parts<'_, '_> {
                 })
                 .collect(),
             fixed: self.fixed,
+            landmarks: self.landmarks,
             ..Graph::default()
         })
     }
@@ -161,8 +167,10 @@ macro_rules! each {
 impl PoseGraph {
     #[new]
     #[pyo3(signature = (
-        kind, vertices, edges, measurements, information=None, fixed=None, ids=None
+        kind, vertices, edges, measurements, information=None, fixed=None, ids=None,
+        landmarks=None
     ))]
+    #[allow(clippy::too_many_arguments, reason = "the parts of a graph")]
     fn new(
         kind: &str,
         vertices: &Bound<'_, PyAny>,
@@ -171,13 +179,18 @@ impl PoseGraph {
         information: Option<&Bound<'_, PyAny>>,
         fixed: Option<&Bound<'_, PyAny>>,
         ids: Option<&Bound<'_, PyAny>>,
+        landmarks: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let of_vertices = |name: &str, given: Option<&Bound<'_, PyAny>>| {
+            given.map_or_else(|| Ok(Vec::new()), |given| indices(name, given))
+        };
         let parts = Parts {
             vertices,
             edges: index_rows::<2>("edges", edges)?,
             measurements,
             information,
-            fixed: fixed.map_or_else(|| Ok(Vec::new()), |fixed| indices("fixed", fixed))?,
+            fixed: of_vertices("fixed", fixed)?,
+            landmarks: of_vertices("landmarks", landmarks)?,
             ids: ids.map(|ids| indices("ids", ids)).transpose()?,
         };
         Ok(Self(match kind {
@@ -245,6 +258,15 @@ impl PoseGraph {
     #[getter]
     fn fixed<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         each!(&self.0, |graph, _columns| give_indices(py, &graph.fixed))
+    }
+
+    /// Vertices that are points, whose rotation is none, int64 array.
+    #[getter]
+    fn landmarks<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        each!(&self.0, |graph, _columns| give_indices(
+            py,
+            &graph.landmarks
+        ))
     }
 
     /// Number of each vertex in a file, int64 of shape (V,).

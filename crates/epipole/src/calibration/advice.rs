@@ -18,7 +18,7 @@ pub enum CalibrationWarning {
     },
     /// The focal length is uncertain.
     #[error(
-        "the focal length is sure to {percent:.1} % only. More views help, turned in other directions and larger in the \
+        "the focal length is sure to {percent:.1}% only. More views help, turned in other directions and larger in the \
          picture"
     )]
     UncertainFocal {
@@ -27,7 +27,7 @@ pub enum CalibrationWarning {
     },
     /// Much of the image has no mark, and the lens is extrapolated there.
     #[error(
-        "the boards reach {percent:.0} % of the picture, and elsewhere the distortion is a guess. Move the board to \
+        "the boards reach {percent:.0}% of the picture, and elsewhere the distortion is a guess. Move the board to \
          the edges and corners, too"
     )]
     LowCoverage {

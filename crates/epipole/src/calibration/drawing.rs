@@ -76,39 +76,16 @@ fn squares_between_tags(board: &Board, spacing: f64) -> Vec<[Point2<f64>; 2]> {
         .collect()
 }
 
-/// Black runs of a marker's cells; equal rows below each other are one.
+/// Black rectangles of a marker.
 fn black_of_marker(markers: &BoardMarkers, id: usize) -> Vec<[Point2<f64>; 2]> {
     let border = markers.border_bits;
     let side = markers.dictionary.num_bits() + 2 * border;
     let [a, b, _, d] = markers.corners[id];
     let (right, down) = ((b - a) / side as f64, (d - a) / side as f64);
-    let is_black = |row: usize, column: usize| {
-        let bit = |k: usize| k.wrapping_sub(border);
-        let white = markers.dictionary.is_white(id, bit(row), bit(column));
-        !white.unwrap_or(false)
-    };
-    let row_of = |row: usize| -> Vec<bool> { (0..side).map(|k| is_black(row, k)).collect() };
-    let mut rectangles = Vec::new();
-    let mut row = 0;
-    while row < side {
-        let cells = row_of(row);
-        let mut end = row + 1;
-        while end < side && row_of(end) == cells {
-            end += 1;
-        }
-        let mut column = 0;
-        for run in cells.chunk_by(|x, y| x == y) {
-            let next = column + run.len();
-            if run[0] {
-                let corner = |i: usize, j: usize| a + right * i as f64 + down * j as f64;
-                let (p, q) = (corner(column, row), corner(next, end));
-                rectangles.push([p.inf(&q), p.sup(&q)]);
-            }
-            column = next;
-        }
-        row = end;
-    }
-    rectangles
+    let corner = |[i, j]: [usize; 2]| a + right * i as f64 + down * j as f64;
+    let cells = markers.dictionary.black_cells(id, border);
+    let corners = cells.into_iter().flatten().map(|ends| ends.map(corner));
+    corners.map(|[p, q]| [p.inf(&q), p.sup(&q)]).collect()
 }
 
 #[cfg(test)]

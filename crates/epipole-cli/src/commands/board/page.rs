@@ -2,7 +2,7 @@
 
 use super::paper::Paper;
 use crate::failure::Failure;
-use epipole::calibration::Board;
+use epipole::calibration::BoardDrawing;
 
 /// Free margin of the paper, which printers cannot reach.
 const MARGIN_MM: f64 = 6.0;
@@ -14,6 +14,8 @@ const RULER_MM: f64 = 6.5;
 const GAP_MM: f64 = 4.0;
 /// Size of the text.
 const TEXT_MM: f64 = 2.6;
+/// Largest size of the number of a marker.
+const LABEL_MM: f64 = 2.0;
 /// Width of a letter as a share of the text's size, at most on average.
 const LETTER: f64 = 0.56;
 /// Longest ruler.
@@ -44,13 +46,20 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// The board in the middle, the caption and a ruler below.
+    /// The drawing in the middle, the caption and a ruler below.
+    ///
+    /// * `labels`: texts on the drawing and the left end of their baselines, squares
+    /// * `mm`: side of a square
     ///
     /// # Errors
     /// A sentence if the board does not fit.
-    pub(super) fn new(board: &Board, paper: Paper, caption: &[String]) -> Result<Self, Failure> {
-        let mm = 1000.0 * board.square_m();
-        let drawing = board.drawing();
+    pub(super) fn new(
+        drawing: &BoardDrawing,
+        labels: &[([f64; 2], String)],
+        mm: f64,
+        paper: Paper,
+        caption: &[String],
+    ) -> Result<Self, Failure> {
         let radius = drawing.disk_radius;
         let corners = drawing.rectangles.iter().flatten();
         let mut points: Vec<[f64; 2]> = corners.map(|p| [p.x, p.y]).collect();
@@ -83,6 +92,15 @@ impl Page {
         for p in &drawing.disks {
             let (x, y) = place(p.x, p.y);
             page.disks.push([x, y, mm * radius]);
+        }
+        for ([x, y], text) in labels {
+            let (x, y) = place(*x, *y);
+            page.texts.push(Text {
+                x,
+                y,
+                size: LABEL_MM.min(0.06 * mm),
+                text: text.clone(),
+            });
         }
         page.add_footer(caption, paper_mm[1] - MARGIN_MM - footer_mm + GAP_MM);
         Ok(page)

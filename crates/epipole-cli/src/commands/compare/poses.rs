@@ -49,8 +49,9 @@ impl Poses {
         Ok(Self {
             format: read.format.name(),
             trajectory: Trajectory {
-                stamps_ns: None,
                 world_from_cam: poses.collect(),
+                notes: read.notes,
+                ..Trajectory::default()
             },
             names: Some(images.into_iter().map(|image| image.name).collect()),
         })

@@ -141,11 +141,14 @@ fn of_graph(text: &str) -> Result<Found> {
         PoseGraph::Se3(graph) => ("pose graph of g2o, in space", graph.fixed.len()),
         PoseGraph::Sim3(graph) => ("pose graph of g2o, with scales", graph.fixed.len()),
     };
-    let priors = read.graph.num_priors();
+    let (priors, landmarks) = (read.graph.num_priors(), read.graph.num_landmarks());
     Ok(Found {
         kind,
         convention: "world from vertex; quaternions x, y, z, w",
-        counts: json!({ "vertices": vertices, "edges": edges, "priors": priors, "fixed": fixed }),
+        counts: json!({
+            "vertices": vertices - landmarks, "landmarks": landmarks, "edges": edges,
+            "priors": priors, "fixed": fixed,
+        }),
         notes: read.notes,
     })
 }

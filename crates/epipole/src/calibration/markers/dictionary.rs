@@ -158,6 +158,50 @@ impl MarkerDictionary {
         })
     }
 
+    /// Black cells of an upright marker, joined to rectangles that do not overlap: column and row
+    /// of the upper left and of the lower right corner, in cells from the outer corner of the
+    /// border; `None` if there is no such marker.
+    ///
+    /// * `border_bits`: width of the black border
+    ///
+    /// ```
+    /// use epipole::calibration::MarkerDictionary;
+    /// let cells = MarkerDictionary::Aruco4x4_50.black_cells(0, 1).unwrap();
+    /// // The upper border, six cells wide, which the first row 1011 does not prolong.
+    /// assert_eq!(cells[0], [[0, 0], [6, 1]]);
+    /// ```
+    pub fn black_cells(self, id: usize, border_bits: usize) -> Option<Vec<[[usize; 2]; 2]>> {
+        if id >= self.num_markers() {
+            return None;
+        }
+        let side = self.num_bits() + 2 * border_bits;
+        let is_black = |row: usize, column: usize| {
+            let bit = |k: usize| k.wrapping_sub(border_bits);
+            let white = self.is_white(id, bit(row), bit(column));
+            !white.unwrap_or(false)
+        };
+        let row_of = |row: usize| -> Vec<bool> { (0..side).map(|k| is_black(row, k)).collect() };
+        let mut rectangles = Vec::new();
+        let mut row = 0;
+        while row < side {
+            let cells = row_of(row);
+            let mut end = row + 1;
+            while end < side && row_of(end) == cells {
+                end += 1;
+            }
+            let mut column = 0;
+            for run in cells.chunk_by(|x, y| x == y) {
+                let next = column + run.len();
+                if run[0] {
+                    rectangles.push([[column, row], [next, end]]);
+                }
+                column = next;
+            }
+            row = end;
+        }
+        Some(rectangles)
+    }
+
     /// The nearest marker to the bits of an image: its number, its clockwise quarter turns and the
     /// number of wrong bits, if this is at most `max_hamming`.
     ///

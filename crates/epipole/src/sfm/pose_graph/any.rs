@@ -65,7 +65,16 @@ impl PoseGraph {
         }
     }
 
-    /// Numbers of vertices and edges.
+    /// Number of landmarks among the vertices.
+    pub fn num_landmarks(&self) -> usize {
+        match self {
+            PoseGraph::Se2(graph) => graph.landmarks.len(),
+            PoseGraph::Se3(graph) => graph.landmarks.len(),
+            PoseGraph::Sim3(graph) => graph.landmarks.len(),
+        }
+    }
+
+    /// Numbers of vertices, landmarks among them, and edges.
     pub fn size(&self) -> (usize, usize) {
         match self {
             PoseGraph::Se2(graph) => (graph.vertices.len(), graph.edges.len()),

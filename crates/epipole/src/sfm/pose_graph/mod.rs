@@ -44,6 +44,9 @@ pub struct Graph<T, const D: usize> {
     /// Indices of the vertices that stay where they are. Where a connected part of the graph has
     /// neither one nor a prior, its first vertex stays.
     pub fixed: Vec<usize>,
+    /// Indices of the vertices that are points, such as landmarks: they have no rotation, and an
+    /// edge to one measures its position only, with an information of 0 for the rest.
+    pub landmarks: Vec<usize>,
 }
 
 impl<T, const D: usize> Default for Graph<T, D> {
@@ -54,6 +57,7 @@ impl<T, const D: usize> Default for Graph<T, D> {
             edges: Vec::new(),
             priors: Vec::new(),
             fixed: Vec::new(),
+            landmarks: Vec::new(),
         }
     }
 }
@@ -223,12 +227,17 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
                 });
             }
         }
-        if let Some(&fixed) = self.fixed.iter().find(|&&vertex| vertex >= count) {
-            return Err(Error::OutOfRange {
-                what: "a fixed vertex",
-                requirement: "the index of an existing one",
-                value: fixed as f64,
-            });
+        for (what, vertices) in [
+            ("a fixed vertex", &self.fixed),
+            ("a landmark", &self.landmarks),
+        ] {
+            if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex >= count) {
+                return Err(Error::OutOfRange {
+                    what,
+                    requirement: "the index of an existing vertex",
+                    value: vertex as f64,
+                });
+            }
         }
         if !self.vertices.iter().all(GraphPose::is_finite) {
             return Err(Error::NotFinite {
@@ -236,6 +245,15 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             });
         }
         Ok(())
+    }
+
+    /// Whether each vertex is a point.
+    fn is_landmark(&self) -> Vec<bool> {
+        let mut is_landmark = vec![false; self.vertices.len()];
+        for &vertex in &self.landmarks {
+            is_landmark[vertex] = true;
+        }
+        is_landmark
     }
 
     /// Which vertices stay, and the number of connected parts.
@@ -252,7 +270,11 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         }
         let mut num_components = 0;
         let mut counted = vec![false; self.vertices.len()];
-        for vertex in 0..self.vertices.len() {
+        // A landmark would hold the position of its part, and not the rotation.
+        let is_landmark = self.is_landmark();
+        let (landmarks, poses): (Vec<_>, Vec<_>) =
+            (0..self.vertices.len()).partition(|&vertex| is_landmark[vertex]);
+        for vertex in poses.into_iter().chain(landmarks) {
             let root = parts.root(vertex);
             if !anchored[root] {
                 held[vertex] = true;
@@ -285,8 +307,7 @@ mod tests {
             ids: (0..count as u64).collect(),
             vertices: vec![identity],
             edges: Vec::new(),
-            priors: Vec::new(),
-            fixed: Vec::new(),
+            ..Graph::default()
         };
         for i in 1..count {
             let next = times(&graph.vertices[i - 1], &step);
@@ -363,6 +384,63 @@ mod tests {
         let after = error_of(&graph);
         assert!(report.termination.is_converged(), "{report:?}");
         assert!(after < 0.5 * before, "{before} to {after}");
+    }
+
+    #[test]
+    fn landmarks_are_places_of_points() {
+        // A pose a step ahead, both seeing two points, of which the start has a wrong idea.
+        let at = |x: f64, y: f64| Isometry2::new(Vector2::new(x, y), 0.0);
+        let points = [at(2.0, 1.0), at(1.0, -2.0)];
+        let truth = Isometry2::new(Vector2::new(1.0, 0.5), 0.4);
+        let position = SMatrix::<f64, 3, 3>::from_diagonal(&SVector::from([4.0, 4.0, 0.0]));
+        let sees = |from: usize, pose: &Isometry2<f64>, to: usize| Edge {
+            from,
+            to,
+            from_from_to: Isometry2::from_parts(
+                (pose.inv_mul(&points[to])).translation,
+                nalgebra::UnitComplex::identity(),
+            ),
+            information: position,
+        };
+        let identity = Isometry2::identity();
+        let mut graph = Graph {
+            ids: vec![7, 8, 0, 1],
+            vertices: vec![at(9.0, 9.0), at(-3.0, 0.0), identity, at(0.2, 0.1)],
+            edges: vec![
+                sees(2, &identity, 0),
+                sees(2, &identity, 1),
+                sees(3, &truth, 0),
+                sees(3, &truth, 1),
+            ],
+            landmarks: vec![0, 1],
+            ..Graph::default()
+        };
+        graph.edges.push(Edge {
+            from: 2,
+            to: 3,
+            from_from_to: truth,
+            information: SMatrix::identity(),
+        });
+        let options = LmOptions::default();
+        for starts_from_edges in [false, true] {
+            let mut graph = graph.clone();
+            if starts_from_edges {
+                graph.initialize(&mut ()).unwrap();
+                assert!(graph.chi2() < 1e-20, "{}", graph.chi2());
+            }
+            let report = (graph.optimize(&options, RobustLoss::Trivial, &mut ())).unwrap();
+            assert_eq!(report.num_components, 1);
+            assert!(report.final_chi2 < 1e-12, "{report:?}");
+            // The first pose stays, not the first vertex.
+            assert_eq!(graph.vertices[2], identity);
+            for (found, point) in graph.vertices.iter().zip(&points) {
+                assert!((found.translation.vector - point.translation.vector).norm() < 1e-6);
+                assert_eq!(found.rotation.angle(), 0.0);
+            }
+            assert!((graph.vertices[3].rotation.angle() - 0.4).abs() < 1e-6);
+        }
+        graph.landmarks.push(4);
+        assert!(graph.initialize(&mut ()).is_err());
     }
 
     #[test]

@@ -172,7 +172,14 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             })
             .collect();
         report(monitor, Stage::PoseGraph, 0.0)?;
-        let of_turns = Links::new(&turns, &held).ok_or_else(degenerate)?;
+        // A landmark has no rotation to be found.
+        let is_landmark = self.is_landmark();
+        let kept: Vec<bool> = held
+            .iter()
+            .zip(&is_landmark)
+            .map(|(a, b)| *a || *b)
+            .collect();
+        let of_turns = Links::new(&turns, &kept).ok_or_else(degenerate)?;
         let mut rows: [Vec<Vector3<f64>>; 3] = core::array::from_fn(|row| {
             let row_of = |pose: &Similarity3<f64>| matrix(pose).row(row).transpose();
             poses.iter().map(row_of).collect()
@@ -182,7 +189,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             report(monitor, Stage::PoseGraph, 0.2 * (done + 1) as f32)?;
         }
         for (vertex, pose) in poses.iter_mut().enumerate() {
-            if !held[vertex] {
+            if !kept[vertex] {
                 let [a, b, c] = [0, 1, 2].map(|row: usize| rows[row][vertex].transpose());
                 pose.isometry.rotation = nearest_rotation(&Matrix3::from_rows(&[a, b, c]));
             }
@@ -190,7 +197,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
         if D == 7 {
             let scales = links(6, 1);
-            let of_scales = Links::new(&scales, &held).ok_or_else(degenerate)?;
+            let of_scales = Links::new(&scales, &kept).ok_or_else(degenerate)?;
             let log = |pose: &Similarity3<f64>| SVector::<f64, 1>::new(libm::log(pose.scaling()));
             let mut logs: Vec<_> = poses.iter().map(log).collect();
             of_scales.solve(&mut logs, |edge| log(&measured[edge]));
