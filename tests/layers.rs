@@ -68,6 +68,7 @@ const MODULES: &[&str] = &[
     "stereo",
     "calibration",
     "sfm",
+    "mvs",
     "stitch",
     "synthetic",
 ];
@@ -97,6 +98,7 @@ const MODULES_OF_IO: &[&str] = &[
     "rotation",
     "photo",
     "disparity",
+    "depth_map",
     "bundle",
     "pose_graph",
     "colmap",

@@ -13,6 +13,7 @@ mod inspect;
 mod localize;
 mod manual;
 mod matching;
+mod mvs;
 mod odometry;
 mod pnp;
 mod posegraph;
@@ -42,6 +43,7 @@ pub(crate) enum Command {
     Stereo(stereo::Arguments),
     Sfm(sfm::Arguments),
     Localize(localize::Arguments),
+    Mvs(mvs::Arguments),
     Ba(ba::Arguments),
     Posegraph(posegraph::Arguments),
     Odometry(odometry::Arguments),
@@ -70,6 +72,7 @@ impl Command {
             Self::Stereo(arguments) => stereo::run(&arguments, context),
             Self::Sfm(arguments) => sfm::run(&arguments, context),
             Self::Localize(arguments) => localize::run(&arguments, context),
+            Self::Mvs(arguments) => mvs::run(&arguments, context),
             Self::Ba(arguments) => ba::run(&arguments, context),
             Self::Posegraph(arguments) => posegraph::run(&arguments, context),
             Self::Odometry(arguments) => odometry::run(&arguments, context),

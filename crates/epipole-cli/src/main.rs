@@ -20,6 +20,7 @@ mod listing;
 mod match_file;
 mod matrices;
 mod model;
+mod model_images;
 mod output_folder;
 mod pattern;
 mod photo;

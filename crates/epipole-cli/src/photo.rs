@@ -125,8 +125,8 @@ impl Photo {
         }
     }
 
-    /// The gray values of a file as the sensor gave them, which is not always upright: a lens knows
-    /// no other frame.
+    /// The pixels of a file as the sensor gave them, which is not always upright: a lens knows no
+    /// other frame.
     ///
     /// # Errors
     /// As [`Photo::prepared`].
@@ -134,7 +134,7 @@ impl Photo {
         path: &Path,
         reading: ReadArguments,
         context: &Context,
-    ) -> Result<GrayImage32, Failure> {
+    ) -> Result<RgbImage, Failure> {
         let as_stored = DecodeOptions::default()
             .with_max_pixels(reading.max_file_pixels())
             .with_range(reading.range)
@@ -142,7 +142,7 @@ impl Photo {
         let decoded = decode_rgb(&bytes(path)?, &as_stored);
         let decoded = decoded.map_err(|error| reading.failure(error, path))?;
         reading.tell_of_range(decoded.range, path, context);
-        Ok(photo_to_gray(&decoded.image))
+        Ok(decoded.image)
     }
 
     /// A focal length in pixels of the file, in pixels of the photograph.

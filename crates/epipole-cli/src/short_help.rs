@@ -3,7 +3,7 @@
 use clap::{Arg, Command};
 
 /// Options that `-h` shows, by their long names, in the order of their definition.
-const COMMON: [&str; 58] = [
+const COMMON: [&str; 61] = [
     "align",
     "baseline-m",
     "board",
@@ -33,10 +33,13 @@ const COMMON: [&str; 58] = [
     "max-features",
     "max-iterations",
     "max-megapixels",
+    "max-size",
     "method",
     "min-disparity",
+    "min-views",
     "model",
     "num-frames",
+    "num-neighbors",
     "output",
     "paper",
     "ply",

@@ -19,6 +19,7 @@ pub mod cloud;
 mod colmap;
 #[cfg(test)]
 mod damage;
+pub mod depth_map;
 pub mod disparity;
 mod error;
 #[cfg(test)]

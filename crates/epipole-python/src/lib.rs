@@ -28,6 +28,7 @@ mod images;
 mod imaging;
 mod io;
 mod math;
+mod mvs;
 mod optim;
 mod options;
 mod progress;
@@ -48,7 +49,7 @@ use pyo3::prelude::*;
 type Register = fn(&Bound<'_, PyModule>) -> PyResult<()>;
 
 /// The library's modules, in its order.
-const MODULES: [(&str, Register); 17] = [
+const MODULES: [(&str, Register); 18] = [
     ("camera", camera::register),
     ("robust", robust::register),
     ("epipolar", epipolar::register),
@@ -61,6 +62,7 @@ const MODULES: [(&str, Register); 17] = [
     ("stereo", stereo::register),
     ("calibration", calibration::register),
     ("sfm", sfm::register),
+    ("mvs", mvs::register),
     ("stitch", stitch::register),
     ("math", math::register),
     ("optim", optim::register),

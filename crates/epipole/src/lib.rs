@@ -19,6 +19,7 @@
 //! | [`stereo`] | rectification, dense disparity, depth, point clouds |
 //! | [`calibration`] | boards in photographs, intrinsics and distortion from them, rigs, undistortion |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
+//! | [`mvs`] | dense depth maps of many views, fused to one point cloud |
 //! | [`stitch`] | panoramas: rotations of photos, projection, blending |
 //! | `synthetic` | seeded worlds with ground truth: points, cameras, noise, outliers (feature `synthetic`) |
 //!
@@ -41,6 +42,7 @@ pub mod feature;
 pub mod homography;
 pub mod imaging;
 pub mod math;
+pub mod mvs;
 pub mod optim;
 pub mod prelude;
 pub mod progress;

@@ -29,6 +29,12 @@ pub enum Stage {
     Refinement,
     /// Photos are blended into one picture.
     Blending,
+    /// Distortion is removed from photos.
+    Undistortion,
+    /// Depths and normals of pixels are found by comparing many views.
+    DepthEstimation,
+    /// Depth maps are joined to one cloud.
+    Fusion,
 }
 
 impl Stage {
@@ -51,6 +57,9 @@ impl Stage {
             Self::Calibration => "fitting the lens",
             Self::Refinement => "refining",
             Self::Blending => "blending",
+            Self::Undistortion => "removing distortion",
+            Self::DepthEstimation => "estimating depths",
+            Self::Fusion => "fusing depth maps",
         }
     }
 }

@@ -17,6 +17,7 @@ mod lenses;
 mod localize;
 mod matches;
 mod models;
+mod mvs;
 mod odometry;
 mod optimize;
 mod pairs;

@@ -9,7 +9,7 @@ use super::not_finite;
 use crate::bytes::Bytes;
 use crate::{Error, Result, text};
 use epipole::stereo::PointCloud;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use std::str::SplitAsciiWhitespace;
 
 /// A type of numbers.
@@ -284,6 +284,8 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
         place(&["green", "g", "diffuse_green"]),
         place(&["blue", "b", "diffuse_blue"]),
     ];
+    let of_normal = [place(&["nx"]), place(&["ny"]), place(&["nz"])];
+    let of_confidence = place(&["confidence"]);
     let mut values = vec![0.0; vertices.properties.len()];
     let has_colors = channels.iter().any(Option::is_some);
     let (mut cloud, mut num_not_finite) = (PointCloud::default(), 0);
@@ -309,6 +311,13 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
         if has_colors {
             cloud.colors.push(color);
         }
+        if let [Some(x), Some(y), Some(z)] = of_normal {
+            let normal = Vector3::new(values[x], values[y], values[z]);
+            cloud.normals.push(normal);
+        }
+        if let Some(place) = of_confidence {
+            cloud.confidences.push(values[place] as f32);
+        }
     }
     let mut notes: Vec<String> = not_finite(num_not_finite).into_iter().collect();
     notes.extend(header.elements.iter().filter_map(left_out));
@@ -325,8 +334,8 @@ fn left_out(element: &Element) -> Option<String> {
     }
 }
 
-/// Bytes of a binary little-endian PLY file: x, y, z as `float`, and red, green, blue as `uchar` if
-/// the points have colors.
+/// Bytes of a binary little-endian PLY file: x, y, z as `float`; nx, ny, nz as `float`, red, green,
+/// blue as `uchar` and confidence as `float` if all points have them.
 ///
 /// ```
 /// use epipole::stereo::PointCloud;
@@ -335,27 +344,48 @@ fn left_out(element: &Element) -> Option<String> {
 /// let cloud = PointCloud {
 ///     points: vec![Point3::new(0.5, -1.0, 2.0)],
 ///     colors: vec![[255, 0, 7]],
+///     ..PointCloud::default()
 /// };
 /// assert_eq!(read_ply(&write_ply(&cloud)).unwrap().0, cloud);
 /// ```
 pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
-    let has_colors = !cloud.points.is_empty() && cloud.colors.len() == cloud.points.len();
-    let colors = match has_colors {
-        true => "property uchar red\nproperty uchar green\nproperty uchar blue\n",
-        false => "",
-    };
+    let is_whole = |len: usize| len > 0 && len == cloud.points.len();
+    let has_normals = is_whole(cloud.normals.len());
+    let has_colors = is_whole(cloud.colors.len());
+    let has_confidences = is_whole(cloud.confidences.len());
+    let parts = [
+        (
+            has_normals,
+            "property float nx\nproperty float ny\nproperty float nz\n",
+        ),
+        (
+            has_colors,
+            "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        ),
+        (has_confidences, "property float confidence\n"),
+    ];
+    let parts = parts.iter().filter(|(has, _)| *has).map(|(_, part)| *part);
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n\
-         property float x\nproperty float y\nproperty float z\n{colors}end_header\n",
-        cloud.points.len()
+         property float x\nproperty float y\nproperty float z\n{}end_header\n",
+        cloud.points.len(),
+        parts.collect::<String>()
     )
     .into_bytes();
     for (index, point) in cloud.points.iter().enumerate() {
         for value in point.iter() {
             bytes.extend((*value as f32).to_le_bytes());
         }
+        if has_normals {
+            for value in cloud.normals[index].iter() {
+                bytes.extend((*value as f32).to_le_bytes());
+            }
+        }
         if has_colors {
             bytes.extend(cloud.colors[index]);
+        }
+        if has_confidences {
+            bytes.extend(cloud.confidences[index].to_le_bytes());
         }
     }
     bytes
@@ -370,12 +400,17 @@ mod tests {
         let mut cloud = PointCloud {
             points: vec![Point3::new(0.0, 0.0, 5.0)],
             colors: vec![[10, 20, 30]],
+            ..PointCloud::default()
         };
         let ply = write_ply(&cloud);
         let header = ply.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
         assert_eq!(ply.len() - header, 15);
         assert_eq!(&ply[header + 8..header + 12], 5f32.to_le_bytes());
         assert_eq!(&ply[header + 12..], [10, 20, 30]);
+        let mut whole = cloud.clone();
+        whole.normals.push(Vector3::new(0.0, 0.5, -1.0));
+        whole.confidences.push(3.0);
+        assert_eq!(read_ply(&write_ply(&whole)).unwrap(), (whole, 0));
         cloud.colors.clear();
         assert!(write_ply(&cloud).ends_with(&ply[header..header + 12]));
         assert_eq!(read_ply(&write_ply(&cloud)).unwrap(), (cloud, Vec::new()));
@@ -396,6 +431,7 @@ mod tests {
         let expected = PointCloud {
             points: vec![Point3::new(1.0, 2.0, 3.0)],
             colors: vec![[255, 128, 0]],
+            ..PointCloud::default()
         };
         let notes = [
             "1 point has NaN or infinite coordinates: left out",

@@ -3,12 +3,13 @@
 use crate::bundle::read_bal;
 use crate::cloud::read_ply;
 use crate::damage::config;
+use crate::depth_map::read_colmap_depth;
 use crate::disparity::read_pfm;
 use crate::photo::{DecodeOptions, decode_gray, sensor_size};
 use crate::pose_graph::read_g2o;
 use proptest::prelude::*;
 
-const STARTS: [&[u8]; 19] = [
+const STARTS: [&[u8]; 20] = [
     b"",
     b"\x89PNG\r\n\x1a\n",
     b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR",
@@ -24,6 +25,7 @@ const STARTS: [&[u8]; 19] = [
     b"\0\0\0\x18ftypheic",
     b"Pf\n2 2\n-1.0\n",
     b"PF\n",
+    b"2&1&1&",
     b"ply\nformat ascii 1.0\nelement vertex 2\n",
     b"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n",
     b"VERTEX_SE2 ",
@@ -47,6 +49,10 @@ fn read_all(bytes: &[u8]) -> Result<(), TestCaseError> {
     }
     match read_pfm(bytes) {
         Ok(image) => prop_assert!(image.as_raw().iter().all(|d| d.is_finite() || d.is_nan())),
+        Err(error) => prop_assert!(is_told(error)),
+    }
+    match read_colmap_depth(bytes) {
+        Ok(depth) => prop_assert!(depth.as_raw().iter().all(|z| *z > 0.0 || z.is_nan())),
         Err(error) => prop_assert!(is_told(error)),
     }
     let text = String::from_utf8_lossy(bytes);

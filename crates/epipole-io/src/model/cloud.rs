@@ -10,6 +10,7 @@ impl Model {
         PointCloud {
             points: self.points.iter().map(|point| point.position).collect(),
             colors: self.points.iter().map(|point| point.color).collect(),
+            ..PointCloud::default()
         }
     }
 

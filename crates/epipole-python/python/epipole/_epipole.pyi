@@ -12,6 +12,7 @@ from epipole import homography as homography
 from epipole import imaging as imaging
 from epipole import io as io
 from epipole import math as math
+from epipole import mvs as mvs
 from epipole import optim as optim
 from epipole import robust as robust
 from epipole import sfm as sfm
@@ -37,6 +38,7 @@ __all__ = [
     "imaging",
     "io",
     "math",
+    "mvs",
     "num_threads",
     "optim",
     "robust",

@@ -119,6 +119,20 @@ class MultiViewProblemOptions(TypedDict, total=False):
     seed: int  # 0
 
 
+class MvsOptions(TypedDict, total=False):
+    max_size_px: int  # 2048
+    num_neighbors: int  # 6
+    num_best_neighbors: int  # 3
+    min_angle_deg: float  # 1.0
+    num_rounds: int  # 1
+    min_correlation: float  # 0.3
+    min_views: int  # 3
+    max_reprojection_error_px: float  # 1.0
+    max_depth_difference: float  # 0.01
+    max_normal_angle_deg: float  # 30.0
+    seed: int  # 0
+
+
 class OdometryOptions(TypedDict, total=False):
     sfm: SfmOptions
     window: int  # 8

@@ -135,15 +135,20 @@ class PointCloud:
 
     Parameters
     ----------
-    points
-        Points, shape (N, 3).
-    colors
-        Colors, uint8 of shape (N, 3), or None.
+    points : ndarray of float64, shape (N, 3)
+    colors : ndarray of uint8, shape (N, 3), optional
+        Red, green, blue.
+    normals : ndarray of float64, shape (N, 3), optional
+        Unit normals.
+    confidences : ndarray of float32, shape (N,), optional
+        Numbers of photos that agree on a point.
     """
     def __new__(
         cls,
         points: NDArray[np.float64],
-        colors: NDArray[np.uint8] | None,
+        colors: NDArray[np.uint8] | None = None,
+        normals: NDArray[np.float64] | None = None,
+        confidences: NDArray[np.float32] | None = None,
     ) -> PointCloud: ...
     @property
     def points(self) -> NDArray[np.float64]:
@@ -151,6 +156,12 @@ class PointCloud:
     @property
     def colors(self) -> NDArray[np.uint8] | None:
         """Colors, uint8 of shape (N, 3), or None."""
+    @property
+    def normals(self) -> NDArray[np.float64] | None:
+        """Unit normals, shape (N, 3), or None."""
+    @property
+    def confidences(self) -> NDArray[np.float32] | None:
+        """Numbers of photos that agree on a point, float32 of shape (N,), or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]

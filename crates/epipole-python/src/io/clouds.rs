@@ -2,27 +2,35 @@
 
 use super::source::{Source, or_raise, write};
 use crate::arrays::{from_rows, points3};
-use crate::images::{disparity, from_disparity};
+use crate::images::{column, disparity, from_disparity};
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
 use epipole::stereo::{DisparityImage, PointCloud};
 use epipole_io::{bundle, cloud, pose_graph};
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 /// Python object of a cloud, `epipole.stereo.PointCloud`.
-pub(super) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
     let rows: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
     let colors = match cloud.colors.is_empty() {
         true => None,
         false => Some(give_colors(py, cloud.colors.iter().copied())?),
     };
+    let normals = match cloud.normals.is_empty() {
+        true => None,
+        false => Some(from_rows(py, &cloud.normals)?),
+    };
+    let confidences = match cloud.confidences.is_empty() {
+        true => None,
+        false => Some(PyArray1::from_slice(py, &cloud.confidences)),
+    };
     object(
         py,
         "epipole.stereo",
         "PointCloud",
-        (from_rows(py, &rows)?, colors),
+        (from_rows(py, &rows)?, colors, normals, confidences),
     )
 }
 
@@ -53,19 +61,40 @@ fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec
 /// cloud : epipole.stereo.PointCloud or array_like, shape (N, 3)
 #[pyfunction]
 fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> {
-    let (points, of_points) = match cloud.getattr_opt("points")? {
-        Some(points) => (points, cloud.getattr_opt("colors")?),
-        None => (cloud.clone(), None),
+    let (points, is_cloud) = match cloud.getattr_opt("points")? {
+        Some(points) => (points, true),
+        None => (cloud.clone(), false),
     };
-    let of_points = of_points.filter(|colors| !colors.is_none());
-    let cloud = PointCloud {
+    let part = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
+        let part = if is_cloud {
+            cloud.getattr_opt(name)?
+        } else {
+            None
+        };
+        Ok(part.filter(|part| !part.is_none()))
+    };
+    let mut given = PointCloud {
         points: points3("cloud", &points)?,
-        colors: colors("cloud.colors", of_points.as_ref())?,
+        colors: colors("cloud.colors", part("colors")?.as_ref())?,
+        ..PointCloud::default()
     };
-    if !cloud.colors.is_empty() {
-        let counts = (cloud.points.len(), cloud.colors.len());
-        require_equal(("cloud.points", counts.0), ("cloud.colors", counts.1))?;
+    if let Some(normals) = part("normals")? {
+        let normals = points3("cloud.normals", &normals)?;
+        given.normals = normals.into_iter().map(|normal| normal.coords).collect();
     }
+    if let Some(confidences) = part("confidences")? {
+        given.confidences = column("cloud.confidences", &confidences)?;
+    }
+    for (name, count) in [
+        ("cloud.colors", given.colors.len()),
+        ("cloud.normals", given.normals.len()),
+        ("cloud.confidences", given.confidences.len()),
+    ] {
+        if count > 0 {
+            require_equal(("cloud.points", given.points.len()), (name, count))?;
+        }
+    }
+    let cloud = given;
     write(path, &cloud::write_ply(&cloud))
 }
 

@@ -10,6 +10,7 @@ mod photos;
 mod source;
 mod trajectories;
 
+pub(crate) use clouds::give_cloud;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -4,7 +4,7 @@ use crate::arrays::{from_points, matrix};
 use crate::errors::OrRaise;
 use crate::images::{column, disparity as read, from_gray, rgb};
 use crate::progress;
-use crate::record::record;
+use crate::record::{plain_class, record};
 use epipole::nalgebra::Matrix4;
 use epipole::stereo;
 use numpy::prelude::*;
@@ -21,18 +21,49 @@ record! {
     }
 }
 
-record! {
-    /// Points in space.
-    "epipole.stereo" PointCloud {
-        /// Points, shape (N, 3).
-        points: Py<PyArray2<f64>>,
-        /// Colors, uint8 of shape (N, 3), or None.
-        colors: Option<Py<PyArray2<u8>>>,
-    }
+/// Points in space.
+///
+/// Parameters
+/// ----------
+/// points : ndarray of float64, shape (N, 3)
+/// colors : ndarray of uint8, shape (N, 3), optional
+///     Red, green, blue.
+/// normals : ndarray of float64, shape (N, 3), optional
+///     Unit normals.
+/// confidences : ndarray of float32, shape (N,), optional
+///     Numbers of photos that agree on a point.
+#[pyclass(frozen, get_all, module = "epipole.stereo")]
+pub(crate) struct PointCloud {
+    /// Points, shape (N, 3).
+    points: Py<PyArray2<f64>>,
+    /// Colors, uint8 of shape (N, 3), or None.
+    colors: Option<Py<PyArray2<u8>>>,
+    /// Unit normals, shape (N, 3), or None.
+    normals: Option<Py<PyArray2<f64>>>,
+    /// Numbers of photos that agree on a point, float32 of shape (N,), or None.
+    confidences: Option<Py<PyArray1<f32>>>,
 }
+
+plain_class!(PointCloud: points, colors, normals, confidences);
 
 #[pymethods]
 impl PointCloud {
+    #[new]
+    #[pyo3(signature = (points, colors=None, normals=None, confidences=None))]
+    fn new(
+        points: Py<PyArray2<f64>>,
+        colors: Option<Py<PyArray2<u8>>>,
+        normals: Option<Py<PyArray2<f64>>>,
+        confidences: Option<Py<PyArray1<f32>>>,
+    ) -> Self {
+        Self {
+            points,
+            colors,
+            normals,
+            confidences,
+        }
+    }
+
     fn __len__(&self, py: Python<'_>) -> usize {
         self.points.bind(py).shape()[0]
     }
@@ -180,5 +211,7 @@ pub(super) fn point_cloud(
     Ok(PointCloud {
         points: from_points(py, &cloud.points)?.unbind(),
         colors,
+        normals: None,
+        confidences: None,
     })
 }

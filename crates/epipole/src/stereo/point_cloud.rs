@@ -3,15 +3,19 @@
 use super::{DisparityImage, depth_from_disparity};
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma, RgbImage};
-use nalgebra::{Matrix4, Point3, Vector4};
+use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 
-/// Points in space, each with a color if there are colors at all.
+/// Points in space, each with a color, a normal and a confidence if there are any.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PointCloud {
     /// In the frame and unit of whatever made them.
     pub points: Vec<Point3<f64>>,
     /// One a point, or none.
     pub colors: Vec<[u8; 3]>,
+    /// Unit normals, one a point, or none.
+    pub normals: Vec<Vector3<f64>>,
+    /// Numbers of photos that agree on a point, or another measure; one a point, or none.
+    pub confidences: Vec<f32>,
 }
 
 /// The depth of every pixel, `Z = f B / d`, meters; NaN without disparity or where `d <= 0`.

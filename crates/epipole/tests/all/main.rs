@@ -10,6 +10,7 @@ mod calibration_real;
 mod examples;
 mod gathered_matches;
 mod invariance_of_points;
+mod mvs_rendered;
 mod names;
 mod nist_strd;
 mod odometry_real;

@@ -5,6 +5,7 @@ use epipole::feature::{
     FeatureOptions, GoodFeaturesOptions, MatchOptions, OrbOptions, RefineOptions, SiftOptions,
     StructureTensorOptions, TrackOptions,
 };
+use epipole::mvs::MvsOptions;
 use epipole::optim::{LmOptions, RobustLoss};
 use epipole::robust::{LeastMedianOptions, RansacOptions};
 use epipole::sfm::{
@@ -38,6 +39,7 @@ fn every_kind_of_options_goes_through_a_file() {
     check::<LmOptions>();
     check::<LocalizeOptions>();
     check::<MarkerOptions>();
+    check::<MvsOptions>();
     check::<MatchOptions>();
     check::<OdometryOptions>();
     check::<OrbOptions>();

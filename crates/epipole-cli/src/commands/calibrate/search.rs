@@ -8,6 +8,7 @@ use crate::photo::Photo;
 use crate::progress::Progress;
 use crate::reading::ReadArguments;
 use epipole::calibration::{Board, BoardView, find_board};
+use epipole::feature::photo_to_gray;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -35,7 +36,7 @@ pub(super) fn search(
             if interrupt::requested() {
                 return Err(epipole::Error::Canceled.into());
             }
-            let gray = Photo::of_sensor(&photo.path, reading, context)?;
+            let gray = photo_to_gray(&Photo::of_sensor(&photo.path, reading, context)?);
             let found = find_board(&gray, board, &mut interrupt::watch)?;
             let done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / photos.len() as f64);

@@ -4,26 +4,22 @@ use super::arguments::Arguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::photo::Photo;
+use crate::model_images::{ImageFolder, in_frame_of_camera};
 use crate::progress::Progress;
 use crate::reading::SizeArguments;
-use epipole::camera::{Camera, PosedCamera};
-use epipole::feature::detect_features;
-use epipole::imaging::GrayImage32;
+use epipole::camera::PosedCamera;
+use epipole::feature::{detect_features, photo_to_gray};
 use epipole::sfm::{PhotoFeatures, Reconstruction, ScenePoint, SfmImage, TrackElement};
 use epipole_io::model::{Model, ModelImage};
 use nalgebra::Point2;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Maximum distance of a feature from an observation of a point, pixels.
 const NEAR_PX: f64 = 1.5;
 
 /// A smaller share of observations with a feature means other images.
 const FEW: f64 = 0.1;
-
-/// Largest difference between the shapes of an image and its camera.
-const SAME_SHAPE: f64 = 0.01;
 
 /// A model whose observations are features with descriptors.
 pub(super) struct Known {
@@ -50,14 +46,11 @@ impl Known {
                            have: nothing can be matched";
             return Err(about(Failure::new("too-few", message)));
         }
-        let folder = match &arguments.images {
-            Some(folder) => folder.clone(),
-            None => images_beside(&arguments.model).ok_or_else(|| {
-                about(Failure::usage(
-                    "there is no folder images beside the model: give --images DIR",
-                ))
-            })?,
-        };
+        let folder = ImageFolder::find(
+            arguments.images.as_deref(),
+            &arguments.model,
+            "--images DIR",
+        )?;
         let mut known = Self {
             reconstruction: Reconstruction {
                 points: points_of(model),
@@ -75,35 +68,20 @@ impl Known {
             if interrupt::requested() {
                 return Err(epipole::Error::Canceled.into());
             }
-            match file_of(&folder, &image.name) {
+            match folder.file_of(&image.name) {
                 Some(path) => known.add(arguments, context, (model, image), observed, &path)?,
                 None => missing.push(&*image.name),
             }
         }
         drop(progress);
-        if known.features.is_empty() {
-            let message = format!(
-                "none of the model's {} images is there, such as {}",
-                missing.len(),
-                missing[0]
-            );
-            return Err(Failure::new("read", message).about(&folder));
-        }
-        if let Some(first) = missing.first() {
-            context.warn(&format!(
-                "{} of {} images of the model are not in {}, such as {first}",
-                missing.len(),
-                model.images.len(),
-                folder.display()
-            ));
-        }
+        folder.tell_of_missing(&missing, model.images.len(), context)?;
         if (known.num_found_again as f64) < FEW * known.num_observations as f64 {
             context.warn(&format!(
                 "only {} of {} observations of the model have a feature near them: are the images in {} those of the \
                  model?",
                 known.num_found_again,
                 known.num_observations,
-                folder.display()
+                folder.0.display()
             ));
         }
         Ok(known)
@@ -119,7 +97,12 @@ impl Known {
         path: &Path,
     ) -> Result<(), Failure> {
         let camera = &model.cameras[image.camera];
-        let gray = gray_of(arguments, camera, path, context)?;
+        let num_pixels = f64::from(camera.width) * f64::from(camera.height);
+        let size = SizeArguments {
+            max_megapixels: Some(1e-6 * num_pixels),
+            ..arguments.size
+        };
+        let gray = photo_to_gray(&in_frame_of_camera(camera, path, size, context)?);
         let found = detect_features(&gray, &arguments.features.options(), &mut ())?;
         let scale = [
             f64::from(camera.width) / f64::from(gray.width()),
@@ -179,59 +162,6 @@ fn observed(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
         }
     }
     observed
-}
-
-/// The folder of images of a project, in which its model is `.`, `sparse` or `sparse/0`.
-fn images_beside(model: &Path) -> Option<PathBuf> {
-    let folder = match model.is_dir() {
-        true => model,
-        false => model.parent()?,
-    };
-    let folder = folder.canonicalize().ok()?;
-    let candidates = folder
-        .ancestors()
-        .take(3)
-        .map(|folder| folder.join("images"));
-    candidates.into_iter().find(|folder| folder.is_dir())
-}
-
-/// The file of an image, by its name in the model or the end of it.
-fn file_of(folder: &Path, name: &str) -> Option<PathBuf> {
-    let last = Path::new(name).file_name()?;
-    let candidates = [folder.join(name), folder.join(last)];
-    candidates.into_iter().find(|path| path.is_file())
-}
-
-/// Gray values of an image in the frame of its camera: upright, or as stored, downscaled to the
-/// camera's size.
-fn gray_of(
-    arguments: &Arguments,
-    camera: &Camera,
-    path: &Path,
-    context: &Context,
-) -> Result<GrayImage32, Failure> {
-    let num_pixels = f64::from(camera.width) * f64::from(camera.height);
-    let size = SizeArguments {
-        max_megapixels: Some(1e-6 * num_pixels),
-        ..arguments.size
-    };
-    let fits = |width: u32, height: u32| {
-        let shape = f64::from(width) / f64::from(height);
-        (shape * f64::from(camera.height) / f64::from(camera.width) - 1.0).abs() < SAME_SHAPE
-    };
-    let photo = Photo::prepared(path, size, None, context)?;
-    if fits(photo.color.width(), photo.color.height()) {
-        return Ok(photo.gray());
-    }
-    let (width, height) = photo.sensor_size;
-    if fits(width, height) {
-        return Photo::of_sensor(path, arguments.size.reading, context);
-    }
-    let message = format!(
-        "the image is {width} × {height}, and its camera in the model {} × {}",
-        camera.width, camera.height
-    );
-    Err(Failure::new("size-mismatch", message).about(path))
 }
 
 /// Observations by square of side [`NEAR_PX`].

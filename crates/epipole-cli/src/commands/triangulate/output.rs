@@ -36,7 +36,7 @@ fn ply(points: &[Option<Point>]) -> Vec<u8> {
             .flatten()
             .map(|point| point.position)
             .collect(),
-        colors: Vec::new(),
+        ..PointCloud::default()
     };
     write_ply(&cloud)
 }

@@ -168,7 +168,11 @@ impl TwoViewSfm {
                 .unzip(),
             _ => return None,
         };
-        Some(PointCloud { points, colors })
+        Some(PointCloud {
+            points,
+            colors,
+            ..PointCloud::default()
+        })
     }
 
     /// Requests the computation for the current settings.

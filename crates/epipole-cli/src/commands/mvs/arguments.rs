@@ -1,0 +1,86 @@
+//! Command-line options of `epipole mvs`.
+
+use crate::context::Context;
+use crate::matrices::{number, positive};
+use crate::reading::ReadArguments;
+use clap::Args;
+use epipole::mvs::MvsOptions;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "Example: epipole mvs reconstruction/ photos/ -o dense";
+
+fn default() -> MvsOptions {
+    MvsOptions::default()
+}
+
+/// Compute depth maps and a dense point cloud from a model and its photos.
+#[derive(Debug, Args)]
+#[command(
+    after_help = EXAMPLE,
+    after_long_help = "Example: epipole mvs reconstruction/ photos/ -o dense\n\n\
+    The model is one of `epipole sfm`, COLMAP (text, binary), Bundler or openMVG, with observations of its points.\n\
+    They tell which photos are compared, and in which range of depths. Lens distortion is removed.\n\n\
+    Writes fused.ply, points with normals, colors and confidence, which is the number of photos that agree;\n\
+    stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/, the cameras of these maps.\n\n\
+    JSON: num_images, num_depth_maps, density (share of pixels with a depth), num_points, mean_views (photos that\n\
+    agree on a point, on average), images (name, width, height, num_neighbors, density, min_depth and max_depth of\n\
+    each depth map, null if it is empty), file."
+)]
+pub(crate) struct Arguments {
+    /// A file or folder with a model.
+    pub(super) model: PathBuf,
+    /// Folder of its images [default: images/, in the model or above it].
+    pub(super) images: Option<PathBuf>,
+    /// The folder for the result.
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+    /// Longer side of the images at most, pixels.
+    #[arg(long, value_name = "PX", default_value_t = default().max_size_px, value_parser = clap::value_parser!(u32).range(32..=16384))]
+    pub(super) max_size: u32,
+    /// Number of neighbors of each photo.
+    #[arg(long, value_name = "N", default_value_t = default().num_neighbors)]
+    num_neighbors: usize,
+    /// Number of these that count at a pixel, those that fit best.
+    #[arg(long, value_name = "N", default_value_t = default().num_best_neighbors)]
+    num_best_neighbors: usize,
+    /// Fewest photos that agree on a depth that is kept.
+    #[arg(long, value_name = "N", default_value_t = default().min_views)]
+    min_views: usize,
+    /// Smallest angle between the rays of photos that are compared, degrees.
+    #[arg(long, value_name = "DEG", default_value_t = default().min_angle_deg, value_parser = number)]
+    min_angle_deg: f64,
+    /// Number of rounds of propagation at each resolution after the coarsest.
+    #[arg(long, value_name = "N", default_value_t = default().num_rounds)]
+    num_rounds: usize,
+    /// Smallest correlation of patches at a depth, -1 to 1.
+    #[arg(long, value_name = "C", default_value_t = default().min_correlation, value_parser = number, allow_hyphen_values = true)]
+    min_correlation: f64,
+    /// Largest reprojection error between photos that agree, pixels.
+    #[arg(long, value_name = "PX", default_value_t = default().max_reprojection_error_px, value_parser = positive)]
+    max_reprojection_error_px: f64,
+    /// Largest difference of depths between photos that agree, relative.
+    #[arg(long, value_name = "SHARE", default_value_t = default().max_depth_difference, value_parser = positive)]
+    max_depth_difference: f64,
+    /// Largest angle between the normals of photos that agree, degrees.
+    #[arg(long, value_name = "DEG", default_value_t = default().max_normal_angle_deg, value_parser = positive)]
+    max_normal_angle_deg: f64,
+    #[command(flatten)]
+    pub(super) reading: ReadArguments,
+}
+
+impl Arguments {
+    pub(super) fn options(&self, context: &Context) -> MvsOptions {
+        default()
+            .with_max_size_px(self.max_size)
+            .with_num_neighbors(self.num_neighbors)
+            .with_num_best_neighbors(self.num_best_neighbors)
+            .with_min_views(self.min_views)
+            .with_min_angle_deg(self.min_angle_deg)
+            .with_num_rounds(self.num_rounds)
+            .with_min_correlation(self.min_correlation)
+            .with_max_reprojection_error_px(self.max_reprojection_error_px)
+            .with_max_depth_difference(self.max_depth_difference)
+            .with_max_normal_angle_deg(self.max_normal_angle_deg)
+            .with_seed(context.seed)
+    }
+}

@@ -1,0 +1,105 @@
+//! Images of a model.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::photo::Photo;
+use crate::reading::SizeArguments;
+use epipole::camera::Camera;
+use image::RgbImage;
+use std::path::{Path, PathBuf};
+
+/// Largest difference between the shapes of an image and its camera.
+const SAME_SHAPE: f64 = 0.01;
+
+/// The folder of a model's images.
+pub(crate) struct ImageFolder(pub(crate) PathBuf);
+
+impl ImageFolder {
+    /// The folder given, or `images` of the project, in which the model is `.`, `sparse` or
+    /// `sparse/0`.
+    ///
+    /// * `option`: which gives the folder
+    ///
+    /// # Errors
+    /// A sentence, if there is none.
+    pub(crate) fn find(given: Option<&Path>, model: &Path, option: &str) -> Result<Self, Failure> {
+        let beside = || {
+            let folder = match model.is_dir() {
+                true => model,
+                false => model.parent()?,
+            };
+            let folder = folder.canonicalize().ok()?;
+            let mut candidates = (folder.ancestors().take(3)).map(|folder| folder.join("images"));
+            candidates.find(|folder| folder.is_dir())
+        };
+        let found = given.map(Path::to_path_buf).or_else(beside).map(Self);
+        found.ok_or_else(|| {
+            let message = format!("there is no folder images beside the model: give {option}");
+            Failure::usage(message).about(model)
+        })
+    }
+
+    /// The file of an image, by its name in the model or the end of it.
+    pub(crate) fn file_of(&self, name: &str) -> Option<PathBuf> {
+        let last = Path::new(name).file_name()?;
+        let candidates = [self.0.join(name), self.0.join(last)];
+        candidates.into_iter().find(|path| path.is_file())
+    }
+
+    /// Warns of images that are not in the folder.
+    ///
+    /// * `num_images`: of the model
+    ///
+    /// # Errors
+    /// A sentence, if none is.
+    pub(crate) fn tell_of_missing(
+        &self,
+        missing: &[&str],
+        num_images: usize,
+        context: &Context,
+    ) -> Result<(), Failure> {
+        let Some(first) = missing.first() else {
+            return Ok(());
+        };
+        if missing.len() == num_images {
+            let message =
+                format!("none of the model's {num_images} images is there, such as {first}");
+            return Err(Failure::new("read", message).about(&self.0));
+        }
+        context.warn(&format!(
+            "{} of {num_images} images of the model are not in {}, such as {first}",
+            missing.len(),
+            self.0.display()
+        ));
+        Ok(())
+    }
+}
+
+/// An image as its camera sees it: upright, or as stored.
+///
+/// # Errors
+/// A sentence naming the file, if it cannot be read or has another shape than its camera.
+pub(crate) fn in_frame_of_camera(
+    camera: &Camera,
+    path: &Path,
+    size: SizeArguments,
+    context: &Context,
+) -> Result<RgbImage, Failure> {
+    let fits = |width: u32, height: u32| {
+        let shape = f64::from(width) / f64::from(height);
+        (shape * f64::from(camera.height) / f64::from(camera.width) - 1.0).abs() < SAME_SHAPE
+    };
+    let photo = Photo::prepared(path, size, None, context)?;
+    if fits(photo.color.width(), photo.color.height()) {
+        return Ok(photo.color);
+    }
+    let (width, height) = photo.sensor_size;
+    if fits(width, height) {
+        return Photo::of_sensor(path, size.reading, context);
+    }
+    let message = format!(
+        "the image is {width} × {height}, and its camera in the model {} × {}",
+        camera.width, camera.height
+    );
+    Err(Failure::new("size-mismatch", message).about(path))
+}

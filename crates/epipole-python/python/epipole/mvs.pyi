@@ -1,0 +1,168 @@
+# Written by stubs.py. Do not edit.
+
+from collections.abc import Callable, Sequence
+from typing import ClassVar, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+from epipole import options as option_types
+from epipole.camera import PosedCamera
+from epipole.sfm import Reconstruction
+from epipole.stereo import PointCloud
+
+__all__ = [
+    "DepthMap",
+    "MvsView",
+    "estimate_depth_maps",
+    "fuse_depth_maps",
+    "prepare_views",
+]
+
+@final
+class MvsView:
+    """Photo without distortion, its neighbors and its range of depths.
+
+    Parameters
+    ----------
+    photo : int
+        Index of its image in the reconstruction.
+    camera : PosedCamera
+        Without distortion, of the size of the image.
+    image : array_like of uint8, shape (H, W, 3)
+        Red, green, blue.
+    neighbors : list of int
+        Indices of the views that it is compared with, best first.
+    depth_range : tuple of float
+        Smallest and largest depth that is looked for.
+    """
+    def __new__(
+        cls,
+        photo: int,
+        camera: PosedCamera,
+        image: ArrayLike,
+        neighbors: Sequence[int],
+        depth_range: tuple[float, float],
+    ) -> MvsView: ...
+    @property
+    def photo(self) -> int:
+        """Index of its image in the reconstruction."""
+    @property
+    def camera(self) -> PosedCamera:
+        """Camera without distortion."""
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """Pixels without distortion, uint8 of shape (H, W, 3)."""
+    @property
+    def neighbors(self) -> list[int]:
+        """Indices of the views that it is compared with, best first."""
+    @property
+    def depth_range(self) -> tuple[float, float]:
+        """Smallest and largest depth that is looked for."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class DepthMap:
+    """Depth and normal of each pixel of a view.
+
+    Parameters
+    ----------
+    depth : array_like of float, shape (H, W)
+        Along the optical axis, in the unit of the reconstruction; NaN where unknown.
+    normals : array_like, shape (H, W, 3)
+        Unit normals in the camera's frame, towards the camera; zero where unknown.
+    num_views : array_like of uint8, shape (H, W)
+        Number of photos that agree on the depth, this one among them; 0 where unknown.
+    """
+    def __new__(cls, depth: ArrayLike, normals: ArrayLike, num_views: ArrayLike) -> DepthMap: ...
+    @property
+    def depth(self) -> NDArray[np.float32]:
+        """Depth along the optical axis, float32 of shape (H, W); NaN where unknown."""
+    @property
+    def normals(self) -> NDArray[np.float32]:
+        """Unit normals in the camera's frame, float32 of shape (H, W, 3)."""
+    @property
+    def num_views(self) -> NDArray[np.uint8]:
+        """Number of photos that agree on the depth, uint8 of shape (H, W)."""
+    @property
+    def density(self) -> float:
+        """Share of pixels with a depth."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def prepare_views(
+    reconstruction: Reconstruction,
+    photos: Sequence[ArrayLike],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.MvsOptions],
+) -> list[MvsView]:
+    """Undistorts and downscales photos, and chooses the neighbors and the depth range of each.
+
+    Photos that share no points with another under a sufficient angle are left out.
+
+    Parameters
+    ----------
+    reconstruction : epipole.sfm.Reconstruction
+    photos : list of array_like
+        One for each image of the reconstruction, uint8 of shape (H, W, 3), of the size of its camera.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : MvsOptions
+        ``max_size_px``, ``num_neighbors`` and ``min_angle_deg`` matter here.
+
+    Returns
+    -------
+    list of MvsView
+
+    Raises
+    ------
+    DegenerateError
+        If no two photos show the same points from different places.
+    """
+def estimate_depth_maps(
+    views: Sequence[MvsView],
+    /,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.MvsOptions],
+) -> list[DepthMap]:
+    """Finds the depth and normal of each pixel of each view by PatchMatch.
+
+    A depth is kept if enough views agree on it.
+
+    Parameters
+    ----------
+    views : list of MvsView
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : MvsOptions
+
+    Returns
+    -------
+    list of DepthMap
+    """
+def fuse_depth_maps(
+    views: Sequence[MvsView],
+    maps: Sequence[DepthMap],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.MvsOptions],
+) -> PointCloud:
+    """Joins depth maps to one cloud with normals, colors and confidences.
+
+    Parameters
+    ----------
+    views : list of MvsView
+    maps : list of DepthMap
+        Those of `estimate_depth_maps`.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : MvsOptions
+
+    Returns
+    -------
+    epipole.stereo.PointCloud
+    """

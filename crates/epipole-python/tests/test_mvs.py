@@ -1,0 +1,86 @@
+"""Multi-view stereo of a plane, against its depth."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import epipole
+from epipole import io, mvs, sfm
+from epipole.camera import Camera, Intrinsics, PosedCamera, RigidTransform
+
+DEPTH, FOCAL_PX, STEP = 2.0, 200.0, 0.1
+WIDTH, HEIGHT = 120, 90
+
+
+@pytest.fixture(scope="module")
+def scene():
+    """Four photos of a plane, each STEP to the right of the one before: 10 px further left."""
+    noise = np.random.default_rng(1).uniform(0, 1, (HEIGHT, WIDTH + 30)).astype(np.float32)
+    blurred = epipole.imaging.gaussian_blur(noise, 1.2)
+    gray = np.clip(255 * (0.5 + 3 * (blurred - 0.5)), 0, 255).astype(np.uint8)
+    photos = [np.repeat(gray[:, 10 * n : 10 * n + WIDTH, None], 3, axis=2) for n in range(4)]
+    camera = Camera(WIDTH, HEIGHT, Intrinsics(FOCAL_PX, FOCAL_PX, 59.5, 44.5))
+    cameras = [
+        PosedCamera(camera, RigidTransform(np.eye(3), [-STEP * n, 0.0, 0.0])) for n in range(4)
+    ]
+    rays = np.random.default_rng(2).uniform([-0.1, -0.2, 1], [0.3, 0.2, 1], (60, 3))
+    points = DEPTH * rays
+    tracks = [(point, image, 0) for point in range(60) for image in range(4)]
+    return sfm.Reconstruction(cameras, points, tracks), photos
+
+
+@pytest.fixture(scope="module")
+def result(scene):
+    views = mvs.prepare_views(*scene)
+    return views, mvs.estimate_depth_maps(views)
+
+
+def test_depth_is_that_of_the_plane(result):
+    views, maps = result
+    assert [view.photo for view in views] == [0, 1, 2, 3]
+    assert all(len(view.neighbors) == 3 for view in views)
+    for depth_map in maps[1:3]:
+        assert depth_map.density > 0.6
+        known = depth_map.depth[~np.isnan(depth_map.depth)]
+        assert abs(np.median(known) - DEPTH) < 0.005
+        assert np.mean(np.abs(known - DEPTH) < 0.03) > 0.95
+        normals = depth_map.normals[depth_map.num_views > 0]
+        assert np.median(normals[:, 2]) < -0.99
+
+
+def test_cloud_lies_on_the_plane(result, tmp_path):
+    cloud = mvs.fuse_depth_maps(*result)
+    assert len(cloud) > 5000
+    assert abs(np.median(cloud.points[:, 2]) - DEPTH) < 0.005
+    assert cloud.normals.shape == cloud.points.shape
+    assert cloud.confidences.min() >= 3
+    io.write_ply(tmp_path / "fused.ply", cloud)
+    read, num_left_out = io.read_ply(tmp_path / "fused.ply")
+    assert num_left_out == 0
+    assert np.allclose(read.normals, cloud.normals, atol=1e-6)
+    assert np.array_equal(read.confidences, cloud.confidences)
+
+
+def test_options_and_progress(scene, result):
+    views, _ = result
+    stages = []
+    mvs.estimate_depth_maps(
+        views, min_views=2, num_rounds=1, progress=lambda stage, share: stages.append(stage)
+    )
+    assert set(stages) == {"estimating depths"}
+    small = mvs.prepare_views(*scene, max_size_px=60)
+    assert small[0].image.shape == (45, 60, 3)
+    with pytest.raises(ValueError, match="number of neighbors"):
+        mvs.estimate_depth_maps(views, num_neighbors=0)
+    still = sfm.Reconstruction([scene[0].cameras[0]] * 4, scene[0].points, scene[0].tracks)
+    with pytest.raises(epipole.DegenerateError, match="no two of them"):
+        mvs.prepare_views(still, scene[1])
+
+
+def test_views_and_maps_are_pickled(result):
+    views, maps = result
+    assert pickle.loads(pickle.dumps(views[0])) == views[0]
+    again = pickle.loads(pickle.dumps(maps[0]))
+    assert np.array_equal(again.depth, maps[0].depth, equal_nan=True)
+    assert np.array_equal(again.num_views, maps[0].num_views)

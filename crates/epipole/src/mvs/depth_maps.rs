@@ -1,0 +1,285 @@
+//! Depth maps of all photos, from coarse to fine.
+
+use super::consistency::{Agreement, agreements, num_needed};
+use super::depth_map::DepthMap;
+use super::field::Surface;
+use super::hypothesis_cost::{Matching, Neighbor};
+use super::level::{Level, num_levels};
+use super::options::MvsOptions;
+use super::pair::Pair;
+use super::patch::gray_weights;
+use super::sweep::{Pass, Round, mixed};
+use super::views::{MvsView, check_views};
+use crate::Result;
+use crate::feature::photo_to_gray;
+use crate::math::parallel;
+use crate::progress::{Monitor, Part, Stage, report};
+use image::{ImageBuffer, Luma};
+use nalgebra::{Point2, Vector3};
+
+/// Number of rounds from random planes at the coarsest resolution.
+const FIRST_ROUNDS: usize = 6;
+/// Share of the work after which only the filter is left.
+const ESTIMATED: f32 = 0.95;
+/// Largest change of a normal in the first round; half of it in the next, and so on.
+const FIRST_NORMAL: f64 = 1.0;
+/// Smallest and largest change of the inverse depth in the rounds of a pass that continues another,
+/// pixels of the image in a neighbor.
+const STEPS_PX: [f64; 2] = [0.5, 2.0];
+
+/// Depth and normal of each pixel of each view.
+///
+/// PatchMatch with slanted planes: each pixel takes the plane of a neighboring pixel, or a randomly
+/// changed one, that costs less. The cost is one minus the bilaterally weighted correlation of an
+/// 11 × 11 patch, the mean over the [`num_best_neighbors`](MvsOptions::num_best_neighbors) views
+/// that fit best, plus, after a first pass at the coarsest resolution, the reprojection errors by
+/// the neighbors' depth maps. Each resolution continues the one of half its size. In the end a
+/// depth stays if [`min_views`](MvsOptions::min_views) photos agree on it.
+///
+/// * `views`: as [`prepare_views`](super::prepare_views) makes them
+/// * `monitor`: the one stage is [`Stage::DepthEstimation`]
+///
+/// # Errors
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option, a neighbor or a depth range that
+/// is wrong, [`Error::SizeMismatch`](crate::Error::SizeMismatch) for an image of another size than
+/// its camera, [`Error::Degenerate`](crate::Error::Degenerate) for a camera with distortion,
+/// [`Error::Canceled`](crate::Error::Canceled).
+///
+/// Source: Galliani et al. 2015; Schönberger et al. 2016; Xu & Tao 2019.
+#[doc(alias = "patch_match_stereo")]
+pub fn estimate_depth_maps(
+    views: &[MvsView],
+    options: &MvsOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<DepthMap>> {
+    options.check()?;
+    check_views(views)?;
+    let schedule = schedule(num_levels(views), options);
+    let work = |level: &LevelPlan| level.num_passes() as f32 / (1 << (2 * level.halvings)) as f32;
+    let total: f32 = schedule.iter().map(work).sum();
+    let mut surfaces = Vec::new();
+    let mut done = 0.0;
+    for (number, plan) in schedule.iter().enumerate() {
+        let share = ESTIMATED * work(plan) / total;
+        let mut part = Part::new(monitor, done, done + share);
+        surfaces = plan.run(views, surfaces, (number, options), &mut part)?;
+        done += share;
+    }
+    let mut maps = Vec::new();
+    for (view, surface) in views.iter().zip(surfaces) {
+        report(monitor, Stage::DepthEstimation, done)?;
+        maps.push(to_depth_map(view, surface, options));
+    }
+    let mut part = Part::new(monitor, done, 1.0);
+    keep_confirmed(views, &mut maps, options, &mut part)?;
+    Ok(maps)
+}
+
+/// Passes over all photos at one resolution.
+struct LevelPlan {
+    halvings: usize,
+    num_rounds: usize,
+    /// From random planes, without the maps of neighbors.
+    is_first: bool,
+}
+
+fn schedule(num_levels: usize, options: &MvsOptions) -> Vec<LevelPlan> {
+    let coarsest = num_levels - 1;
+    let first = LevelPlan {
+        halvings: coarsest,
+        num_rounds: FIRST_ROUNDS,
+        is_first: true,
+    };
+    let others = (0..num_levels).rev().map(|halvings| LevelPlan {
+        halvings,
+        num_rounds: options.num_rounds,
+        is_first: false,
+    });
+    std::iter::once(first).chain(others).collect()
+}
+
+impl LevelPlan {
+    fn num_passes(&self) -> usize {
+        self.num_rounds + 1
+    }
+
+    /// Surfaces of all photos, from those of the pass before.
+    fn run(
+        &self,
+        views: &[MvsView],
+        before: Vec<Surface>,
+        (number, options): (usize, &MvsOptions),
+        monitor: &mut dyn Monitor,
+    ) -> Result<Vec<Surface>> {
+        let mut levels = Vec::new();
+        for view in views {
+            report(monitor, Stage::DepthEstimation, 0.0)?;
+            levels.push(Level::new(
+                view,
+                &photo_to_gray(&view.image),
+                self.halvings,
+            )?);
+        }
+        let mut surfaces = Vec::new();
+        for photo in 0..views.len() {
+            let share = |photo: usize| photo as f32 / views.len() as f32;
+            let mut part = Part::new(monitor, share(photo), share(photo + 1));
+            let matching = matching(views, &levels, &before, photo, options);
+            let pass = Pass {
+                matching: &matching,
+                seed: mixed(options.seed, number as u64, photo as u64),
+            };
+            surfaces.push(self.match_photo(&pass, before.get(photo), &mut part)?);
+        }
+        Ok(surfaces)
+    }
+
+    fn match_photo(
+        &self,
+        pass: &Pass<'_>,
+        before: Option<&Surface>,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Surface> {
+        let share = |done: usize| done as f32 / self.num_passes() as f32;
+        let mut field = pass.start(before, &mut Part::new(monitor, 0.0, share(1)))?;
+        for number in 0..self.num_rounds {
+            let mut part = Part::new(monitor, share(number + 1), share(number + 2));
+            let round = self.round(pass.matching, number);
+            pass.round(&mut field, (number as u64, &round), &mut part)?;
+        }
+        Ok(field.into_surface())
+    }
+
+    fn round(&self, matching: &Matching<'_>, number: usize) -> Round {
+        let halved = 1.0 / f64::from(1u32 << number.min(20));
+        let pairs = matching.neighbors.iter().map(|n| n.to.px_per_inverse_depth);
+        let step_px = pairs.clone().sum::<f64>() / pairs.count() as f64;
+        let [fine, coarse] = STEPS_PX.map(|px| px / step_px);
+        let [low, high] = matching.range.map(f64::from);
+        match self.is_first {
+            true => Round {
+                inverse_depth: (0.5 * halved * (high - low)).max(fine),
+                normal: FIRST_NORMAL * halved,
+                is_wild: true,
+                chooses_views: true,
+            },
+            false => Round {
+                inverse_depth: (coarse * halved).max(0.5 * fine),
+                normal: 0.25 * FIRST_NORMAL * halved,
+                is_wild: false,
+                chooses_views: false,
+            },
+        }
+    }
+}
+
+/// A photo and its neighbors at one resolution.
+fn matching<'a>(
+    views: &[MvsView],
+    levels: &'a [Level],
+    before: &'a [Surface],
+    photo: usize,
+    options: &MvsOptions,
+) -> Matching<'a> {
+    let here = &levels[photo];
+    let neighbor = |&neighbor: &usize| {
+        let there = &levels[neighbor];
+        Neighbor {
+            level: there,
+            to: Pair::new(&here.camera, &there.camera),
+            from: Pair::new(&there.camera, &here.camera),
+            surface: before.get(neighbor).map(|s| (s, s.scale(there))),
+        }
+    };
+    let [near, far] = views[photo].depth_range;
+    Matching {
+        level: here,
+        neighbors: views[photo].neighbors.iter().map(neighbor).collect(),
+        num_best: options.num_best_neighbors,
+        range: [1.0 / far, 1.0 / near].map(|w| w as f32),
+        gray_weights: gray_weights(),
+    }
+}
+
+/// Depths and normals of the planes that fit.
+fn to_depth_map(view: &MvsView, surface: Surface, options: &MvsOptions) -> DepthMap {
+    let intrinsics = &view.camera.camera.intrinsics;
+    let (width, height) = (surface.width as u32, surface.height as u32);
+    let max_cost = (1.0 - options.min_correlation) as f32;
+    let depth =
+        (surface.planes.iter().zip(&surface.costs)).map(|(plane, cost)| match *cost <= max_cost {
+            true => 1.0 / plane.inverse_depth,
+            false => f32::NAN,
+        });
+    let depth = ImageBuffer::<Luma<f32>, _>::from_raw(width, height, depth.collect::<Vec<f32>>())
+        .expect("one depth for every pixel");
+    let mut normals = vec![Vector3::zeros(); surface.planes.len()];
+    parallel::for_each_chunk(&mut normals, surface.width, |first, row| {
+        for (u, normal) in row.iter_mut().enumerate() {
+            let pixel = Point2::new(u as f64, (first / surface.width) as f64);
+            *normal = surface.planes[first + u].normal(intrinsics, &pixel).cast();
+        }
+    });
+    DepthMap {
+        depth,
+        num_views: vec![1; normals.len()],
+        normals,
+    }
+}
+
+/// Counts the photos that agree on each depth, and keeps depths on which enough do.
+fn keep_confirmed(
+    views: &[MvsView],
+    maps: &mut [DepthMap],
+    options: &MvsOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<()> {
+    let mut counts = Vec::new();
+    for photo in 0..views.len() {
+        report(
+            monitor,
+            Stage::DepthEstimation,
+            photo as f32 / views.len() as f32,
+        )?;
+        counts.push(confirmations(views, maps, photo, options));
+    }
+    for ((map, counts), view) in maps.iter_mut().zip(counts).zip(views) {
+        let needed = num_needed(options, view.neighbors.len());
+        map.num_views = counts;
+        for pixel in 0..map.num_views.len() {
+            if usize::from(map.num_views[pixel]) < needed {
+                map.clear(pixel);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Number of photos that agree on the depth of each pixel; 0 without depth.
+fn confirmations(
+    views: &[MvsView],
+    maps: &[DepthMap],
+    photo: usize,
+    options: &MvsOptions,
+) -> Vec<u8> {
+    let map = &maps[photo];
+    let agreements = agreements(views, maps, photo, options);
+    let width = map.depth.width() as usize;
+    let mut counts = vec![0u8; map.normals.len()];
+    parallel::for_each_chunk(&mut counts, width.max(1), |first, row| {
+        let v = (first / width) as f64;
+        for (u, count) in row.iter_mut().enumerate() {
+            let depth = map.depth.as_raw()[first + u];
+            if depth.is_nan() {
+                continue;
+            }
+            let pixel = [u as f64, v];
+            let agrees = |agreement: &&Agreement<'_>| {
+                let normal = &map.normals[first + u];
+                agreement.pixel(pixel, f64::from(depth), normal).is_some()
+            };
+            *count = 1 + agreements.iter().filter(agrees).count() as u8;
+        }
+    });
+    counts
+}
