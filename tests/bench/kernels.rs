@@ -122,13 +122,14 @@ fn work_once(room: &mut Room, work: usize) -> epipole::Result<()> {
         }
         GAUSSIAN => {
             let kernel = gaussian_kernel(1.1, 5)?;
-            room.response = separable_filter(&room.frame, &kernel, &kernel, Border::Reflect101)?;
+            room.response =
+                separable_filter(&room.frame, &kernel, &kernel, Border::Reflect101, &mut ())?;
         }
         HARRIS => {
             let options = StructureTensorOptions::default()
                 .with_window(Window::Box(3))
                 .with_scaling(epipole::feature::Scaling::OpenCv);
-            room.response = harris_response(&room.frame, 0.04, &options)?;
+            room.response = harris_response(&room.frame, 0.04, &options, &mut ())?;
         }
         MATCH => {
             if let Some([first, second]) = &room.descriptors {

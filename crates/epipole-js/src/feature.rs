@@ -289,23 +289,23 @@ functions! {
 
     /// SIFT descriptors of given keypoints.
     fn describe_sift(
-        image: Gray, keypoints: Keypoints, options: Options<SiftOptions>
+        image: Gray, keypoints: Keypoints, options: Options<SiftOptions>; monitor
     ) -> Descriptors {
-        feature::describe_sift(&image.0, &keypoints.0, &options.0)?
+        feature::describe_sift(&image.0, &keypoints.0, &options.0, monitor)?
     }
 
     /// Corner response of Harris with its factor k, such as 0.05.
     fn harris_response(
-        image: Gray, k: f64, options: Options<StructureTensorOptions>
+        image: Gray, k: f64, options: Options<StructureTensorOptions>; monitor
     ) -> GrayImage32 {
-        feature::harris_response(&image.0, k as f32, &options.0)?
+        feature::harris_response(&image.0, k as f32, &options.0, monitor)?
     }
 
     /// Smaller eigenvalue of the structure tensor.
     fn min_eigenvalue_response(
-        image: Gray, options: Options<StructureTensorOptions>
+        image: Gray, options: Options<StructureTensorOptions>; monitor
     ) -> GrayImage32 {
-        feature::min_eigenvalue_response(&image.0, &options.0)?
+        feature::min_eigenvalue_response(&image.0, &options.0, monitor)?
     }
 
     /// Corners to track, strongest first.
@@ -317,16 +317,16 @@ functions! {
 
     /// Local maxima of a response, strongest first: pixels above `threshold` that are largest in a
     /// window `2 radius + 1` pixels wide.
-    fn non_maximum_suppression(response: Field, radius: u32, threshold: f64) -> Keypoints {
+    fn non_maximum_suppression(response: Field, radius: u32, threshold: f64; monitor) -> Keypoints {
         let (radius, threshold) = (radius as usize, threshold as f32);
-        Keypoints(feature::non_maximum_suppression(&response.0, radius, threshold)?)
+        Keypoints(feature::non_maximum_suppression(&response.0, radius, threshold, monitor)?)
     }
 
     /// Corners located between pixels; NaN for those that cannot be.
     fn refine_corners(
-        image: Gray, corners: Vectors<2>, options: Options<RefineOptions>
+        image: Gray, corners: Vectors<2>, options: Options<RefineOptions>; monitor
     ) -> Numbers {
-        let refined = feature::refine_corners(&image.0, &corners.points(), &options.0)?;
+        let refined = feature::refine_corners(&image.0, &corners.points(), &options.0, monitor)?;
         let place = |corner: Option<epipole::nalgebra::Point2<f64>>| {
             corner.map_or([f64::NAN; 2], |corner| [corner.x, corner.y])
         };
@@ -357,10 +357,10 @@ functions! {
 
     /// Points tracked from one image to the next (Lucas and Kanade, on a pyramid).
     fn track_lucas_kanade(
-        first: Gray, second: Gray, points: Vectors<2>, options: Options<TrackOptions>
+        first: Gray, second: Gray, points: Vectors<2>, options: Options<TrackOptions>; monitor
     ) -> Tracks {
         let tracks = feature::track_lucas_kanade(
-            &first.0, &second.0, &points.points(), &options.0,
+            &first.0, &second.0, &points.points(), &options.0, monitor,
         )?;
         let place = |track: &Option<feature::Track>| {
             track.map_or([f64::NAN; 2], |track| [track.point.x, track.point.y])

@@ -85,43 +85,47 @@ functions! {
     /// Gradient of the image blurred by a Gaussian of standard deviation `sigmaPx`, slopes per
     /// pixel.
     fn gaussian_derivative(
-        image: Field, sigma_px: f64, border: Option<Setting<Border>>
+        image: Field, sigma_px: f64, border: Option<Setting<Border>>; monitor
     ) -> Gradient {
-        imaging::gaussian_derivative(&image.0, sigma_px, self::border(border))?.into()
+        imaging::gaussian_derivative(&image.0, sigma_px, self::border(border), monitor)?.into()
     }
 
     /// Image blurred by a Gaussian of standard deviation `sigmaPx`, cut off at about 4 of them.
     fn gaussian_blur(
-        image: Field, sigma_px: f64, border: Option<Setting<Border>>
+        image: Field, sigma_px: f64, border: Option<Setting<Border>>; monitor
     ) -> GrayImage32 {
-        imaging::gaussian_blur(&image.0, sigma_px, self::border(border))?
+        imaging::gaussian_blur(&image.0, sigma_px, self::border(border), monitor)?
     }
 
     /// Mean of the `size` x `size` window around each pixel; `size` is odd.
-    fn box_filter(image: Field, size: u32, border: Option<Setting<Border>>) -> GrayImage32 {
-        imaging::box_filter(&image.0, size as usize, self::border(border))?
+    fn box_filter(image: Field, size: u32, border: Option<Setting<Border>>; monitor) -> GrayImage32 {
+        imaging::box_filter(&image.0, size as usize, self::border(border), monitor)?
     }
 
     /// Image correlated with a kernel with odd sides, which is not flipped.
     fn correlate(
-        image: Field, kernel: Field, border: Option<Setting<Border>>
+        image: Field, kernel: Field, border: Option<Setting<Border>>; monitor
     ) -> GrayImage32 {
-        imaging::correlate(&image.0, &kernel.0, self::border(border))?
+        imaging::correlate(&image.0, &kernel.0, self::border(border), monitor)?
     }
 
     /// Image moved by a homography from its pixels to those of the result, up to scale.
     fn warp_perspective(
-        image: Image, out_from_image: Matrix3<f64>, options: Options<Warp>
+        image: Image, out_from_image: Matrix3<f64>, options: Options<Warp>; monitor
     ) -> Image {
         let options = options.0.of(&image)?;
-        same_kind!(&image, |pixels| imaging::warp_perspective(pixels, &out_from_image, &options)?)
+        same_kind!(&image, |pixels| {
+            imaging::warp_perspective(pixels, &out_from_image, &options, monitor)?
+        })
     }
 
     /// Image moved by an affine map, 2 x 3, from its pixels to those of the result.
     fn warp_affine(
-        image: Image, out_from_image: Matrix2x3<f64>, options: Options<Warp>
+        image: Image, out_from_image: Matrix2x3<f64>, options: Options<Warp>; monitor
     ) -> Image {
         let options = options.0.of(&image)?;
-        same_kind!(&image, |pixels| imaging::warp_affine(pixels, &out_from_image, &options)?)
+        same_kind!(&image, |pixels| {
+            imaging::warp_affine(pixels, &out_from_image, &options, monitor)?
+        })
     }
 }

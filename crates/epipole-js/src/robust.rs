@@ -45,9 +45,9 @@ functions! {
     /// Line of points of which fewer than half are outliers, by the least median of squares;
     /// needs no threshold.
     fn least_median_line(
-        points: Vectors<2>, options: Options<LeastMedianOptions>
+        points: Vectors<2>, options: Options<LeastMedianOptions>; monitor
     ) -> LeastMedian<Line2> {
-        robust::least_median(LineEstimator::new(&points.points())?, &options.0)?
+        robust::least_median(LineEstimator::new(&points.points())?, &options.0, monitor)?
     }
 
     /// Number of samples that suffices for a confidence in (0, 1), if data are drawn with

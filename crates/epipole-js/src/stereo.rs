@@ -10,7 +10,7 @@ use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::image::GrayImage;
 use epipole::imaging::GrayImage32;
 use epipole::nalgebra::{Matrix3, Matrix4};
-use epipole::progress::Monitor;
+use epipole::progress::{Monitor, Part};
 use epipole::stereo::{
     self, DepthInterval, DisparityImage, PixelRect, RectifyOptions, StereoBm, StereoSgm,
 };
@@ -167,15 +167,19 @@ functions! {
     /// Rectifies a calibrated rig and its images; pixels that the camera did not see are black.
     fn rectify_images(
         image1: Image, image2: Image, camera1: Camera, camera2: Camera,
-        cam2_from_cam1: RigidTransform, options: Options<RectifyOptions>
+        cam2_from_cam1: RigidTransform, options: Options<RectifyOptions>; monitor
     ) -> RectifiedImages {
         require_camera("image1", &image1, &camera1)?;
         require_camera("image2", &image2, &camera2)?;
         let rig = stereo::rectify_calibrated(&[camera1, camera2], &cam2_from_cam1, &options.0)?;
-        let (map1, map2) = (rig.map(0)?, rig.map(1)?);
+        let map1 = rig.map(0, &mut Part::new(monitor, 0.0, 0.25))?;
+        let map2 = rig.map(1, &mut Part::new(monitor, 0.25, 0.5))?;
+        let part1 = &mut Part::new(monitor, 0.5, 0.75);
+        let image1 = same_kind!(&image1, |pixels| map1.warp(pixels, part1)?);
+        let part2 = &mut Part::new(monitor, 0.75, 1.0);
         RectifiedImages {
-            image1: same_kind!(&image1, |pixels| map1.warp(pixels)),
-            image2: same_kind!(&image2, |pixels| map2.warp(pixels)),
+            image1,
+            image2: same_kind!(&image2, |pixels| map2.warp(pixels, part2)?),
             rectification: Rectification::from(&rig),
         }
     }
@@ -220,9 +224,9 @@ functions! {
 
     /// Removes connected regions of fewer than `minSize` pixels, whose neighbors differ by at most
     /// `rangePx`.
-    fn remove_speckles(disparity: Disparity, min_size: u32, range_px: f64) -> GrayImage32 {
+    fn remove_speckles(disparity: Disparity, min_size: u32, range_px: f64; monitor) -> GrayImage32 {
         let mut disparity = disparity.0;
-        stereo::remove_speckles(&mut disparity, min_size, range_px as f32)?;
+        stereo::remove_speckles(&mut disparity, min_size, range_px as f32, monitor)?;
         disparity.into_image()
     }
 

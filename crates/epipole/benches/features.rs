@@ -28,7 +28,7 @@ fn scene(width: u32, height: u32) -> GrayImage32 {
             }
         }
     }
-    gaussian_blur(&image, 0.8, Border::Reflect101).expect("a valid blur")
+    gaussian_blur(&image, 0.8, Border::Reflect101, &mut ()).expect("a valid blur")
 }
 
 fn filters(criterion: &mut Criterion) {
@@ -38,11 +38,19 @@ fn filters(criterion: &mut Criterion) {
         b.iter(|| sobel(black_box(&frame), Border::Reflect101));
     });
     criterion.bench_function("gaussian 5x5 1280x720", |b| {
-        b.iter(|| separable_filter(black_box(&frame), &kernel, &kernel, Border::Reflect101));
+        b.iter(|| {
+            separable_filter(
+                black_box(&frame),
+                &kernel,
+                &kernel,
+                Border::Reflect101,
+                &mut (),
+            )
+        });
     });
     let options = StructureTensorOptions::default();
     criterion.bench_function("harris 1280x720", |b| {
-        b.iter(|| harris_response(black_box(&frame), 0.04, &options));
+        b.iter(|| harris_response(black_box(&frame), 0.04, &options, &mut ()));
     });
 }
 

@@ -65,7 +65,7 @@ fn dense(criterion: &mut Criterion) {
     let disparity = StereoSgm::default().compute(&left, &right, &mut ());
     if let Ok(disparity) = disparity {
         criterion.bench_function("stereo-fill-640x480", |bencher| {
-            bencher.iter(|| fill_gaps(black_box(&disparity), &left));
+            bencher.iter(|| fill_gaps(black_box(&disparity), &left, &mut ()));
         });
     }
 }
@@ -85,13 +85,13 @@ fn rectification(criterion: &mut Criterion) {
         let options = RectifyOptions::default();
         rectify_calibrated(&[camera()?, camera()?], &motion, &options)
     };
-    let map = rig().and_then(|rig| rig.map(0));
+    let map = rig().and_then(|rig| rig.map(0, &mut ()));
     criterion.bench_function("rectify-map-640x480", |bencher| {
-        bencher.iter(|| rig().and_then(|rig| rig.map(0)));
+        bencher.iter(|| rig().and_then(|rig| rig.map(0, &mut ())));
     });
     if let Ok(map) = map {
         criterion.bench_function("rectify-warp-640x480", |bencher| {
-            bencher.iter(|| map.warp(black_box(&left)));
+            bencher.iter(|| map.warp(black_box(&left), &mut ()));
         });
     }
 }

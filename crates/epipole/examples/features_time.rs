@@ -86,13 +86,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let both = gradient.du.iter().chain(gradient.dv.iter()).copied();
     write(&folder.join("sobel.f32"), both)?;
     let kernel = gaussian_kernel(1.1, 5)?;
-    let blur = || separable_filter(&frame, &kernel, &kernel, Border::Reflect101);
+    let blur = || separable_filter(&frame, &kernel, &kernel, Border::Reflect101, &mut ());
     let blurred = time("gaussian5", 10 * rounds, blur, no_note)?;
     write(&folder.join("gaussian5.f32"), blurred.into_raw())?;
     let options = StructureTensorOptions::default()
         .with_window(Window::Box(3))
         .with_scaling(Scaling::OpenCv);
-    let harris = || harris_response(&frame, 0.04, &options);
+    let harris = || harris_response(&frame, 0.04, &options, &mut ());
     let response = time("harris", 5 * rounds, harris, no_note)?;
     write(&folder.join("harris.f32"), response.into_raw())?;
 

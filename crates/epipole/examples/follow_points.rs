@@ -18,7 +18,7 @@ pub(crate) fn run() -> Result<(), Error> {
         .iter()
         .map(Keypoint::point)
         .collect();
-    let tracks = track_lucas_kanade(&first, &second, &corners, &TrackOptions::default())?;
+    let tracks = track_lucas_kanade(&first, &second, &corners, &TrackOptions::default(), &mut ())?;
     let mut errors = Vec::new();
     for (corner, track) in corners.iter().zip(&tracks) {
         let Some(track) = track else { continue };

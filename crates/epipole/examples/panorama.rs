@@ -32,8 +32,8 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         assert!((here - there).norm() < 1.0, "{here} {there}");
     }
     let canvas = WarpOptions::new(SIZE.0 * 3 / 2, SIZE.1);
-    let base = warp_perspective(&first, &Matrix3::identity(), &canvas)?;
-    let mut joined = warp_perspective(&second, &found.model, &canvas)?;
+    let base = warp_perspective(&first, &Matrix3::identity(), &canvas, &mut ())?;
+    let mut joined = warp_perspective(&second, &found.model, &canvas, &mut ())?;
     for (u, v, pixel) in joined.enumerate_pixels_mut() {
         if u < SIZE.0 {
             *pixel = *base.get_pixel(u, v);

@@ -19,8 +19,12 @@ pub(crate) fn run() -> Result<(), Error> {
     let camera = Camera::pinhole(left.camera.intrinsics, SIZE.0, SIZE.1);
     let options = RectifyOptions::default();
     let rig = rectify_calibrated(&[camera; 2], &right_from_left, &options)?;
-    let rows1 = rig.map(0)?.warp(&rgb_to_gray(&truth.image));
-    let rows2 = rig.map(1)?.warp(&rgb_to_gray(&other.image));
+    let rows1 = rig
+        .map(0, &mut ())?
+        .warp(&rgb_to_gray(&truth.image), &mut ())?;
+    let rows2 = rig
+        .map(1, &mut ())?
+        .warp(&rgb_to_gray(&other.image), &mut ())?;
     let disparity = StereoSgm::default().compute(&rows1, &rows2, &mut ())?;
     println!("{:.0} % have a disparity", 100.0 * disparity.density());
 

@@ -35,6 +35,14 @@ pub enum Stage {
     DepthEstimation,
     /// Depth maps are joined to one cloud.
     Fusion,
+    /// An image is filtered.
+    Filtering,
+    /// An image is warped: every pixel of the result is read from its place in the source.
+    Warping,
+    /// Points are followed from one image to the next.
+    Tracking,
+    /// A picture of a known scene is computed.
+    Rendering,
 }
 
 impl Stage {
@@ -60,6 +68,10 @@ impl Stage {
             Self::Undistortion => "removing distortion",
             Self::DepthEstimation => "estimating depths",
             Self::Fusion => "fusing depth maps",
+            Self::Filtering => "filtering",
+            Self::Warping => "warping",
+            Self::Tracking => "following points",
+            Self::Rendering => "rendering",
         }
     }
 }
@@ -75,8 +87,8 @@ pub struct Status {
 
 /// Observer of a long computation, which can cancel it.
 ///
-/// Every function that can take longer than 0.1 s takes a `&mut dyn Monitor` as its last argument,
-/// except passes over one image (filters, warps, maps), whose time is proportional to its pixels.
+/// Every function that can take longer than 0.1 s for an image of 12 megapixels or for 30 000
+/// features takes a `&mut dyn Monitor` as its last argument.
 /// `&mut ()` runs to the end in silence; a closure sees each [`Status`] and can return
 /// [`ControlFlow::Break`], upon which the function returns [`Error::Canceled`].
 ///

@@ -13,7 +13,7 @@ use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::robust::RobustArguments;
 use crate::turn::{self, find_turn, left_open};
-use crate::{files, picture};
+use crate::{files, interrupt, picture};
 use clap::Args;
 use epipole::camera::{Camera, RigidTransform};
 use epipole::epipolar::{FundamentalEstimator, estimate_relative_pose};
@@ -125,7 +125,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .zip(&found.maps)
     {
         let path = arguments.output.join(name);
-        files::write(&path, &picture::png(&map.warp(&photo.color))?)?;
+        let warped = map.warp(&photo.color, &mut interrupt::watch)?;
+        files::write(&path, &picture::png(&warped)?)?;
         written.push(path.display().to_string());
     }
     let q = found.q.map(|q| q.transpose().as_slice().to_vec());
@@ -219,7 +220,7 @@ fn rectify(
         width,
         height,
     )?;
-    let map = |h: &Matrix3<f64>| PixelMap::from_homography(width, height, h);
+    let map = |h: &Matrix3<f64>| PixelMap::from_homography(width, height, h, &mut interrupt::watch);
     Ok(Found {
         maps: [
             map(&rectification.homographies[0])?,
@@ -250,7 +251,10 @@ fn calibrated(
     Ok(Found {
         is_vertical: rectification.is_vertical,
         homographies: rectification.homographies,
-        maps: [rectification.map(0)?, rectification.map(1)?],
+        maps: [
+            rectification.map(0, &mut interrupt::watch)?,
+            rectification.map(1, &mut interrupt::watch)?,
+        ],
         q: Some(rectification.q),
         num_inliers,
     })

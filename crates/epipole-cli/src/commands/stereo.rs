@@ -136,9 +136,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             matcher.compute(&left, &right, &mut watch)?
         }
     };
-    drop(progress);
     if arguments.fill {
-        disparity = fill_gaps(&disparity, &left)?;
+        disparity = fill_gaps(&disparity, &left, &mut watch)?;
     }
     let bytes = if as_png {
         write_png16(&disparity)?

@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         }
         targets.push(target);
     }
-    let flat = Undistortion::new(&camera, keep)?;
+    let flat = Undistortion::new(&camera, keep, &mut interrupt::watch)?;
     let mut written = Vec::new();
     for (one, target) in listed.iter().zip(&targets) {
         let path = &one.path;

@@ -237,7 +237,8 @@ fn parts_of_charuco_boards_calibrate_a_camera() {
             Vector3::new(x - 0.08, y - 0.05, 0.27),
             Vector3::new(a, b, c),
         );
-        let photo = photograph_of_board(&board, &camera, &pose, 0.01, index as u64);
+        let photo =
+            photograph_of_board(&board, &camera, &pose, 0.01, index as u64, &mut ()).unwrap();
         let file = folder.file(&format!("board{index}.png"));
         GrayImage::from_fn(480, 360, |u, v| {
             Luma([(255.0 * photo.get_pixel(u, v).0[0]).round() as u8])

@@ -140,7 +140,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     let redrawn = options.undistortion.filter(its_own).zip(quarters);
     let (image, intrinsics) = match redrawn {
         Some((flat, quarters)) => (
-            flat.map.warp(&decoded.image),
+            flat.map.warp(&decoded.image, &mut ())?,
             Some(flat.intrinsics.turned(quarters, sensor_size)),
         ),
         None => (decoded.image, None),
@@ -223,13 +223,13 @@ mod tests {
 
     #[test]
     fn however_the_camera_was_held_its_rays_are_the_same() {
-        let flat = Undistortion::new(&camera(), Keep::Valid).unwrap();
+        let flat = Undistortion::new(&camera(), Keep::Valid, &mut ()).unwrap();
         let options = PrepareOptions {
             undistortion: Some(&flat),
             ..PrepareOptions::default()
         };
         let lying = prepare_photo(&file(&smooth(), 1), &options).unwrap();
-        assert_eq!(lying.image, flat.map.warp(&smooth()));
+        assert_eq!(lying.image, flat.map.warp(&smooth(), &mut ()).unwrap());
         assert_eq!(lying.intrinsics, Some(flat.intrinsics));
         let (u, v) = (13, 41);
         let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));
@@ -274,7 +274,7 @@ mod tests {
 
     #[test]
     fn a_photograph_of_another_camera_is_only_reduced() {
-        let flat = Undistortion::new(&camera(), Keep::Valid).unwrap();
+        let flat = Undistortion::new(&camera(), Keep::Valid, &mut ()).unwrap();
         let options = PrepareOptions {
             max_pixels: 1200,
             undistortion: Some(&flat),

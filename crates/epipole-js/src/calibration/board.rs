@@ -142,10 +142,10 @@ functions! {
     /// standard deviation of the gray values, 0 if not given.
     fn photograph_of_board(
         board: Board, camera: Camera, cam_from_board: RigidTransform, noise: Option<f64>,
-        seed: Option<u32>
+        seed: Option<u32>; monitor
     ) -> GrayImage32 {
         require_size("camera", camera.width, camera.height)?;
         let (noise, seed) = (noise.unwrap_or(0.0), u64::from(seed.unwrap_or(0)));
-        calibration::photograph_of_board(&board, &camera, &cam_from_board, noise, seed)
+        calibration::photograph_of_board(&board, &camera, &cam_from_board, noise, seed, monitor)?
     }
 }

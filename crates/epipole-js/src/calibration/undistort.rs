@@ -11,6 +11,7 @@ use crate::value::Value;
 use epipole::calibration::{self, Keep};
 use epipole::camera::{Camera, Intrinsics};
 use epipole::nalgebra::Point2;
+use epipole::progress::{Monitor, Part};
 use epipole::stereo::{PixelMap, PixelRect};
 
 structs! {
@@ -94,44 +95,50 @@ impl Argument for PixelMap {
                 sources.len()
             )));
         }
-        Ok(Self::from_fn(width, height, |u, v| {
+        let source = |u: u32, v: u32| {
             let place = 2 * (v as usize * width as usize + u as usize);
             let source = Point2::new(sources[place], sources[place + 1]).cast::<f64>();
             (source.x.is_finite() && source.y.is_finite()).then_some(source)
-        }))
+        };
+        Ok(Self::from_fn(width, height, source, &mut ())?)
     }
 }
 
 /// Undistortion of the core.
-fn of_camera(camera: &Camera, keep: Option<Setting<Keep>>) -> Result<calibration::Undistortion> {
+fn of_camera(
+    camera: &Camera,
+    keep: Option<Setting<Keep>>,
+    monitor: &mut dyn Monitor,
+) -> Result<calibration::Undistortion> {
     require_size("camera", camera.width, camera.height)?;
     let keep = keep.map_or(Keep::default(), |keep| keep.0);
-    Ok(calibration::Undistortion::new(camera, keep)?)
+    Ok(calibration::Undistortion::new(camera, keep, monitor)?)
 }
 
 functions! {
     /// Best camera without distortion for the photos of a camera, and the map to its images: valid
     /// keeps the area that was photographed everywhere, all keeps everything, with black borders.
-    fn undistortion_map(camera: Camera, keep: Option<Setting<Keep>>) -> Undistortion {
-        let found = of_camera(&camera, keep)?;
+    fn undistortion_map(camera: Camera, keep: Option<Setting<Keep>>; monitor) -> Undistortion {
+        let found = of_camera(&camera, keep, monitor)?;
         Undistortion { intrinsics: found.intrinsics, valid: found.valid, map: found.map }
     }
 
     /// Photo redrawn without the distortion of its camera; `keep` as for `undistortionMap`.
     fn undistort_image(
-        image: Image, camera: Camera, keep: Option<Setting<Keep>>
+        image: Image, camera: Camera, keep: Option<Setting<Keep>>; monitor
     ) -> UndistortedImage {
         require_camera("image", &image, &camera)?;
-        let found = of_camera(&camera, keep)?;
+        let found = of_camera(&camera, keep, &mut Part::new(monitor, 0.0, 0.7))?;
+        let warp = &mut Part::new(monitor, 0.7, 1.0);
         UndistortedImage {
-            image: same_kind!(&image, |pixels| found.map.warp(pixels)),
+            image: same_kind!(&image, |pixels| found.map.warp(pixels, warp)?),
             intrinsics: found.intrinsics,
             valid: found.valid,
         }
     }
 
     /// Image redrawn by a map, bilinear; 0 where nothing is read.
-    fn remap(image: Image, map: PixelMap) -> Image {
-        same_kind!(&image, |pixels| map.warp(pixels))
+    fn remap(image: Image, map: PixelMap; monitor) -> Image {
+        same_kind!(&image, |pixels| map.warp(pixels, monitor)?)
     }
 }

@@ -65,13 +65,22 @@ impl Run for FindDepth {
         let image =
             |index: usize| Ok::<_, String>(resized(self.photographs[index].to_image()?, small));
         let (first, second) = (image(order[0])?, image(order[1])?);
-        let redrawn = RectifiedPair::new(&rig, [&first, &second]).map_err(sentence)?;
+        let mut watch = |status: Status| {
+            let share = 0.06 + 0.04 * status.share;
+            monitor(Progress::Share(share, "warping the photographs"))
+        };
+        let photographs = [&first, &second];
+        let redrawn = RectifiedPair::new(&rig, photographs, &mut watch).map_err(sentence)?;
         let mut disparity = redrawn
             .disparity(|left, right| matched(left, right, options, span(range_px, factor), monitor))
             .map_err(sentence)?;
         disparity = unclamped(&disparity, span(range_px, factor), at_infinity(&rig))?;
         if options.fill {
-            disparity = redrawn.filled(&disparity).map_err(sentence)?;
+            let mut watch = |status: Status| {
+                let share = 0.95 + 0.05 * status.share;
+                monitor(Progress::Share(share, "filling the gaps"))
+            };
+            disparity = (redrawn.filled(&disparity, &mut watch)).map_err(sentence)?;
         }
         let num_answers = disparity.as_raw().iter().filter(|d| d.is_finite()).count();
         let num_shown = redrawn.num_shown();

@@ -341,14 +341,17 @@ fn file(
     monitor: Monitor<'_>,
 ) -> Result<Photograph, String> {
     use super::convert::{core_lens_camera, unreadable};
+    use super::task::Progress;
     use epipole::calibration::{Keep, Undistortion};
     use epipole::camera::Intrinsics;
+    use epipole::progress::Status;
     use epipole_io::photo::{PrepareOptions, prepare_photo};
-    let flat = |camera: &LensCamera| {
-        Undistortion::new(&core_lens_camera(camera)?, Keep::Valid)
+    let mut watch = |status: Status| monitor(Progress::Share(0.1 * status.share, ""));
+    let mut flat = |camera: &LensCamera| {
+        Undistortion::new(&core_lens_camera(camera)?, Keep::Valid, &mut watch)
             .map_err(|error| format!("its lens cannot be undone: {error}"))
     };
-    let undistortion = camera.map(flat).transpose()?;
+    let undistortion = camera.map(&mut flat).transpose()?;
     report(monitor, 0.1, "")?;
     let options = PrepareOptions::default()
         .with_max_pixels(max_pixels.into())

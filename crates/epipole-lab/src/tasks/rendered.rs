@@ -119,8 +119,8 @@ fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
         * turn.to_rotation_matrix().matrix()
         * seen
         * print.camera.intrinsics.inverse_matrix();
-    let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print)?;
-    Ok(map.warp(picture))
+    let map = PixelMap::from_homography(RENDERED.0, RENDERED.1, &view_from_print, &mut ())?;
+    map.warp(picture, &mut ())
 }
 
 /// A carpet of patches that are nowhere else.

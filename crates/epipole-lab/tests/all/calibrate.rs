@@ -49,7 +49,7 @@ fn photographed(board: &Board, camera: &Camera, turn_deg: [f64; 2], far_m: f64) 
     let middle = board.mark(board.num_marks() - 1) / 2.0;
     let at = Vector3::new(-0.02, 0.0, far_m) - rotation * Vector3::new(middle.x, middle.y, 0.0);
     let pose = RigidTransform::from_parts(at.into(), rotation);
-    let gray = photograph_of_board(board, camera, &pose, 0.005, 1);
+    let gray = photograph_of_board(board, camera, &pose, 0.005, 1, &mut ()).unwrap();
     png(&RgbImage::from_fn(camera.width, camera.height, |u, v| {
         Rgb([(255.0 * gray.get_pixel(u, v).0[0]).round() as u8; 3])
     }))
@@ -227,10 +227,13 @@ fn the_camera_is_used_for_photographs_of_its_size() {
         width: 640,
         height: 480,
     };
-    let flat = Undistortion::new(&truth, Keep::Valid).unwrap();
+    let flat = Undistortion::new(&truth, Keep::Valid, &mut ()).unwrap();
     let image = image::load_from_memory(&fitting).unwrap().to_rgb8();
     let pixels = project.photograph(fits).unwrap();
-    assert_eq!(pixels.rgb[..], flat.map.warp(&image).as_raw()[..]);
+    assert_eq!(
+        pixels.rgb[..],
+        flat.map.warp(&image, &mut ()).unwrap().as_raw()[..]
+    );
     let (k, center) = (flat.intrinsics, flat.intrinsics.principal_point());
     let expected = [k.fu_px(), k.fv_px(), center.x, center.y];
     assert_eq!(project.camera(fits).unwrap().k, expected);

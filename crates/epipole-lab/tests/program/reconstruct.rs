@@ -23,7 +23,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         width: 640,
         height: 480,
     };
-    let flat = Undistortion::new(&camera, Keep::Valid)?;
+    let flat = Undistortion::new(&camera, Keep::Valid, &mut ())?;
     let undistortion = Some(&flat);
     let prepare = PrepareOptions::default()
         .with_max_pixels(200000)

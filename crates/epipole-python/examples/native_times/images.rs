@@ -45,9 +45,11 @@ fn add_filters(
     color: &'static RgbImage,
 ) -> Outcome {
     let border = Border::default();
-    timers.add("gaussian_blur", move || gaussian_blur(floats, 2.0, border));
+    timers.add("gaussian_blur", move || {
+        gaussian_blur(floats, 2.0, border, &mut ())
+    });
     timers.add("gaussian_blur, uint8", move || {
-        gaussian_blur(&gray_to_f32(bytes), 2.0, border).map(|blurred| gray_to_u8(&blurred))
+        gaussian_blur(&gray_to_f32(bytes), 2.0, border, &mut ()).map(|blurred| gray_to_u8(&blurred))
     });
     timers.add("sobel", move || sobel(floats, border));
     timers.add("resize", move || resize(floats, WIDTH / 2, HEIGHT / 2));
@@ -58,10 +60,10 @@ fn add_filters(
     let map = Matrix3::new(1.01, 0.02, -5.0, -0.02, 0.99, 4.0, 1e-5, 0.0, 1.0);
     let options = WarpOptions::new(WIDTH, HEIGHT);
     timers.add("warp_perspective", move || {
-        warp_perspective(color, &map, &options)
+        warp_perspective(color, &map, &options, &mut ())
     });
-    let map = PixelMap::from_homography(WIDTH, HEIGHT, &map)?;
-    timers.add("PixelMap.warp", move || map.warp(color));
+    let map = PixelMap::from_homography(WIDTH, HEIGHT, &map, &mut ())?;
+    timers.add("PixelMap.warp", move || map.warp(color, &mut ()));
     Ok(())
 }
 
@@ -73,7 +75,7 @@ fn add_features(
     let floats = keep(gray_to_f32(left));
     let options = Default::default();
     timers.add("harris_response", move || {
-        harris_response(floats, 0.04, &options)
+        harris_response(floats, 0.04, &options, &mut ())
     });
     let options = Default::default();
     timers.add("good_features_to_track", move || {
@@ -86,7 +88,7 @@ fn add_features(
     let other = keep(gray_to_f32(right));
     let options = Default::default();
     timers.add("track_lucas_kanade", move || {
-        track_lucas_kanade(floats, other, &points, &options)
+        track_lucas_kanade(floats, other, &points, &options, &mut ())
     });
     let (sift, orb) = (Default::default(), Default::default());
     timers.add("detect_sift", move || {

@@ -284,13 +284,15 @@ pub(super) fn detect_markers(
 /// noise : float, optional
 ///     Standard deviation of the gray values.
 /// seed : int, optional
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     Gray, in [0, 1].
 #[pyfunction]
-#[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0))]
+#[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0, *, progress=None))]
 pub(super) fn photograph_of_board<'py>(
     py: Python<'py>,
     board: &Board,
@@ -298,11 +300,12 @@ pub(super) fn photograph_of_board<'py>(
     cam_from_board: &RigidTransform,
     noise: f64,
     seed: u64,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (board, camera, pose) = (&board.board, &camera.0, &cam_from_board.0);
     require_size(camera.width, camera.height)?;
-    let image = progress::detach(py, || {
-        calibration::photograph_of_board(board, camera, pose, noise, seed)
+    let image = progress::run(py, progress, |monitor| {
+        calibration::photograph_of_board(board, camera, pose, noise, seed, monitor)
     });
-    from_gray(py, image)
+    from_gray(py, image?)
 }

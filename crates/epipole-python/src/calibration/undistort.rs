@@ -1,7 +1,6 @@
 //! Undistortion of photos.
 
 use crate::camera::{Camera, Intrinsics};
-use crate::errors::OrRaise;
 use crate::sfm::wrapper::{object, wrapper};
 use crate::{options, progress};
 use epipole::calibration::{self, Keep};
@@ -16,6 +15,8 @@ use pyo3::prelude::*;
 /// camera : Camera
 /// keep : {"valid", "all"}, optional
 ///     Only the area that was photographed everywhere, or all with black borders.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct Undistortion(Content);
 
@@ -32,16 +33,23 @@ wrapper!(Undistortion: camera, keep);
 #[pymethods]
 impl Undistortion {
     #[new]
-    #[pyo3(signature = (camera, keep=None))]
-    fn new(py: Python<'_>, camera: &Camera, keep: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    #[pyo3(signature = (camera, keep=None, *, progress=None))]
+    fn new(
+        py: Python<'_>,
+        camera: &Camera,
+        keep: Option<&Bound<'_, PyAny>>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
         let keep = keep.map_or(Ok(Keep::default()), |keep| options::value("keep", keep))?;
         let camera = camera.0;
         crate::images::require_size(camera.width, camera.height)?;
-        let undistortion = progress::detach(py, || calibration::Undistortion::new(&camera, keep));
+        let undistortion = progress::run(py, progress, |monitor| {
+            calibration::Undistortion::new(&camera, keep, monitor)
+        });
         Ok(Self(Content {
             camera,
             keep,
-            undistortion: undistortion.or_raise()?,
+            undistortion: undistortion?,
         }))
     }
 

@@ -2,7 +2,6 @@
 
 use super::keypoints::Keypoints;
 use crate::arrays::{from_rows, points2};
-use crate::errors::OrRaise;
 use crate::images::{field, from_gray, gray};
 use crate::{options, progress};
 use epipole::feature;
@@ -19,6 +18,8 @@ use pyo3::types::PyDict;
 ///     Gray; uint8 counts as value / 255.
 /// k : float
 ///     In [0, 0.25), usually 0.04 to 0.06.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : StructureTensorOptions
 ///     Those of `structure_tensor`.
 ///
@@ -27,17 +28,18 @@ use pyo3::types::PyDict;
 /// ndarray of float32, shape (H, W)
 ///     Positive at corners, negative along edges.
 #[pyfunction]
-#[pyo3(signature = (image, k, **options))]
+#[pyo3(signature = (image, k, *, progress=None, **options))]
 pub(super) fn harris_response<'py>(
     image: &Bound<'py, PyAny>,
     k: f32,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = progress::detach(image.py(), || {
-        feature::harris_response(&pixels, k, &options)
+    let response = progress::run(image.py(), progress, |monitor| {
+        feature::harris_response(&pixels, k, &options, monitor)
     });
-    from_gray(image.py(), response.or_raise()?)
+    from_gray(image.py(), response?)
 }
 
 /// Smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
@@ -46,6 +48,8 @@ pub(super) fn harris_response<'py>(
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 counts as value / 255.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : StructureTensorOptions
 ///     Those of `structure_tensor`.
 ///
@@ -53,16 +57,17 @@ pub(super) fn harris_response<'py>(
 /// -------
 /// ndarray of float32, shape (H, W)
 #[pyfunction]
-#[pyo3(signature = (image, **options))]
+#[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn min_eigenvalue_response<'py>(
     image: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = progress::detach(image.py(), || {
-        feature::min_eigenvalue_response(&pixels, &options)
+    let response = progress::run(image.py(), progress, |monitor| {
+        feature::min_eigenvalue_response(&pixels, &options, monitor)
     });
-    from_gray(image.py(), response.or_raise()?)
+    from_gray(image.py(), response?)
 }
 
 /// Corners of an image, strongest first, at whole pixels.
@@ -103,21 +108,25 @@ pub(super) fn good_features_to_track(
 ///     Pixels, >= 1: the window is ``2 * radius + 1`` wide.
 /// threshold : float
 ///     Smaller responses are left out.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// Keypoints
 #[pyfunction]
+#[pyo3(signature = (response, radius, threshold, *, progress=None))]
 pub(super) fn non_maximum_suppression(
     response: &Bound<'_, PyAny>,
     radius: usize,
     threshold: f32,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Keypoints> {
     let values = field("response", response)?;
-    let peaks = progress::detach(response.py(), || {
-        feature::non_maximum_suppression(&values, radius, threshold)
+    let peaks = progress::run(response.py(), progress, |monitor| {
+        feature::non_maximum_suppression(&values, radius, threshold, monitor)
     });
-    Keypoints::give(response.py(), &peaks.or_raise()?)
+    Keypoints::give(response.py(), &peaks?)
 }
 
 /// Corners located between pixels: gradients around are perpendicular to the directions there.
@@ -128,6 +137,8 @@ pub(super) fn non_maximum_suppression(
 ///     Gray.
 /// corners : array_like, shape (N, 2)
 ///     Pixels.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : RefineOptions
 ///     ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
 ///
@@ -136,18 +147,19 @@ pub(super) fn non_maximum_suppression(
 /// ndarray, shape (N, 2)
 ///     Rows of NaN where the window holds no corner.
 #[pyfunction]
-#[pyo3(signature = (image, corners, **options))]
+#[pyo3(signature = (image, corners, *, progress=None, **options))]
 pub(super) fn refine_corners<'py>(
     image: &Bound<'py, PyAny>,
     corners: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
     let corners = points2("corners", corners)?;
-    let refined = progress::detach(image.py(), || {
-        feature::refine_corners(&pixels, &corners, &options)
+    let refined = progress::run(image.py(), progress, |monitor| {
+        feature::refine_corners(&pixels, &corners, &options, monitor)
     });
-    let refined = refined.or_raise()?.into_iter();
+    let refined = refined?.into_iter();
     let or_nan = refined.map(|corner| corner.map_or(Vector2::repeat(f64::NAN), |c| c.coords));
     from_rows(image.py(), &or_nan.collect::<Vec<_>>())
 }

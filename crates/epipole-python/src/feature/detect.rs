@@ -2,7 +2,6 @@
 
 use super::descriptors::{Features, give_descriptors};
 use super::keypoints::keypoints;
-use crate::errors::OrRaise;
 use crate::images::{from_gray, gray, rgb, unit_gray};
 use crate::{options, progress};
 use epipole::feature;
@@ -125,6 +124,8 @@ pub(super) fn detect_orb(
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel and the direction 0.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
@@ -132,18 +133,19 @@ pub(super) fn detect_orb(
 /// -------
 /// ndarray of float32, shape (N, 128)
 #[pyfunction]
-#[pyo3(signature = (image, keypoints, **options))]
+#[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn describe_sift<'py>(
     image: &Bound<'py, PyAny>,
     keypoints: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let list = progress::detach(image.py(), || {
-        feature::describe_sift(&pixels, &keypoints, &options)
+    let list = progress::run(image.py(), progress, |monitor| {
+        feature::describe_sift(&pixels, &keypoints, &options, monitor)
     });
-    give_descriptors(image.py(), &list.or_raise()?)
+    give_descriptors(image.py(), &list?)
 }
 
 /// Dominant gradient directions around given places.
@@ -154,6 +156,8 @@ pub(super) fn describe_sift<'py>(
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
@@ -162,19 +166,20 @@ pub(super) fn describe_sift<'py>(
 /// list of ndarray of float32
 ///     Directions of each keypoint, radians, strongest first.
 #[pyfunction]
-#[pyo3(signature = (image, keypoints, **options))]
+#[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn sift_directions<'py>(
     image: &Bound<'py, PyAny>,
     keypoints: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Vec<Bound<'py, PyArray1<f32>>>> {
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let found = progress::detach(image.py(), || {
-        feature::sift_directions(&pixels, &keypoints, &options)
+    let found = progress::run(image.py(), progress, |monitor| {
+        feature::sift_directions(&pixels, &keypoints, &options, monitor)
     });
     let give = |directions| PyArray1::from_vec(image.py(), directions);
-    Ok(found.or_raise()?.into_iter().map(give).collect())
+    Ok(found?.into_iter().map(give).collect())
 }
 
 /// Gray values in a square around each keypoint, less their mean, scaled to unit length.
@@ -188,23 +193,26 @@ pub(super) fn sift_directions<'py>(
 ///     Samples along a side, 2 to 64.
 /// spacing_px : float, optional
 ///     Distance between samples, pixels, > 0.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (N, size**2)
 ///     Inner products are normalized cross-correlations.
 #[pyfunction]
-#[pyo3(signature = (image, keypoints, size, spacing_px=1.0))]
+#[pyo3(signature = (image, keypoints, size, spacing_px=1.0, *, progress=None))]
 pub(super) fn describe_patches<'py>(
     image: &Bound<'py, PyAny>,
     keypoints: &Bound<'py, PyAny>,
     size: usize,
     spacing_px: f64,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let pixels = gray("image", image)?;
     let keypoints = self::keypoints("keypoints", keypoints)?;
-    let list = progress::detach(image.py(), || {
-        feature::describe_patches(&pixels, &keypoints, size, spacing_px)
+    let list = progress::run(image.py(), progress, |monitor| {
+        feature::describe_patches(&pixels, &keypoints, size, spacing_px, monitor)
     });
-    give_descriptors(image.py(), &list.or_raise()?)
+    give_descriptors(image.py(), &list?)
 }

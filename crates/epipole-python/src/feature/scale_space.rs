@@ -1,7 +1,6 @@
 //! Scale space of SIFT.
 
 use crate::arrays::vector;
-use crate::errors::OrRaise;
 use crate::images::{field, unit_gray};
 use crate::record::{plain_class, record};
 use crate::{options, progress};
@@ -132,6 +131,8 @@ impl ScaleSpace {
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : SiftOptions
 ///     Those of `detect_sift`.
 ///
@@ -140,14 +141,17 @@ impl ScaleSpace {
 /// ScaleSpace
 ///     Without octaves for an image smaller than about a dozen pixels.
 #[pyfunction]
-#[pyo3(signature = (image, **options))]
+#[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn scale_space(
     image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<ScaleSpace> {
     let py = image.py();
     let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let core = progress::detach(py, || feature::scale_space(&pixels, &options)).or_raise()?;
+    let core = progress::run(py, progress, |monitor| {
+        feature::scale_space(&pixels, &options, monitor)
+    })?;
     let octaves = core.octaves.iter();
     let octaves: PyResult<Vec<_>> = octaves
         .map(|octave| Py::new(py, ScaleOctave::give(py, octave)?))

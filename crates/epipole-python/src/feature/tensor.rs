@@ -1,7 +1,6 @@
 //! Structure tensors of images.
 
 use super::window::WindowTensor;
-use crate::errors::OrRaise;
 use crate::images::{field, from_gray, gray};
 use crate::record::record;
 use crate::{options, progress};
@@ -78,6 +77,8 @@ impl StructureTensor {
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 counts as value / 255.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : StructureTensorOptions
 ///     ``derivative``: ``"sobel3"``, ``"sobel5"`` or ``"scharr"``; ``window``: ``{"box": 3}`` or
 ///     ``{"gaussian": 1.5}``, pixels; ``scaling``: ``"textbook"`` or ``"open_cv"``; ``border``.
@@ -86,15 +87,17 @@ impl StructureTensor {
 /// -------
 /// StructureTensor
 #[pyfunction]
-#[pyo3(signature = (image, **options))]
+#[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn structure_tensor(
     image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<StructureTensor> {
     let py = image.py();
     let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let tensor =
-        progress::detach(py, || feature::structure_tensor(&pixels, &options)).or_raise()?;
+    let tensor = progress::run(py, progress, |monitor| {
+        feature::structure_tensor(&pixels, &options, monitor)
+    })?;
     Ok(StructureTensor {
         uu: from_gray(py, tensor.uu)?.unbind(),
         uv: from_gray(py, tensor.uv)?.unbind(),

@@ -1,7 +1,6 @@
 //! Tracking of points between images.
 
 use crate::arrays::{from_rows, points2};
-use crate::errors::OrRaise;
 use crate::images::unit_gray;
 use crate::record::record;
 use crate::{options, progress};
@@ -43,6 +42,8 @@ impl Tracks {
 ///     Gray, uint8 or float in [0, 1].
 /// points : array_like, shape (N, 2)
 ///     Pixels of the first image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : TrackOptions
 ///     ``half_window``, pixels; ``num_levels``; ``max_iterations``; ``tolerance_px``;
 ///     ``min_eigenvalue``; ``max_forward_backward_px``, or None for no check.
@@ -51,21 +52,22 @@ impl Tracks {
 /// -------
 /// Tracks
 #[pyfunction]
-#[pyo3(signature = (first, second, points, **options))]
+#[pyo3(signature = (first, second, points, *, progress=None, **options))]
 pub(super) fn track_lucas_kanade(
     first: &Bound<'_, PyAny>,
     second: &Bound<'_, PyAny>,
     points: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Tracks> {
     let py = first.py();
     let (first, second) = (unit_gray("first", first)?, unit_gray("second", second)?);
     let points = points2("points", points)?;
     let options = options::read(options)?;
-    let tracks = progress::detach(py, || {
-        feature::track_lucas_kanade(&first, &second, &points, &options)
+    let tracks = progress::run(py, progress, |monitor| {
+        feature::track_lucas_kanade(&first, &second, &points, &options, monitor)
     });
-    let tracks = tracks.or_raise()?;
+    let tracks = tracks?;
     let place = |track: &Option<Track>| match track {
         Some(track) => track.point.coords,
         None => Vector2::repeat(f64::NAN),

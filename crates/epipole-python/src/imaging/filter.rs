@@ -17,24 +17,27 @@ use pyo3::prelude::*;
 ///     Weights, with odd sides.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
 #[pyfunction]
-#[pyo3(signature = (image, kernel, border=None))]
+#[pyo3(signature = (image, kernel, border=None, *, progress=None))]
 pub(super) fn correlate<'py>(
     image: &Bound<'py, PyAny>,
     kernel: &Bound<'py, PyAny>,
     border: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let gray = Gray::read("image", image)?;
     let kernel = field("kernel", kernel)?;
     let border = gray.border(border)?;
-    let result = progress::detach(image.py(), || {
-        imaging::correlate(&gray.pixels, &kernel, border)
+    let result = progress::run(image.py(), progress, |monitor| {
+        imaging::correlate(&gray.pixels, &kernel, border, monitor)
     });
-    from_gray(image.py(), result.or_raise()?)
+    from_gray(image.py(), result?)
 }
 
 /// Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
@@ -47,25 +50,28 @@ pub(super) fn correlate<'py>(
 ///     Weights along the rows and along the columns, odd numbers of them.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
 #[pyfunction]
-#[pyo3(signature = (image, kernel_u, kernel_v, border=None))]
+#[pyo3(signature = (image, kernel_u, kernel_v, border=None, *, progress=None))]
 pub(super) fn separable_filter<'py>(
     image: &Bound<'py, PyAny>,
     kernel_u: &Bound<'py, PyAny>,
     kernel_v: &Bound<'py, PyAny>,
     border: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let gray = Gray::read("image", image)?;
     let (along_u, along_v) = (column("kernel_u", kernel_u)?, column("kernel_v", kernel_v)?);
     let border = gray.border(border)?;
-    let result = progress::detach(image.py(), || {
-        imaging::separable_filter(&gray.pixels, &along_u, &along_v, border)
+    let result = progress::run(image.py(), progress, |monitor| {
+        imaging::separable_filter(&gray.pixels, &along_u, &along_v, border, monitor)
     });
-    from_gray(image.py(), result.or_raise()?)
+    from_gray(image.py(), result?)
 }
 
 /// Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
@@ -143,24 +149,27 @@ pub(super) fn gaussian_derivative_kernels(
 ///     Standard deviation, pixels, in (0, 1000].
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
-#[pyo3(signature = (image, sigma_px, border=None))]
+#[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_blur<'py>(
     image: &Bound<'py, PyAny>,
     sigma_px: f64,
     border: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let blurred = progress::detach(image.py(), || {
-        imaging::gaussian_blur(&gray.pixels, sigma_px, border)
+    let blurred = progress::run(image.py(), progress, |monitor| {
+        imaging::gaussian_blur(&gray.pixels, sigma_px, border, monitor)
     });
-    gray.give(image.py(), blurred.or_raise()?)
+    gray.give(image.py(), blurred?)
 }
 
 /// Mean of the ``size x size`` window around each pixel.
@@ -173,22 +182,25 @@ pub(super) fn gaussian_blur<'py>(
 ///     Odd number of pixels, at most 1001.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
-#[pyo3(signature = (image, size, border=None))]
+#[pyo3(signature = (image, size, border=None, *, progress=None))]
 pub(super) fn box_filter<'py>(
     image: &Bound<'py, PyAny>,
     size: usize,
     border: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let mean = progress::detach(image.py(), || {
-        imaging::box_filter(&gray.pixels, size, border)
+    let mean = progress::run(image.py(), progress, |monitor| {
+        imaging::box_filter(&gray.pixels, size, border, monitor)
     });
-    gray.give(image.py(), mean.or_raise()?)
+    gray.give(image.py(), mean?)
 }

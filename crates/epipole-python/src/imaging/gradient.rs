@@ -1,6 +1,5 @@
 //! Image gradients.
 
-use crate::errors::OrRaise;
 use crate::images::{Gray, field, from_gray};
 use crate::record::record;
 use crate::{options, progress};
@@ -142,21 +141,24 @@ pub(super) fn sobel(
 ///     Standard deviation of the Gaussian, pixels, in (0, 1000].
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// Gradient
 #[pyfunction]
-#[pyo3(signature = (image, sigma_px, border=None))]
+#[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_derivative(
     image: &Bound<'_, PyAny>,
     sigma_px: f64,
     border: Option<&Bound<'_, PyAny>>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Gradient> {
     let gray = Gray::read("image", image)?;
     let border = gray.border(border)?;
-    let gradient = progress::detach(image.py(), || {
-        imaging::gaussian_derivative(&gray.pixels, sigma_px, border)
+    let gradient = progress::run(image.py(), progress, |monitor| {
+        imaging::gaussian_derivative(&gray.pixels, sigma_px, border, monitor)
     });
-    Gradient::give(image.py(), gradient.or_raise()?)
+    Gradient::give(image.py(), gradient?)
 }

@@ -1,7 +1,6 @@
 //! Images seen through an affine map or a homography.
 
 use crate::arrays::matrix;
-use crate::errors::OrRaise;
 use crate::images::{Image, require_size, same_kind};
 use crate::{options, progress};
 use epipole::imaging::{self, WarpOptions};
@@ -16,6 +15,8 @@ use pyo3::types::PyDict;
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (2, 3)
 ///     Pixels of the image to pixels of the result.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
@@ -25,10 +26,11 @@ use pyo3::types::PyDict;
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
-#[pyo3(signature = (image, out_from_image, **options))]
+#[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_affine<'py>(
     image: &Bound<'py, PyAny>,
     out_from_image: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let source = Image::read("image", image)?;
@@ -36,8 +38,10 @@ pub(super) fn warp_affine<'py>(
     let options = warp_options(&source, options)?;
     let py = image.py();
     let warped = same_kind!(&source, |pixels| {
-        let warped = progress::detach(py, || imaging::warp_affine(pixels, &map, &options));
-        warped.or_raise()?
+        let warped = progress::run(py, progress, |monitor| {
+            imaging::warp_affine(pixels, &map, &options, monitor)
+        });
+        warped?
     });
     warped.give(py)
 }
@@ -49,6 +53,8 @@ pub(super) fn warp_affine<'py>(
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (3, 3)
 ///     Pixels of the image to pixels of the result, up to scale.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
@@ -58,10 +64,11 @@ pub(super) fn warp_affine<'py>(
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
 #[pyfunction]
-#[pyo3(signature = (image, out_from_image, **options))]
+#[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_perspective<'py>(
     image: &Bound<'py, PyAny>,
     out_from_image: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let source = Image::read("image", image)?;
@@ -69,8 +76,10 @@ pub(super) fn warp_perspective<'py>(
     let options = warp_options(&source, options)?;
     let py = image.py();
     let warped = same_kind!(&source, |pixels| {
-        let warped = progress::detach(py, || imaging::warp_perspective(pixels, &map, &options));
-        warped.or_raise()?
+        let warped = progress::run(py, progress, |monitor| {
+            imaging::warp_perspective(pixels, &map, &options, monitor)
+        });
+        warped?
     });
     warped.give(py)
 }

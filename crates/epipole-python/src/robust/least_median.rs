@@ -2,9 +2,8 @@
 
 use super::model::Callables;
 use super::report::alias;
-use crate::errors::OrRaise;
-use crate::options;
 use crate::record::record;
+use crate::{options, progress};
 use epipole::robust::{self, LeastMedianOptions};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -49,6 +48,8 @@ impl LeastMedian {
 ///     ``errors(model)`` returns the errors of all data, shape (num_data,).
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 /// **options : LeastMedianOptions
 ///     ``num_samples=500``, ``seed=0``.
 ///
@@ -68,7 +69,8 @@ impl LeastMedian {
 /// >>> found.num_inliers
 /// 4
 #[pyfunction]
-#[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, **options))]
+#[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, *, progress=None, **options))]
+#[allow(clippy::too_many_arguments)]
 pub(super) fn least_median(
     py: Python<'_>,
     num_data: usize,
@@ -76,11 +78,16 @@ pub(super) fn least_median(
     fit: Py<PyAny>,
     errors: Py<PyAny>,
     refine: Option<Py<PyAny>>,
+    progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<LeastMedian> {
     let options: LeastMedianOptions = options::read(options)?;
     let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
-    let found = raised.or(robust::least_median(model, &options).or_raise())?;
+    let found = progress::run(py, progress, |monitor| {
+        let mut watch = raised.watch(monitor);
+        robust::least_median(model, &options, &mut watch)
+    });
+    let found = raised.or(found)?;
     Ok(LeastMedian {
         model: found.model.model.clone_ref(py),
         median_px: found.median_px,

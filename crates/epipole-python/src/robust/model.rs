@@ -27,6 +27,14 @@ impl Raised {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Monitor that also cancels after an exception.
+    pub(super) fn watch(&self, monitor: &mut dyn Monitor) -> impl FnMut(Status) -> ControlFlow<()> {
+        |status| match *self.lock() {
+            None => monitor.report(status),
+            Some(_) => ControlFlow::Break(()),
+        }
+    }
+
     /// The exception, if there is one, or else what the run found.
     pub(super) fn or<T>(&self, found: PyResult<T>) -> PyResult<T> {
         match self.lock().take() {
@@ -204,10 +212,7 @@ pub(super) fn ransac(
     let options = options::read(options)?;
     let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
     let work = |monitor: &mut dyn Monitor| {
-        let mut watch = |status: Status| match *raised.lock() {
-            None => monitor.report(status),
-            Some(_) => ControlFlow::Break(()),
-        };
+        let mut watch = raised.watch(monitor);
         robust::ransac(model, &options, &mut watch)
     };
     let found = estimate(py, progress, work, |best| {

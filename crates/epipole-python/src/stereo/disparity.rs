@@ -1,6 +1,5 @@
 //! Cleaning and filling of disparities.
 
-use crate::errors::OrRaise;
 use crate::images::{disparity as read, from_disparity, gray8};
 use crate::progress;
 use epipole::stereo;
@@ -17,22 +16,25 @@ use pyo3::prelude::*;
 ///     Sets of fewer pixels are removed.
 /// range_px : float
 ///     Neighbors are connected if they differ by at most this, pixels, >= 0.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
 #[pyfunction]
+#[pyo3(signature = (disparity, min_size, range_px, *, progress=None))]
 pub(super) fn remove_speckles<'py>(
     disparity: &Bound<'py, PyAny>,
     min_size: u32,
     range_px: f32,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let py = disparity.py();
     let mut disparity = read("disparity", disparity)?;
-    progress::detach(py, || {
-        stereo::remove_speckles(&mut disparity, min_size, range_px)
-    })
-    .or_raise()?;
+    progress::run(py, progress, |monitor| {
+        stereo::remove_speckles(&mut disparity, min_size, range_px, monitor)
+    })?;
     from_disparity(py, disparity)
 }
 
@@ -44,18 +46,24 @@ pub(super) fn remove_speckles<'py>(
 ///     Pixels; NaN where unknown.
 /// left : array_like, shape (H, W)
 ///     Gray image that the disparities belong to, uint8 or float in [0, 1].
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     NaN everywhere if no disparity is known.
 #[pyfunction]
+#[pyo3(signature = (disparity, left, *, progress=None))]
 pub(super) fn fill_gaps<'py>(
     disparity: &Bound<'py, PyAny>,
     left: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let py = disparity.py();
     let (disparity, left) = (read("disparity", disparity)?, gray8("left", left)?);
-    let filled = progress::detach(py, || stereo::fill_gaps(&disparity, &left));
-    from_disparity(py, filled.or_raise()?)
+    let filled = progress::run(py, progress, |monitor| {
+        stereo::fill_gaps(&disparity, &left, monitor)
+    });
+    from_disparity(py, filled?)
 }

@@ -23,6 +23,8 @@ type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
 /// rig : Rectification
 /// photograph1, photograph2 : array_like, shape (H, W, 3)
 ///     uint8, of the sizes of the rig's cameras.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct RectifiedPair {
     rig: Py<Rectification>,
@@ -35,21 +37,22 @@ plain_class!(RectifiedPair: rig, photograph1, photograph2);
 #[pymethods]
 impl RectifiedPair {
     #[new]
+    #[pyo3(signature = (rig, photograph1, photograph2, *, progress=None))]
     fn new(
         py: Python<'_>,
         rig: Py<Rectification>,
         photograph1: &Bound<'_, PyAny>,
         photograph2: &Bound<'_, PyAny>,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let photographs = [
             rgb("photograph1", photograph1)?,
             rgb("photograph2", photograph2)?,
         ];
         let core = &rig.get().0;
-        let pair = progress::detach(py, || {
-            stereo::RectifiedPair::new(core, photographs.each_ref())
-        })
-        .or_raise()?;
+        let pair = progress::run(py, progress, |monitor| {
+            stereo::RectifiedPair::new(core, photographs.each_ref(), monitor)
+        })?;
         Ok(Self {
             rig,
             photographs,
@@ -129,15 +132,24 @@ impl RectifiedPair {
     /// ----------
     /// disparity : array_like of float, shape (h, w)
     ///     Pixels; NaN where unknown.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
     ///
     /// Returns
     /// -------
     /// ndarray of float32, shape (h, w)
-    fn filled<'py>(&self, disparity: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    #[pyo3(signature = (disparity, *, progress=None))]
+    fn filled<'py>(
+        &self,
+        disparity: &Bound<'py, PyAny>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let py = disparity.py();
         let disparity = read("disparity", disparity)?;
-        let filled = progress::detach(py, || self.pair.filled(&disparity));
-        from_disparity(py, filled.or_raise()?)
+        let filled = progress::run(py, progress, |monitor| {
+            self.pair.filled(&disparity, monitor)
+        });
+        from_disparity(py, filled?)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Maps of pixels of a result to places in a source image.
 
 use crate::arrays::{as_array, matrix};
-use crate::errors::OrRaise;
 use crate::images::{Image, elements, from_gray, kind, require_size, same_kind, wrong_shape};
 use crate::progress;
 use epipole::nalgebra::{Matrix3, Point2};
@@ -40,7 +39,10 @@ impl PixelMap {
             (source.x.is_finite() && source.y.is_finite()).then_some(source)
         };
         let (width, height) = (u32::try_from(width)?, u32::try_from(height)?);
-        Ok(Self(stereo::PixelMap::from_fn(width, height, source)))
+        let map = progress::run(sources.py(), None, |monitor| {
+            stereo::PixelMap::from_fn(width, height, source, monitor)
+        });
+        Ok(Self(map?))
     }
 
     /// Map of a homography.
@@ -51,19 +53,23 @@ impl PixelMap {
     ///     Size of the result, pixels.
     /// out_from_source : array_like, shape (3, 3)
     ///     Pixels of the source to pixels of the result, up to scale.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
     #[staticmethod]
+    #[pyo3(signature = (width, height, out_from_source, *, progress=None))]
     fn from_homography(
         width: u32,
         height: u32,
         out_from_source: &Bound<'_, PyAny>,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let map: Matrix3<f64> = matrix("out_from_source", out_from_source)?;
         require_size(width, height)?;
         let py = out_from_source.py();
-        let map = progress::detach(py, || {
-            stereo::PixelMap::from_homography(width, height, &map)
+        let map = progress::run(py, progress, |monitor| {
+            stereo::PixelMap::from_homography(width, height, &map, monitor)
         });
-        Ok(Self(map.or_raise()?))
+        Ok(Self(map?))
     }
 
     /// Width of the result, pixels.
@@ -108,18 +114,25 @@ impl PixelMap {
     /// Parameters
     /// ----------
     /// source : array_like, shape (h, w) or (h, w, 3)
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
     ///
     /// Returns
     /// -------
     /// ndarray of uint8 or float32, shape (H, W) or (H, W, 3)
     ///     uint8 for uint8, else float32.
-    fn warp<'py>(&self, source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (source, *, progress=None))]
+    fn warp<'py>(
+        &self,
+        source: &Bound<'py, PyAny>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let py = source.py();
         let image = Image::read("source", source)?;
-        same_kind!(&image, |pixels| progress::detach(py, || self
-            .0
-            .warp(pixels)))
-        .give(py)
+        let warped = same_kind!(&image, |pixels| {
+            progress::run(py, progress, |monitor| self.0.warp(pixels, monitor))?
+        });
+        warped.give(py)
     }
 
     /// Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.

@@ -229,10 +229,13 @@ impl Rectification {
     /// ----------
     /// index : int
     ///     0 for the first camera, 1 for the second.
-    fn map(&self, py: Python<'_>, index: usize) -> PyResult<PixelMap> {
-        Ok(PixelMap(
-            progress::detach(py, || self.0.map(index)).or_raise()?,
-        ))
+    /// progress : callable, optional
+    ///     Called with the stage and the completed share.
+    #[pyo3(signature = (index, *, progress=None))]
+    fn map(&self, py: Python<'_>, index: usize, progress: Option<Py<PyAny>>) -> PyResult<PixelMap> {
+        Ok(PixelMap(progress::run(py, progress, |monitor| {
+            self.0.map(index, monitor)
+        })?))
     }
 
     /// Pixels of the first rectified image that show points, and their disparities.

@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, box_filter};
+use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::{Matrix2, Point2};
 
 /// An ellipse-like spot.
@@ -21,11 +22,20 @@ const ROUNDNESS: core::ops::Range<f64> = 0.85..1.12;
 const MOST_SLANTED: f64 = 5.0;
 
 /// The spots that are darker than their surroundings, or brighter.
-pub(super) fn find_blobs(image: &GrayImage32, bright: bool) -> Result<Vec<Blob>> {
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+pub(super) fn find_blobs(
+    image: &GrayImage32,
+    bright: bool,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Blob>> {
+    let stage = Stage::FeatureDetection;
     let (width, height) = (image.width() as usize, image.height() as usize);
     let longer = width.max(height) as f64;
     let size = 2 * ((SURROUNDINGS * longer) as usize).clamp(4, 500) + 1;
-    let mean = box_filter(image, size, Border::Replicate)?;
+    let part = &mut Part::new(monitor, 0.0, 0.8).of_stage(stage);
+    let mean = box_filter(image, size, Border::Replicate, part)?;
     let sign = if bright { 1.0 } else { -1.0 };
     // Contrast with the surroundings, positive in a spot.
     let contrast: Vec<f32> = image
@@ -38,6 +48,10 @@ pub(super) fn find_blobs(image: &GrayImage32, bright: bool) -> Result<Vec<Blob>>
     let mut blobs = Vec::new();
     let mut stack = Vec::new();
     for start in 0..contrast.len() {
+        if start % width == 0 {
+            let share = 0.8 + 0.2 * start as f32 / contrast.len() as f32;
+            report(monitor, stage, share)?;
+        }
         if seen[start] || contrast[start] < LEAST_CONTRAST {
             continue;
         }

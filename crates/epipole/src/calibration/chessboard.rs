@@ -6,6 +6,8 @@ use super::saddles::{Saddle, SaddleImage};
 use super::{Board, BoardView};
 use crate::Result;
 use crate::imaging::GrayImage32;
+use crate::math::monitored;
+use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::{Point2, Vector2};
 use std::collections::BTreeMap;
 
@@ -24,10 +26,17 @@ const NEAREST: usize = 16;
 
 /// Looks for a chessboard in an image of this very size; corners are as exact as the search needs
 /// them.
-pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
-    let saddle_image = SaddleImage::new(image)?;
-    let saddles = saddle_image.find()?;
-    let neighbors = neighbors(&saddles);
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled), and for a bad pixel.
+pub(super) fn find_chessboard(
+    image: &GrayImage32,
+    board: &Board,
+    monitor: &mut dyn Monitor,
+) -> Result<BoardSearch> {
+    let saddle_image = SaddleImage::new(image, &mut Part::new(monitor, 0.0, 0.2))?;
+    let saddles = saddle_image.find(&mut Part::new(monitor, 0.2, 0.5))?;
+    let neighbors = neighbors(&saddles, &mut Part::new(monitor, 0.5, 0.8))?;
     let mut taken = vec![false; saddles.len()];
     let mut best = BoardSearch::Nothing;
     let mut in_part = None;
@@ -35,7 +44,9 @@ pub(super) fn find_chessboard(image: &GrayImage32, board: &Board) -> Result<Boar
     // Corners with all four neighbors first: inside of the board.
     let mut seeds: Vec<usize> = (0..saddles.len()).collect();
     seeds.sort_by_key(|&i| (4 - num_links(i), i));
-    for seed in seeds {
+    for (k, seed) in seeds.into_iter().enumerate() {
+        let share = 0.8 + 0.2 * k as f32 / saddles.len() as f32;
+        report(monitor, Stage::FeatureDetection, share)?;
         if taken[seed] || num_links(seed) < 2 {
             continue;
         }
@@ -74,31 +85,31 @@ fn clear_only(view: BoardView, image: &SaddleImage, board: &Board) -> BoardView 
 }
 
 /// For each corner, the next ones along +edge 0, −edge 0, +edge 1 and −edge 1, where both agree.
-fn neighbors(saddles: &[Saddle]) -> Vec<[Option<usize>; 4]> {
-    let next: Vec<[Option<usize>; 4]> = (0..saddles.len())
-        .map(|i| {
-            let mut near: Vec<(f64, usize)> = (0..saddles.len())
-                .filter(|&j| j != i)
-                .map(|j| ((saddles[j].place - saddles[i].place).norm_squared(), j))
-                .collect();
-            let count = NEAREST.min(near.len());
-            if count == 0 {
-                return [None; 4];
-            }
-            near.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
-            near.truncate(count);
-            near.sort_by(|a, b| a.0.total_cmp(&b.0));
-            core::array::from_fn(|way| {
-                near.iter()
-                    .map(|(_, j)| *j)
-                    .find(|&j| is_next(&saddles[i], &saddles[j], way))
-            })
+fn neighbors(saddles: &[Saddle], monitor: &mut dyn Monitor) -> Result<Vec<[Option<usize>; 4]>> {
+    let indices: Vec<usize> = (0..saddles.len()).collect();
+    let stage = Stage::FeatureDetection;
+    let next: Vec<[Option<usize>; 4]> = monitored::map(&indices, stage, monitor, |&i| {
+        let mut near: Vec<(f64, usize)> = (0..saddles.len())
+            .filter(|&j| j != i)
+            .map(|j| ((saddles[j].place - saddles[i].place).norm_squared(), j))
+            .collect();
+        let count = NEAREST.min(near.len());
+        if count == 0 {
+            return [None; 4];
+        }
+        near.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0));
+        near.truncate(count);
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        core::array::from_fn(|way| {
+            near.iter()
+                .map(|(_, j)| *j)
+                .find(|&j| is_next(&saddles[i], &saddles[j], way))
         })
-        .collect();
-    next.iter()
-        .enumerate()
-        .map(|(i, ways)| ways.map(|way| way.filter(|&j| next[j].contains(&Some(i)))))
-        .collect()
+    })?;
+    let both = |(i, ways): (usize, &[Option<usize>; 4])| {
+        ways.map(|way| way.filter(|&j| next[j].contains(&Some(i))))
+    };
+    Ok(next.iter().enumerate().map(both).collect())
 }
 
 fn way_vector(saddle: &Saddle, way: usize) -> Vector2<f64> {

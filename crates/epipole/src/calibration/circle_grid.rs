@@ -7,6 +7,7 @@ use super::lattice::{Cell, Lattice};
 use super::{Board, BoardView, Pattern};
 use crate::Result;
 use crate::imaging::GrayImage32;
+use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::{Point2, Vector2};
 use std::collections::{BTreeMap, VecDeque};
 
@@ -18,12 +19,22 @@ const NEAR: f64 = 0.3;
 const AREAS: core::ops::Range<f64> = 0.4..2.5;
 
 /// Looks for a circle grid in an image of this very size.
-pub(super) fn find_circle_grid(image: &GrayImage32, board: &Board) -> Result<BoardSearch> {
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+pub(super) fn find_circle_grid(
+    image: &GrayImage32,
+    board: &Board,
+    monitor: &mut dyn Monitor,
+) -> Result<BoardSearch> {
     let mut best = BoardSearch::Nothing;
-    for bright in [false, true] {
-        let blobs = find_blobs(image, bright)?;
+    for (bright, from) in [(false, 0.0), (true, 0.5)] {
+        let part = &mut Part::new(monitor, from, from + 0.5);
+        let blobs = find_blobs(image, bright, &mut Part::new(part, 0.0, 0.5))?;
         let mut taken = vec![false; blobs.len()];
         for seed in 0..blobs.len() {
+            let share = 0.5 + 0.5 * seed as f32 / blobs.len() as f32;
+            report(part, Stage::FeatureDetection, share)?;
             let Some(frame) = frame_of(seed, &blobs).filter(|_| !taken[seed]) else {
                 continue;
             };

@@ -11,7 +11,7 @@ use super::saddles::check_range;
 use super::{Board, BoardView, Pattern};
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, pyramid_down};
-use crate::progress::{Monitor, Stage, report};
+use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::Point2;
 
 /// Maximum length of the longer side of the image in which the search starts, pixels.
@@ -29,8 +29,8 @@ const FIRST_SIDE: u32 = 1300;
 /// An image of little contrast in which nothing is found is stretched and searched again.
 ///
 /// * `image`: gray values in [0, 1]
-/// * `monitor`: hears before each image of the pyramid that is searched, in the one stage
-///   [`Stage::FeatureDetection`]
+///
+/// The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled);
@@ -65,11 +65,12 @@ pub fn find_board(
     monitor: &mut dyn Monitor,
 ) -> Result<BoardSearch> {
     check_range(image)?;
-    let found = search(image, board, monitor)?;
-    if found == BoardSearch::Nothing
-        && let Some(stretched) = stretched(image)
-    {
-        return search(&stretched, board, monitor);
+    let found = search(image, board, &mut Part::new(monitor, 0.0, 0.5))?;
+    if found == BoardSearch::Nothing {
+        report(monitor, Stage::FeatureDetection, 0.5)?;
+        if let Some(stretched) = stretched(image) {
+            return search(&stretched, board, &mut Part::new(monitor, 0.5, 1.0));
+        }
     }
     Ok(found)
 }
@@ -94,13 +95,14 @@ fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Resu
     order.extend(first + 1..levels.len());
     let mut best = BoardSearch::Nothing;
     for (n, &level) in order.iter().enumerate() {
-        let share = n as f32 / order.len() as f32;
-        report(monitor, Stage::FeatureDetection, share)?;
+        let [from, to] = [n, n + 1].map(|n| n as f32 / order.len() as f32);
+        report(monitor, Stage::FeatureDetection, from)?;
+        let part = &mut Part::new(monitor, from, to);
         let found = match board.pattern() {
             Pattern::Circles | Pattern::AsymmetricCircles => {
-                find_circle_grid(&levels[level], board)?
+                find_circle_grid(&levels[level], board, part)?
             }
-            _ => find_chessboard(&levels[level], board)?,
+            _ => find_chessboard(&levels[level], board, part)?,
         };
         if let BoardSearch::Found(coarse) = found {
             if best.outdoes(&coarse, board) {
@@ -219,7 +221,8 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let image = photograph_of_board(&board, camera, pose, 0.01, seed as u64);
+                let image =
+                    photograph_of_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
                 let search = find_board(&image, &board, &mut ()).unwrap();
                 let problem = search.problem(&board);
                 let Some(view) = search.view() else {
@@ -246,7 +249,7 @@ mod tests {
         let [camera, ..] = cameras();
         for pose in poses(&board, 3, 17.0, 3) {
             let truth = true_view(&board, &camera, &pose);
-            let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1);
+            let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
             for Luma([value]) in image.pixels_mut() {
                 *value = (100.0 + (*value * 15.0).round()) / 255.0;
             }
@@ -262,7 +265,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let truth = true_view(&board, &camera, &pose);
-        let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1);
+        let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
         // A hand over some eight corners of the interior.
         let (a, b) = (truth.pixels[12].unwrap(), truth.pixels[33].unwrap());
         for (u, v, value) in image.enumerate_pixels_mut() {
@@ -287,7 +290,8 @@ mod tests {
         let (mut num_seen, mut worst) = (0, 0.0_f64);
         for (number, pose) in (poses(&board, 12, 15.0, 5).iter()).enumerate() {
             let truth = true_view(&board, &camera, pose);
-            let mut image = photograph_of_board(&board, &camera, pose, 0.01, number as u64);
+            let mut image =
+                photograph_of_board(&board, &camera, pose, 0.01, number as u64, &mut ()).unwrap();
             let hand = truth.pixels[random.below(54)].unwrap();
             let mut corner = |quarter: u8| {
                 let angle_rad = f64::from(quarter) * FRAC_PI_2 + random.uniform(0.0, 1.2);
@@ -324,7 +328,8 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let dark = photograph_of_board(&board, camera, pose, 0.01, seed as u64);
+                let dark =
+                    photograph_of_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
                 let bright =
                     GrayImage32::from_fn(640, 480, |u, v| Luma([1.0 - dark.get_pixel(u, v).0[0]]));
                 for image in [dark, bright] {
@@ -357,7 +362,8 @@ mod tests {
         let [camera, ..] = cameras();
         for (seed, pose) in poses(&board, 4, 14.0, 6).iter().enumerate() {
             let truth = true_view(&board, &camera, pose);
-            let image = photograph_of_board(&board, &camera, pose, 0.01, seed as u64);
+            let image =
+                photograph_of_board(&board, &camera, pose, 0.01, seed as u64, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             assert_eq!(view.num_seen(), 35);
             // The center of an ellipse is not the image of the disk's center.
@@ -365,7 +371,15 @@ mod tests {
             assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
         }
         let wider = Board::new(Pattern::Circles, 8, 5, 0.03).unwrap();
-        let image = photograph_of_board(&board, &camera, &poses(&board, 1, 14.0, 6)[0], 0.0, 0);
+        let image = photograph_of_board(
+            &board,
+            &camera,
+            &poses(&board, 1, 14.0, 6)[0],
+            0.0,
+            0,
+            &mut (),
+        )
+        .unwrap();
         let problem = find_board(&image, &wider, &mut ())
             .unwrap()
             .problem(&wider)
@@ -379,7 +393,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let told = |pose: &RigidTransform, columns: usize, rows: usize| {
-            let image = photograph_of_board(&board, &camera, pose, 0.01, 2);
+            let image = photograph_of_board(&board, &camera, pose, 0.01, 2, &mut ()).unwrap();
             let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
             let search = find_board(&image, &wanted, &mut ()).unwrap();
             assert!(!matches!(search, BoardSearch::Found(_)));

@@ -67,7 +67,7 @@ pub(super) fn refine_mark(
         max_iterations: 60,
         tolerance_px: 1e-4,
     };
-    let by_gradients = refine_corners(image, &[*pixel], &options)?[0]
+    let by_gradients = refine_corners(image, &[*pixel], &options, &mut ())?[0]
         .filter(|refined| (refined - pixel).norm() < reach.stay * spacing);
     // A corner that the edges do not confirm may be the rim of a hand.
     Ok(by_gradients.and_then(|start| {

@@ -2,6 +2,7 @@
 
 use crate::feature::non_maximum_suppression;
 use crate::imaging::{Border, GrayImage32, from_vec, gaussian_blur, sample_bilinear};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2};
 
@@ -33,14 +34,15 @@ pub(super) struct SaddleImage {
 }
 
 impl SaddleImage {
-    pub(super) fn new(image: &GrayImage32) -> Result<Self> {
+    pub(super) fn new(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<Self> {
+        let part = &mut Part::new(monitor, 0.0, 1.0).of_stage(Stage::FeatureDetection);
         Ok(Self {
-            blurred: gaussian_blur(image, SIGMA_PX, Border::Replicate)?,
+            blurred: gaussian_blur(image, SIGMA_PX, Border::Replicate, part)?,
         })
     }
 
     /// All corners in it.
-    pub(super) fn find(&self) -> Result<Vec<Saddle>> {
+    pub(super) fn find(&self, monitor: &mut dyn Monitor) -> Result<Vec<Saddle>> {
         let (width, height) = self.blurred.dimensions();
         if width < 5 || height < 5 {
             return Ok(Vec::new());
@@ -63,9 +65,12 @@ impl SaddleImage {
         let strongest = response.iter().fold(0.0_f32, |most, r| most.max(*r));
         let response = from_vec(width, height, response);
         let threshold = (0.01 * strongest).max(LEAST_SHARE * 0.02);
-        let peaks = non_maximum_suppression(&response, 2, threshold)?;
+        let part = &mut Part::new(monitor, 0.0, 0.4);
+        let peaks = non_maximum_suppression(&response, 2, threshold, part)?;
         let mut saddles: Vec<Saddle> = Vec::new();
-        for peak in peaks {
+        for (k, peak) in peaks.iter().enumerate() {
+            let share = 0.4 + 0.6 * k as f32 / peaks.len() as f32;
+            report(monitor, Stage::FeatureDetection, share)?;
             if let Some(saddle) = self.examine(&peak.point())
                 && !saddles
                     .iter()

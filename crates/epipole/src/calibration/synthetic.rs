@@ -5,9 +5,11 @@ use super::Board;
 use super::BoardView;
 use super::drawing::BoardDrawing;
 use super::footprint::Footprint;
+use crate::Result;
 use crate::camera::{Camera, RigidTransform};
 use crate::imaging::GrayImage32;
 use crate::math::random::Random;
+use crate::progress::{Monitor, Stage, report};
 use image::Luma;
 use nalgebra::{Point2, Point3, Vector2, Vector3};
 
@@ -70,7 +72,11 @@ impl Sheet {
 /// * `noise`: one standard deviation of the noise, white being 1 and black 0
 /// * `seed`: of the noise
 ///
-/// The table also fills pixels that the lens maps to no ray, and those behind the board.
+/// The table also fills pixels that the lens maps to no ray, and those behind the board. The one
+/// stage is [`Stage::Rendering`].
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -85,7 +91,7 @@ impl Sheet {
 /// };
 /// // The corner in row 1 and column 2 is 2 cm to the right and 2 cm below of the first.
 /// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
-/// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+/// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ())?;
 /// let found = find_board(&image, &board, &mut ())?.view().expect("a board");
 /// let seen = found.pixels[7].expect("a corner");
 /// assert!((seen - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
@@ -97,7 +103,8 @@ pub fn photograph_of_board(
     cam_from_board: &RigidTransform,
     noise: f64,
     seed: u64,
-) -> GrayImage32 {
+    monitor: &mut dyn Monitor,
+) -> Result<GrayImage32> {
     let mut random = Random::new(seed);
     let sheet = Sheet::new(board);
     let board_from_cam = cam_from_board.inverse();
@@ -117,6 +124,7 @@ pub fn photograph_of_board(
     let mut above = row(0);
     let mut image = GrayImage32::new(camera.width, camera.height);
     for v in 0..camera.height {
+        report(monitor, Stage::Rendering, v as f32 / camera.height as f32)?;
         let below = row(v + 1);
         for u in 0..camera.width {
             let k = u as usize;
@@ -129,7 +137,7 @@ pub fn photograph_of_board(
         }
         above = below;
     }
-    image
+    Ok(image)
 }
 
 /// Pixels of the marks.
@@ -227,7 +235,8 @@ mod tests {
             for tip_rad in [0.0, 0.35, -0.5] {
                 for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
                     let pose = pose(&board, f64::to_radians(degrees), tip_rad, offset_px);
-                    let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+                    let image =
+                        photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
                     // The edges above and below of the middle corner, along the board's y.
                     let corner = |j: f64| {
                         let place = Point3::new(SQUARE_M, j * SQUARE_M, 0.0);
@@ -261,7 +270,7 @@ mod tests {
         let camera = camera();
         for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
             let pose = pose(&board, 0.7, 0.0, offset_px);
-            let image = photograph_of_board(&board, &camera, &pose, 0.0, 0);
+            let image = photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
             let mark = board.mark(4);
             let center = camera
                 .project(&(pose * Point3::new(mark.x, mark.y, 0.0)))

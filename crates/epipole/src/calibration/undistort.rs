@@ -1,6 +1,7 @@
 //! Photographs redrawn as a camera without distortion shows them.
 
 use crate::camera::{Camera, Intrinsics};
+use crate::progress::Monitor;
 use crate::stereo::{PixelMap, PixelRect, border_outline, farthest_ray, flat};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
@@ -33,12 +34,14 @@ pub struct Undistortion {
 
 impl Undistortion {
     /// The camera of the same picture size that shows as much as asked for, as large as possible.
+    /// The one stage is [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the
     /// lens model folds less than half-way to the border, so that most of the picture has no rays,
     /// or if a fisheye sees too far sideways to keep all of it in a flat picture: then keep what is
     /// valid. What lies beyond a fold nearer to the border is left black.
+    /// [`Error::Canceled`].
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -50,7 +53,7 @@ impl Undistortion {
     ///     width: 641,
     ///     height: 481,
     /// };
-    /// let flat = Undistortion::new(&camera, Keep::Valid)?;
+    /// let flat = Undistortion::new(&camera, Keep::Valid, &mut ())?;
     /// // The middle stays where it is, and everything else is read further in.
     /// assert!((flat.map.source(320, 240).unwrap() - nalgebra::Point2::new(320.0, 240.0)).norm() < 1e-3);
     /// assert!(flat.map.source(0, 0).is_some());
@@ -58,7 +61,7 @@ impl Undistortion {
     /// ```
     #[doc(alias = "getOptimalNewCameraMatrix")]
     #[doc(alias = "initUndistortRectifyMap")]
-    pub fn new(camera: &Camera, keep: Keep) -> Result<Self> {
+    pub fn new(camera: &Camera, keep: Keep, monitor: &mut dyn Monitor) -> Result<Self> {
         let (width, height) = (camera.width, camera.height);
         if width < 2 || height < 2 {
             return Err(Error::OutOfRange {
@@ -99,6 +102,11 @@ impl Undistortion {
         );
         let intrinsics = Intrinsics::new(focal_px, focal_px, center.x, center.y)?;
         let valid = covered.inner.scaled(focal_px, &center);
+        let source = |u, v| {
+            let ray: Vector3<f64> = intrinsics.ray(&Point2::new(f64::from(u), f64::from(v)));
+            let is_seen = camera.lens.is_seen(&ray);
+            is_seen.then(|| camera.project(&ray.into()))?.ok()
+        };
         Ok(Self {
             intrinsics,
             valid: PixelRect {
@@ -107,14 +115,7 @@ impl Undistortion {
                 u_max: valid.u_max.min(last_u),
                 v_max: valid.v_max.min(last_v),
             },
-            map: PixelMap::from_fn(width, height, |u, v| {
-                let ray: Vector3<f64> = intrinsics.ray(&Point2::new(f64::from(u), f64::from(v)));
-                let seen = camera
-                    .lens
-                    .is_seen(&ray)
-                    .then(|| camera.project(&ray.into()));
-                seen.and_then(Result::ok)
-            }),
+            map: PixelMap::from_fn(width, height, source, monitor)?,
         })
     }
 }
@@ -154,11 +155,11 @@ mod tests {
     #[test]
     fn valid_is_full_and_all_keeps_every_corner() {
         for camera in lenses() {
-            let valid = Undistortion::new(&camera, Keep::Valid).unwrap();
+            let valid = Undistortion::new(&camera, Keep::Valid, &mut ()).unwrap();
             let mask = valid.map.mask(752, 480);
             let black = mask.as_raw().iter().filter(|v| **v == 0).count();
             assert!(black < 40, "{black}");
-            let all = Undistortion::new(&camera, Keep::All).unwrap();
+            let all = Undistortion::new(&camera, Keep::All, &mut ()).unwrap();
             assert!(all.intrinsics.fu_px() < valid.intrinsics.fu_px());
             for (u, v) in [
                 (0.0, 0.0),
@@ -208,12 +209,12 @@ mod tests {
     fn what_cannot_be_flat_is_refused() {
         let mut wide = camera(LensKind::Fisheye, &[0.0; 4]);
         wide.intrinsics = Intrinsics::new(200.0, 200.0, 376.0, 240.0).unwrap();
-        assert!(Undistortion::new(&wide, Keep::All).is_err());
-        assert!(Undistortion::new(&wide, Keep::Valid).is_ok());
+        assert!(Undistortion::new(&wide, Keep::All, &mut ()).is_err());
+        assert!(Undistortion::new(&wide, Keep::Valid, &mut ()).is_ok());
         // Folds at a third of the focal length.
         let folded = camera(LensKind::Brown, &[-3.0, 0.0, 0.0, 0.0, 0.0]);
         assert!(matches!(
-            Undistortion::new(&folded, Keep::Valid),
+            Undistortion::new(&folded, Keep::Valid, &mut ()),
             Err(Error::Degenerate { .. })
         ));
         // Folds 394 px from the middle; the corners are 443 away.
@@ -221,11 +222,11 @@ mod tests {
         assert!(corners.ray(&Point2::new(0.0, 0.0)).is_err());
         assert!(corners.ray(&Point2::new(60.0, 50.0)).is_ok());
         for keep in [Keep::Valid, Keep::All] {
-            let flat = Undistortion::new(&corners, keep).unwrap();
+            let flat = Undistortion::new(&corners, keep, &mut ()).unwrap();
             assert!(flat.valid.u_max - flat.valid.u_min > 400.0);
             assert!(flat.map.source(376, 240).is_some());
         }
         let tiny = Camera { width: 1, ..wide };
-        assert!(Undistortion::new(&tiny, Keep::Valid).is_err());
+        assert!(Undistortion::new(&tiny, Keep::Valid, &mut ()).is_err());
     }
 }

@@ -3,10 +3,12 @@
 use super::structure_tensor::{StructureTensorOptions, with_tensor};
 use crate::imaging::GrayImage32;
 use crate::math::simd::dispatched;
+use crate::progress::Monitor;
 use crate::{Error, Result};
 
 /// The Harris response `R = det M − k (trace M)²` of the structure tensor M at each pixel:
-/// positive at corners, negative along edges, near zero where the image is flat.
+/// positive at corners, negative along edges, near zero where the image is flat. The one stage is
+/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
 /// * `k`: between 0 and 0.25, usually 0.04 to 0.06
 ///
@@ -22,7 +24,7 @@ use crate::{Error, Result};
 /// use epipole::imaging::gray_from_values;
 /// // A vertical step: M = [96 0; 0 0], so R = 0 − 0.05 · 96².
 /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
-/// let response = harris_response(&step, 0.05, &StructureTensorOptions::default())?;
+/// let response = harris_response(&step, 0.05, &StructureTensorOptions::default(), &mut ())?;
 /// assert!((response.get_pixel(2, 1).0[0] + 460.8).abs() < 1e-3);
 /// # Ok(()) }
 /// ```
@@ -30,6 +32,7 @@ pub fn harris_response(
     image: &GrayImage32,
     k: f32,
     options: &StructureTensorOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<GrayImage32> {
     if !(0.0..0.25).contains(&k) {
         return Err(Error::OutOfRange {
@@ -38,13 +41,17 @@ pub fn harris_response(
             value: f64::from(k),
         });
     }
-    let [response] = with_tensor(image, options, |[uu, uv, vv], [out]: [&mut [f32]; 1]| {
-        harris_row(uu, uv, vv, k, out);
-    })?;
+    let [response] = with_tensor(
+        image,
+        options,
+        monitor,
+        |[uu, uv, vv], [out]: [&mut [f32]; 1]| harris_row(uu, uv, vv, k, out),
+    )?;
     Ok(response)
 }
 
 /// The smaller eigenvalue of the structure tensor at each pixel, the measure of Shi and Tomasi.
+/// The one stage is [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
 /// # Errors
 /// As [`structure_tensor`](super::structure_tensor()).
@@ -56,17 +63,21 @@ pub fn harris_response(
 /// use epipole::feature::{StructureTensorOptions, min_eigenvalue_response};
 /// use epipole::imaging::gray_from_values;
 /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
-/// let response = min_eigenvalue_response(&step, &StructureTensorOptions::default())?;
+/// let response = min_eigenvalue_response(&step, &StructureTensorOptions::default(), &mut ())?;
 /// assert_eq!(response.get_pixel(2, 1).0[0], 0.0); // an edge is no corner
 /// # Ok(()) }
 /// ```
 pub fn min_eigenvalue_response(
     image: &GrayImage32,
     options: &StructureTensorOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<GrayImage32> {
-    let [response] = with_tensor(image, options, |[uu, uv, vv], [out]: [&mut [f32]; 1]| {
-        min_eigenvalue_row(uu, uv, vv, out);
-    })?;
+    let [response] = with_tensor(
+        image,
+        options,
+        monitor,
+        |[uu, uv, vv], [out]: [&mut [f32]; 1]| min_eigenvalue_row(uu, uv, vv, out),
+    )?;
     Ok(response)
 }
 
@@ -121,10 +132,11 @@ mod tests {
                 opencv(DerivativeFilter::Scharr, 3),
             ),
         ] {
-            let ours = harris_response(&image, k, &options).unwrap();
+            let ours = harris_response(&image, k, &options, &mut ()).unwrap();
             fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
         }
-        let ours = min_eigenvalue_response(&image, &opencv(DerivativeFilter::Sobel3, 3)).unwrap();
+        let ours =
+            min_eigenvalue_response(&image, &opencv(DerivativeFilter::Sobel3, 3), &mut ()).unwrap();
         let name = "min_eigen_3_3.npy";
         fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
     }
@@ -133,13 +145,15 @@ mod tests {
     fn odd_shapes_have_a_response() {
         for (w, h) in [(0, 0), (1, 1), (1, 40), (40, 1), (2, 2)] {
             let image = GrayImage32::from_fn(w, h, |u, v| image::Luma([(u + v) as f32]));
-            let response = harris_response(&image, 0.04, &opencv(DerivativeFilter::Sobel5, 7));
+            let response =
+                harris_response(&image, 0.04, &opencv(DerivativeFilter::Sobel5, 7), &mut ());
             let response = response.unwrap();
             assert_eq!(response.dimensions(), (w, h));
             assert!(crate::imaging::is_finite(&response));
         }
         let flat = GrayImage32::from_pixel(30, 20, image::Luma([0.4]));
-        let response = harris_response(&flat, 0.04, &StructureTensorOptions::default()).unwrap();
+        let response =
+            harris_response(&flat, 0.04, &StructureTensorOptions::default(), &mut ()).unwrap();
         assert!(response.as_raw().iter().all(|&r| r == 0.0));
     }
 
@@ -147,7 +161,9 @@ mod tests {
     fn k_outside_its_range_is_refused() {
         let image = GrayImage32::new(3, 3);
         for k in [-0.1, 0.25, 3.0, f32::NAN] {
-            assert!(harris_response(&image, k, &StructureTensorOptions::default()).is_err());
+            assert!(
+                harris_response(&image, k, &StructureTensorOptions::default(), &mut ()).is_err()
+            );
         }
     }
 }

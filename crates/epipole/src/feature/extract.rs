@@ -93,9 +93,11 @@ fn harris(
     options: &FeatureOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Features> {
-    let corners = good_features_to_track(image, &options.harris(), monitor)?;
+    let detect = &mut Part::new(monitor, 0.0, 0.4);
+    let corners = good_features_to_track(image, &options.harris(), detect)?;
     let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
-    let refined = refine_corners(image, &places, &RefineOptions::default())?;
+    let refine = &mut Part::new(monitor, 0.4, 0.8);
+    let refined = refine_corners(image, &places, &RefineOptions::default(), refine)?;
     // A corner that cannot be refined is not one.
     let keypoints: Vec<Keypoint> = (corners.into_iter().zip(refined))
         .filter_map(|(corner, place)| {
@@ -106,7 +108,8 @@ fn harris(
             })
         })
         .collect();
-    let descriptors = describe_patches(image, &keypoints, options.patch_px, 1.0)?;
+    let describe = &mut Part::new(monitor, 0.8, 1.0);
+    let descriptors = describe_patches(image, &keypoints, options.patch_px, 1.0, describe)?;
     Ok(Features {
         keypoints,
         descriptors,

@@ -3,7 +3,7 @@
 use super::nms::strongest_first;
 use super::{Keypoint, StructureTensorOptions, harris_response, min_eigenvalue_response};
 use crate::imaging::GrayImage32;
-use crate::progress::{Monitor, Stage, report};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
@@ -127,14 +127,16 @@ pub fn good_features_to_track(
             value: 0.0,
         });
     }
-    report(monitor, Stage::FeatureDetection, 0.0)?;
+    let part = &mut Part::new(monitor, 0.0, 0.8);
     let response = match options.measure {
-        CornerMeasure::ShiTomasi => min_eigenvalue_response(image, &options.tensor)?,
-        CornerMeasure::Harris(k) => harris_response(image, k, &options.tensor)?,
+        CornerMeasure::ShiTomasi => min_eigenvalue_response(image, &options.tensor, part)?,
+        CornerMeasure::Harris(k) => harris_response(image, k, &options.tensor, part)?,
     };
     report(monitor, Stage::FeatureDetection, 0.8)?;
     let mut candidates = inner_maxima(&response, options.quality);
+    report(monitor, Stage::FeatureDetection, 0.85)?;
     strongest_first(&mut candidates);
+    report(monitor, Stage::FeatureDetection, 0.95)?;
     let limit = if options.max_corners == 0 {
         usize::MAX
     } else {

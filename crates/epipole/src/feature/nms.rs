@@ -3,6 +3,7 @@
 use super::Keypoint;
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::order_by;
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 
 /// The pixels whose response exceeds `threshold` and every other response within `radius` columns
@@ -12,18 +13,18 @@ use crate::{Error, Result};
 ///
 /// Of equal maxima within a window the first in reading order stays; one that does not stay,
 /// because of another or because a greater response is near it, suppresses nothing equal. Positions
-/// are whole pixels.
+/// are whole pixels. The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite response or threshold, [`Error::OutOfRange`] for a
-/// radius of 0.
+/// radius of 0, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::non_maximum_suppression;
 /// use epipole::imaging::gray_from_values;
 /// let response = gray_from_values(5, 1, vec![0.0, 2.0, 1.0, 0.5, 3.0])?;
-/// let peaks = non_maximum_suppression(&response, 1, 0.9)?;
+/// let peaks = non_maximum_suppression(&response, 1, 0.9, &mut ())?;
 /// assert_eq!(peaks.iter().map(|p| p.u).collect::<Vec<_>>(), [4.0, 1.0]);
 /// # Ok(()) }
 /// ```
@@ -31,6 +32,7 @@ pub fn non_maximum_suppression(
     response: &GrayImage32,
     radius: usize,
     threshold: f32,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Keypoint>> {
     require_finite(response)?;
     if !threshold.is_finite() {
@@ -50,6 +52,8 @@ pub fn non_maximum_suppression(
     let mut peaks = Vec::new();
     let mut stays = vec![false; values.len()];
     for v in 0..height {
+        let share = v as f32 / height as f32;
+        report(monitor, Stage::FeatureDetection, share)?;
         let row = &values[v * width..(v + 1) * width];
         for (u, &value) in row.iter().enumerate() {
             if value > threshold && is_peak(values, &stays, width, height, u, v, radius) {
@@ -111,13 +115,17 @@ mod tests {
     #[test]
     fn a_plateau_keeps_one_pixel_a_window() {
         let flat = GrayImage32::from_pixel(6, 5, image::Luma([1.0]));
-        let peaks = non_maximum_suppression(&flat, 5, 0.5).unwrap();
+        let peaks = non_maximum_suppression(&flat, 5, 0.5, &mut ()).unwrap();
         assert_eq!(peaks.len(), 1);
         assert_eq!((peaks[0].u, peaks[0].v), (0.0, 0.0));
-        let peaks = non_maximum_suppression(&flat, 2, 0.5).unwrap();
+        let peaks = non_maximum_suppression(&flat, 2, 0.5, &mut ()).unwrap();
         let places: Vec<_> = peaks.iter().map(|p| (p.u, p.v)).collect();
         assert_eq!(places, [(0.0, 0.0), (3.0, 0.0), (0.0, 3.0), (3.0, 3.0)]);
-        assert!(non_maximum_suppression(&flat, 2, 1.0).unwrap().is_empty());
+        assert!(
+            non_maximum_suppression(&flat, 2, 1.0, &mut ())
+                .unwrap()
+                .is_empty()
+        );
     }
 
     /// The second pixel of the plateau is in the window of none but the first, which the peak has
@@ -126,14 +134,14 @@ mod tests {
     fn what_is_suppressed_suppresses_nothing_equal() {
         let values = vec![5.0, 0.0, 3.0, 3.0, 0.0, 0.0];
         let row = crate::imaging::gray_from_values(6, 1, values).unwrap();
-        let peaks = non_maximum_suppression(&row, 2, 1.0).unwrap();
+        let peaks = non_maximum_suppression(&row, 2, 1.0, &mut ()).unwrap();
         assert_eq!(peaks.iter().map(|p| p.u).collect::<Vec<_>>(), [0.0, 3.0]);
     }
 
     #[test]
     fn peaks_are_the_maxima_of_their_windows() {
         let image = crate::imaging::fixture::gray32("texture.npy");
-        let peaks = non_maximum_suppression(&image, 3, 0.0).unwrap();
+        let peaks = non_maximum_suppression(&image, 3, 0.0, &mut ()).unwrap();
         assert!(peaks.len() > 5);
         for p in &peaks {
             for q in &peaks {
@@ -150,13 +158,14 @@ mod tests {
     #[test]
     fn bad_input_is_refused_and_empty_is_empty() {
         let image = GrayImage32::new(3, 3);
-        assert!(non_maximum_suppression(&image, 0, 0.0).is_err());
-        assert!(non_maximum_suppression(&image, 1, f32::NAN).is_err());
+        assert!(non_maximum_suppression(&image, 0, 0.0, &mut ()).is_err());
+        assert!(non_maximum_suppression(&image, 1, f32::NAN, &mut ()).is_err());
         let nan = GrayImage32::from_pixel(3, 3, image::Luma([f32::NAN]));
-        assert!(non_maximum_suppression(&nan, 1, 0.0).is_err());
-        let empty = non_maximum_suppression(&GrayImage32::new(0, 0), 1, 0.0).unwrap();
+        assert!(non_maximum_suppression(&nan, 1, 0.0, &mut ()).is_err());
+        let empty = non_maximum_suppression(&GrayImage32::new(0, 0), 1, 0.0, &mut ()).unwrap();
         assert!(empty.is_empty());
-        let huge = non_maximum_suppression(&GrayImage32::new(3, 3), usize::MAX, -1.0).unwrap();
+        let huge =
+            non_maximum_suppression(&GrayImage32::new(3, 3), usize::MAX, -1.0, &mut ()).unwrap();
         assert_eq!(huge.len(), 1);
     }
 }

@@ -2,6 +2,8 @@
 
 use super::{Descriptors, Keypoint};
 use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
+use crate::math::monitored;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 
 /// The gray values in a square around each keypoint, less their mean, scaled to unit length:
@@ -11,7 +13,7 @@ use crate::{Error, Result};
 /// * `spacing_px`: distance between samples, pixels, > 0
 ///
 /// The inner product of two such descriptors is their normalized cross-correlation. The border
-/// repeats the edge pixel. A flat patch gives zeros.
+/// repeats the edge pixel. A flat patch gives zeros. The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a size or spacing outside its range, [`Error::NotFinite`] for a bad
@@ -22,7 +24,7 @@ use crate::{Error, Result};
 /// use epipole::feature::{Keypoint, describe_patches};
 /// use epipole::imaging::gray_from_values;
 /// let image = gray_from_values(2, 2, vec![0.0, 1.0, 1.0, 0.0])?;
-/// let patch = describe_patches(&image, &[Keypoint::at(0.5, 0.5, 1.0)], 2, 1.0)?;
+/// let patch = describe_patches(&image, &[Keypoint::at(0.5, 0.5, 1.0)], 2, 1.0, &mut ())?;
 /// assert_eq!(patch.get(0), Some(vec![-0.5, 0.5, 0.5, -0.5]));
 /// # Ok(()) }
 /// ```
@@ -31,6 +33,7 @@ pub fn describe_patches(
     keypoints: &[Keypoint],
     size: usize,
     spacing_px: f64,
+    monitor: &mut dyn Monitor,
 ) -> Result<Descriptors> {
     require_finite(image)?;
     if !(2..=64).contains(&size) {
@@ -47,19 +50,20 @@ pub fn describe_patches(
             value: spacing_px,
         });
     }
-    let mut values = Vec::with_capacity(keypoints.len() * size * size);
+    let mut values = vec![0.0; keypoints.len() * size * size];
     let middle = (size as f64 - 1.0) / 2.0;
-    for keypoint in keypoints {
-        let from = values.len();
-        for j in 0..size {
-            for i in 0..size {
+    let stage = Stage::FeatureDetection;
+    monitored::for_each_chunk(&mut values, size * size, stage, monitor, |first, patch| {
+        let keypoint = &keypoints[first / (size * size)];
+        for (j, row) in patch.chunks_exact_mut(size).enumerate() {
+            for (i, value) in row.iter_mut().enumerate() {
                 let u = keypoint.u + (i as f64 - middle) * spacing_px;
                 let v = keypoint.v + (j as f64 - middle) * spacing_px;
-                values.push(sample_bilinear(image, u, v, Border::Replicate));
+                *value = sample_bilinear(image, u, v, Border::Replicate);
             }
         }
-        normalize(&mut values[from..]);
-    }
+        normalize(patch);
+    })?;
     Descriptors::from_floats(size * size, values)
 }
 
@@ -91,8 +95,8 @@ mod tests {
         let mut other = image.clone();
         other.as_mut().iter_mut().for_each(|v| *v = 0.3 * *v + 0.2);
         let keypoints = [Keypoint::at(12.3, 9.8, 1.0), Keypoint::at(0.0, 30.0, 1.0)];
-        let a = describe_patches(&image, &keypoints, 8, 1.5).unwrap();
-        let b = describe_patches(&other, &keypoints, 8, 1.5).unwrap();
+        let a = describe_patches(&image, &keypoints, 8, 1.5, &mut ()).unwrap();
+        let b = describe_patches(&other, &keypoints, 8, 1.5, &mut ()).unwrap();
         for (x, y) in a.to_floats().iter().zip(b.to_floats()) {
             assert!((x - y).abs() < 1e-5);
         }
@@ -104,10 +108,14 @@ mod tests {
     fn flat_patches_and_bad_sizes() {
         let image = GrayImage32::from_pixel(5, 5, image::Luma([0.7]));
         let keypoints = [Keypoint::at(2.2, 2.7, 1.0)];
-        let flat = describe_patches(&image, &keypoints, 4, 0.7).unwrap();
+        let flat = describe_patches(&image, &keypoints, 4, 0.7, &mut ()).unwrap();
         assert!(flat.to_floats().iter().all(|&v| v == 0.0));
-        assert!(describe_patches(&image, &keypoints, 1, 1.0).is_err());
-        assert!(describe_patches(&image, &keypoints, 4, 0.0).is_err());
-        assert!(describe_patches(&image, &[], 4, 1.0).unwrap().is_empty());
+        assert!(describe_patches(&image, &keypoints, 1, 1.0, &mut ()).is_err());
+        assert!(describe_patches(&image, &keypoints, 4, 0.0, &mut ()).is_err());
+        assert!(
+            describe_patches(&image, &[], 4, 1.0, &mut ())
+                .unwrap()
+                .is_empty()
+        );
     }
 }

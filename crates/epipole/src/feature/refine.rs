@@ -1,6 +1,8 @@
 //! Corners to a fraction of a pixel.
 
 use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
+use crate::math::monitored;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::Point2;
@@ -39,11 +41,11 @@ impl Default for RefineOptions {
 ///
 /// The weights are `exp(−(x² + y²)/half²)`. A corner gives `None` where the window holds no
 /// corner (it is flat, or a single edge), where the point runs out of its window, or where it does
-/// not lie in the image.
+/// not lie in the image. The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for a window or a tolerance outside
-/// its range.
+/// its range, [`Error::Canceled`].
 ///
 /// Source: Förstner & Gülch 1987, "A fast operator for detection and precise location of distinct
 /// points, corners and centres of circular features", §4.
@@ -55,7 +57,8 @@ impl Default for RefineOptions {
 /// use nalgebra::Point2;
 /// // Four squares meet between the pixels 9 and 10.
 /// let board = GrayImage32::from_fn(20, 20, |u, v| image::Luma([f32::from((u < 10) == (v < 10))]));
-/// let refined = refine_corners(&board, &[Point2::new(9.0, 10.0)], &RefineOptions::default())?;
+/// let start = [Point2::new(9.0, 10.0)];
+/// let refined = refine_corners(&board, &start, &RefineOptions::default(), &mut ())?;
 /// let corner = refined[0].expect("a corner");
 /// assert!((corner - Point2::new(9.5, 9.5)).norm() < 1e-3);
 /// # Ok(()) }
@@ -64,6 +67,7 @@ pub fn refine_corners(
     image: &GrayImage32,
     corners: &[Point2<f64>],
     options: &RefineOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Option<Point2<f64>>>> {
     require_finite(image)?;
     if !(1..=50).contains(&options.half_window) {
@@ -87,10 +91,9 @@ pub fn refine_corners(
             libm::exp(-x * x)
         })
         .collect();
-    Ok(corners
-        .iter()
-        .map(|corner| refine(image, corner, &weights, options))
-        .collect())
+    monitored::map(corners, Stage::FeatureDetection, monitor, |corner| {
+        refine(image, corner, &weights, options)
+    })
 }
 
 fn refine(
@@ -173,7 +176,7 @@ mod tests {
             max_iterations: 100,
             tolerance_px: 1e-5,
         };
-        let refined = refine_corners(&image, &start, &options).unwrap();
+        let refined = refine_corners(&image, &start, &options, &mut ()).unwrap();
         let mut compared = 0;
         for ((got, want), from) in refined.iter().zip(&expected).zip(&start) {
             // OpenCV leaves a corner that ran away where it began.
@@ -197,14 +200,21 @@ mod tests {
             (&edge, Point2::new(-4.0, 9.0)),
             (&edge, Point2::new(f64::NAN, 9.0)),
         ] {
-            assert_eq!(refine_corners(image, &[point], &options).unwrap(), [None]);
+            assert_eq!(
+                refine_corners(image, &[point], &options, &mut ()).unwrap(),
+                [None]
+            );
         }
         let empty = GrayImage32::new(0, 0);
         assert_eq!(
-            refine_corners(&empty, &[Point2::origin()], &options).unwrap(),
+            refine_corners(&empty, &[Point2::origin()], &options, &mut ()).unwrap(),
             [None]
         );
-        assert!(refine_corners(&flat, &[], &options).unwrap().is_empty());
+        assert!(
+            refine_corners(&flat, &[], &options, &mut ())
+                .unwrap()
+                .is_empty()
+        );
     }
 
     #[test]
@@ -216,7 +226,7 @@ mod tests {
                 tolerance_px,
                 ..RefineOptions::default()
             };
-            assert!(refine_corners(&image, &[], &options).is_err());
+            assert!(refine_corners(&image, &[], &options, &mut ()).is_err());
         }
     }
 }

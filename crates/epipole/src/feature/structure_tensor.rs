@@ -4,7 +4,9 @@ use crate::imaging::kernel::{Kernel, Row};
 use crate::imaging::rows::along_and_across;
 use crate::imaging::separable::{Ring, RowFilter, Sink, in_bands};
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
+use crate::math::monitored::Reporter;
 use crate::math::simd::dispatched;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use std::ops::Range;
@@ -126,11 +128,11 @@ impl StructureTensor {
     }
 }
 
-/// The structure tensor of an image.
+/// The structure tensor of an image. The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite pixel, [`Error::OutOfRange`] for a window of size 0
-/// or above 255, or a σ outside (0, 31].
+/// or above 255, or a σ outside (0, 31]; [`Error::Canceled`].
 ///
 /// Source: Förstner & Gülch 1987; Bigün & Granlund 1987.
 ///
@@ -140,15 +142,16 @@ impl StructureTensor {
 /// use epipole::imaging::gray_from_values;
 /// // A vertical step: Sobel answers 4 on both sides of it, a 3×3 box sums nine squares.
 /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
-/// let tensor = structure_tensor(&step, &StructureTensorOptions::default())?;
+/// let tensor = structure_tensor(&step, &StructureTensorOptions::default(), &mut ())?;
 /// assert_eq!(tensor.eigenvalues(2, 1), Some((96.0, 0.0)));
 /// # Ok(()) }
 /// ```
 pub fn structure_tensor(
     image: &GrayImage32,
     options: &StructureTensorOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<StructureTensor> {
-    let [uu, uv, vv] = with_tensor(image, options, |sums, out: [&mut [f32]; 3]| {
+    let [uu, uv, vv] = with_tensor(image, options, monitor, |sums, out: [&mut [f32]; 3]| {
         for (sum, out) in sums.into_iter().zip(out) {
             out.copy_from_slice(sum);
         }
@@ -161,15 +164,31 @@ pub fn structure_tensor(
 pub(crate) fn with_tensor<const N: usize>(
     image: &GrayImage32,
     options: &StructureTensorOptions,
+    monitor: &mut dyn Monitor,
     finish: impl Fn([&[f32]; 3], [&mut [f32]; N]) + Sync,
 ) -> Result<[GrayImage32; N]> {
     crate::imaging::require_finite(image)?;
     let (kernel, block) = window_kernel(options.window)?;
     let scale = options.scale(block);
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let outputs = in_bands([const { Vec::new() }; N], width, height, |rows, sink| {
-        tensor_rows(image, options, scale * scale, &kernel, rows, sink, &finish);
-    });
+    let work = |rows: Range<usize>, sink: Sink<N>, reporter: &mut Reporter| {
+        let tensor = TensorRows {
+            image,
+            options,
+            scale_sq: scale * scale,
+            kernel: &kernel,
+        };
+        tensor.run(rows, sink, reporter, &finish)
+    };
+    let memory = [const { Vec::new() }; N];
+    let outputs = in_bands(
+        memory,
+        width,
+        height,
+        Stage::FeatureDetection,
+        monitor,
+        work,
+    )?;
     Ok(outputs.map(|values| {
         GrayImage32::from_raw(image.width(), image.height(), values)
             .expect("one value was computed for each pixel")
@@ -204,58 +223,78 @@ pub(super) fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
     }
 }
 
-fn tensor_rows<const N: usize>(
-    image: &GrayImage32,
-    options: &StructureTensorOptions,
+/// Rows of the tensor, computed in order.
+struct TensorRows<'a> {
+    image: &'a GrayImage32,
+    options: &'a StructureTensorOptions,
     scale_sq: f32,
-    kernel: &[f32],
-    rows: Range<usize>,
-    sink: Sink<N>,
-    finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
-) {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let border = match options.border {
-        Border::Constant(_) => Border::Constant(0.0),
-        other => other,
-    };
-    let radius = kernel.len() / 2;
-    let (along, across) = options.derivative.kernels();
-    let kernels = [(along, across), (across, along)];
-    let mut gradient = RowFilter::new(image, kernels, options.border);
-    let mut rings: [Ring; 3] = std::array::from_fn(|_| Ring::new(kernel.len(), width));
-    let row = || vec![0.0f32; width];
-    let mut sums = [row(), row(), row()];
-    let (mut du, mut dv, mut product, mut edge) = (row(), row(), row(), Vec::new());
-    let kernel = &Kernel::new(kernel);
-    for y in rows.clone() {
-        let newest = (y + radius) as isize;
-        let first = if y == rows.start {
-            newest - 2 * radius as isize
-        } else {
-            newest
+    kernel: &'a [f32],
+}
+
+impl TensorRows<'_> {
+    /// Passes the three sums of each row to `finish`, which makes the output rows of `sink`.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`].
+    fn run<const N: usize>(
+        &self,
+        rows: Range<usize>,
+        sink: Sink<N>,
+        reporter: &mut Reporter,
+        finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
+    ) -> Result<()> {
+        let Self {
+            image,
+            options,
+            scale_sq,
+            kernel,
+        } = *self;
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let border = match options.border {
+            Border::Constant(_) => Border::Constant(0.0),
+            other => other,
         };
-        for row in first..=newest {
-            let source = border.index(row, height);
-            if let Some(m) = source {
-                gradient.row(m, [Row::Over(&mut du), Row::Over(&mut dv)]);
-            }
-            let factors = [(&du, &du), (&du, &dv), (&dv, &dv)];
-            for ((ring, (a, b)), sums) in rings.iter_mut().zip(factors).zip(&mut sums) {
-                multiply(a, b, scale_sq, &mut product);
-                let product = source.map(|_| product.as_slice());
-                let target = ring.push();
-                if row < newest {
-                    kernel.along(product, border, &mut edge, target);
-                } else {
-                    let (rows, sums) = (ring.rows(), Row::Over(sums));
-                    along_and_across([kernel; 2], product, border, &mut edge, rows, sums);
+        let radius = kernel.len() / 2;
+        let (along, across) = options.derivative.kernels();
+        let kernels = [(along, across), (across, along)];
+        let mut gradient = RowFilter::new(image, kernels, options.border);
+        let mut rings: [Ring; 3] = std::array::from_fn(|_| Ring::new(kernel.len(), width));
+        let row = || vec![0.0f32; width];
+        let mut sums = [row(), row(), row()];
+        let (mut du, mut dv, mut product, mut edge) = (row(), row(), row(), Vec::new());
+        let kernel = &Kernel::new(kernel);
+        for y in rows.clone() {
+            let newest = (y + radius) as isize;
+            let first = if y == rows.start {
+                newest - 2 * radius as isize
+            } else {
+                newest
+            };
+            for row in first..=newest {
+                reporter.report(y - rows.start, rows.len())?;
+                let source = border.index(row, height);
+                if let Some(m) = source {
+                    gradient.row(m, [Row::Over(&mut du), Row::Over(&mut dv)]);
+                }
+                let factors = [(&du, &du), (&du, &dv), (&dv, &dv)];
+                for ((ring, (a, b)), sums) in rings.iter_mut().zip(factors).zip(&mut sums) {
+                    multiply(a, b, scale_sq, &mut product);
+                    let product = source.map(|_| product.as_slice());
+                    let target = ring.push();
+                    if row < newest {
+                        kernel.along(product, border, &mut edge, target);
+                    } else {
+                        let (rows, sums) = (ring.rows(), Row::Over(sums));
+                        along_and_across([kernel; 2], product, border, &mut edge, rows, sums);
+                    }
                 }
             }
+            sink(&mut |mut out| {
+                let out = out.each_mut().map(|out| out.columns(0..width));
+                finish([&sums[0], &sums[1], &sums[2]], out);
+            });
         }
-        sink(&mut |mut out| {
-            let out = out.each_mut().map(|out| out.columns(0..width));
-            finish([&sums[0], &sums[1], &sums[2]], out);
-        });
+        Ok(())
     }
 }
 
@@ -281,7 +320,7 @@ mod tests {
             window: Window::Box(1),
             ..StructureTensorOptions::default()
         };
-        let tensor = structure_tensor(&image, &options).unwrap();
+        let tensor = structure_tensor(&image, &options, &mut ()).unwrap();
         #[rustfmt::skip]
         assert_eq!(tensor.uu.as_raw(), &[
             0.0, 0.0, 0.0, 0.0, 0.0,
@@ -314,12 +353,12 @@ mod tests {
                 window,
                 ..Default::default()
             };
-            assert!(structure_tensor(&image, &options).is_err());
+            assert!(structure_tensor(&image, &options, &mut ()).is_err());
         }
         let mut image = image;
         image.put_pixel(1, 1, image::Luma([f32::NAN]));
         assert_eq!(
-            structure_tensor(&image, &StructureTensorOptions::default()),
+            structure_tensor(&image, &StructureTensorOptions::default(), &mut ()),
             Err(Error::NotFinite {
                 what: "every pixel of the image"
             })
@@ -333,13 +372,14 @@ mod tests {
             window: Window::Gaussian(1.5),
             ..StructureTensorOptions::default()
         };
-        let tensor = structure_tensor(&image, &options).unwrap();
+        let tensor = structure_tensor(&image, &options, &mut ()).unwrap();
         let gradient = crate::imaging::sobel(&image, Border::Reflect101);
         let mut product = gradient.du.clone();
         for (p, dv) in product.as_mut().iter_mut().zip(gradient.dv.as_raw()) {
             *p *= dv;
         }
-        let blurred = crate::imaging::gaussian_blur(&product, 1.5, Border::Reflect101).unwrap();
+        let blurred =
+            crate::imaging::gaussian_blur(&product, 1.5, Border::Reflect101, &mut ()).unwrap();
         crate::imaging::fixture::assert_close(&tensor.uv, &blurred, 1e-6, "uv");
     }
 }

@@ -4,7 +4,8 @@ use crate::imaging::{
     Border, Gradient, GrayImage32, centered_difference, gaussian_pyramid, require_finite,
     sample_bilinear,
 };
-use crate::math::parallel;
+use crate::math::monitored;
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::Point2;
@@ -65,13 +66,14 @@ pub struct Track {
 ///
 /// At each level of the pyramid the displacement d minimizes `Σ (I₁(p) − I₂(p + d))²` over the
 /// window by Gauss–Newton steps with the gradient of the first image. A point is lost if its window
-/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere.
+/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere. The one stage is
+/// [`Stage::Tracking`].
 ///
 /// * `points`: pixels in the first image
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for images of different size, [`Error::NotFinite`] for a bad pixel,
-/// [`Error::OutOfRange`] for an option outside its range.
+/// [`Error::OutOfRange`] for an option outside its range, [`Error::Canceled`].
 ///
 /// Source: Lucas & Kanade 1981; Bouguet 2000, "Pyramidal implementation of the Lucas Kanade
 /// feature tracker"; Kalal, Mikolajczyk & Matas 2010 for the way back.
@@ -89,7 +91,7 @@ pub struct Track {
 /// };
 /// let (first, second) = (blob(30.0, 30.0), blob(33.5, 29.0));
 /// let start = [Point2::new(30.0, 30.0)];
-/// let tracks = track_lucas_kanade(&first, &second, &start, &TrackOptions::default())?;
+/// let tracks = track_lucas_kanade(&first, &second, &start, &TrackOptions::default(), &mut ())?;
 /// let track = tracks[0].expect("the blob is followed");
 /// assert!((track.point - Point2::new(33.5, 29.0)).norm() < 0.02);
 /// # Ok(()) }
@@ -99,6 +101,7 @@ pub fn track_lucas_kanade(
     second: &GrayImage32,
     points: &[Point2<f64>],
     options: &TrackOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Option<Track>>> {
     check(options)?;
     for (what, a, b) in [
@@ -119,8 +122,13 @@ pub fn track_lucas_kanade(
     }
     require_finite(first)?;
     require_finite(second)?;
-    let levels = [first, second].map(|image| levels(image, options));
-    Ok(parallel::map(points, |point| {
+    let mut part = Part::new(monitor, 0.0, PYRAMIDS_SHARE);
+    let levels = [
+        levels(first, options, &mut Part::new(&mut part, 0.0, 0.5))?,
+        levels(second, options, &mut Part::new(&mut part, 0.5, 1.0))?,
+    ];
+    let part = &mut Part::new(monitor, PYRAMIDS_SHARE, 1.0);
+    monitored::map(points, Stage::Tracking, part, |point| {
         let (there, residual) = follow(&levels[0], &levels[1], point, options)?;
         let forward_backward_px = match options.max_forward_backward_px {
             None => None,
@@ -138,8 +146,11 @@ pub fn track_lucas_kanade(
             residual,
             forward_backward_px,
         })
-    }))
+    })
 }
+
+/// Share of the time that the pyramids take where many points are followed.
+const PYRAMIDS_SHARE: f32 = 0.1;
 
 struct Level {
     image: GrayImage32,
@@ -147,17 +158,28 @@ struct Level {
 }
 
 /// Levels of the pyramid that are at least as large as the window, largest first.
-fn levels(image: &GrayImage32, options: &TrackOptions) -> Vec<Level> {
+///
+/// # Errors
+/// [`Error::Canceled`].
+fn levels(
+    image: &GrayImage32,
+    options: &TrackOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Level>> {
     let smallest = 2 * options.half_window as u32 + 1;
-    gaussian_pyramid(image, options.num_levels)
-        .into_iter()
-        .enumerate()
-        .filter(|(k, level)| *k == 0 || level.width().min(level.height()) >= smallest)
-        .map(|(_, image)| Level {
+    report(monitor, Stage::Tracking, 0.0)?;
+    let images = gaussian_pyramid(image, options.num_levels);
+    let large = (images.into_iter().enumerate())
+        .filter(|(k, level)| *k == 0 || level.width().min(level.height()) >= smallest);
+    let mut levels = Vec::new();
+    for (_, image) in large {
+        report(monitor, Stage::Tracking, 0.5)?;
+        levels.push(Level {
             gradient: centered_difference(&image, Border::Replicate),
             image,
-        })
-        .collect()
+        });
+    }
+    Ok(levels)
 }
 
 /// The point in the second image and the mean residual.
@@ -304,7 +326,8 @@ mod tests {
             .map(|p| Point2::new(f64::from(p[0]), f64::from(p[1])))
             .collect();
         let tracks =
-            track_lucas_kanade(&first, &second, &points, &TrackOptions::default()).unwrap();
+            track_lucas_kanade(&first, &second, &points, &TrackOptions::default(), &mut ())
+                .unwrap();
         let (mut kept, mut ours, mut theirs) = (0, 0.0, 0.0);
         for (track, row) in tracks.iter().zip(list.values.chunks_exact(6)) {
             let Some(track) = track else { continue };
@@ -326,7 +349,7 @@ mod tests {
         let flat = GrayImage32::from_pixel(image.width(), image.height(), image::Luma([0.5]));
         let options = TrackOptions::default();
         let lost = |a: &GrayImage32, b: &GrayImage32, u: f64, v: f64| {
-            let tracks = track_lucas_kanade(a, b, &[Point2::new(u, v)], &options);
+            let tracks = track_lucas_kanade(a, b, &[Point2::new(u, v)], &options, &mut ());
             tracks.unwrap() == [None]
         };
         assert!(lost(&flat, &flat, 30.0, 30.0));
@@ -344,7 +367,7 @@ mod tests {
     fn bad_input_is_refused() {
         let image = GrayImage32::new(40, 40);
         let run = |a: &GrayImage32, b: &GrayImage32, o: &TrackOptions| {
-            track_lucas_kanade(a, b, &[], o).is_err()
+            track_lucas_kanade(a, b, &[], o, &mut ()).is_err()
         };
         let options = TrackOptions::default();
         assert!(run(&image, &GrayImage32::new(40, 41), &options));

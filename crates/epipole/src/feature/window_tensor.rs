@@ -348,7 +348,7 @@ mod tests {
                 scaling,
                 border,
             };
-            let all = structure_tensor(&image, &options).unwrap();
+            let all = structure_tensor(&image, &options, &mut ()).unwrap();
             for (u, v) in [
                 (0, 0),
                 (1, 3),
@@ -393,8 +393,8 @@ mod tests {
             window: Window::Box(5),
             ..StructureTensorOptions::default()
         };
-        let all = structure_tensor(&image, &options).unwrap();
-        let responses = harris_response(&image, 0.05, &options).unwrap();
+        let all = structure_tensor(&image, &options, &mut ()).unwrap();
+        let responses = harris_response(&image, 0.05, &options, &mut ()).unwrap();
         for (u, v) in [(10, 10), (20, 30), (17, 22)] {
             let one = all.at(u, v).unwrap();
             let (large, small) = all.eigenvalues(u, v).unwrap();
@@ -416,7 +416,7 @@ mod tests {
             ..StructureTensorOptions::default()
         };
         // Sobel answers 8 times the slope.
-        let sums = structure_tensor(&image, &options).unwrap();
+        let sums = structure_tensor(&image, &options, &mut ()).unwrap();
         let sums = sums.at(12, 15).unwrap();
         let tensor = WindowTensor {
             uu: sums.uu / 64.0,

@@ -3,7 +3,7 @@
 use image::Primitive;
 
 /// A channel of a pixel that can be interpolated.
-pub trait Channel: Primitive {
+pub trait Channel: Primitive + Send + Sync {
     /// The value as a float.
     fn to_float(self) -> f32;
     /// The nearest value of the type.

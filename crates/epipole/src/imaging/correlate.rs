@@ -1,17 +1,21 @@
 //! Correlation with any small kernel, separable or not, and the noise gain of kernels.
 
+use super::gray::from_vec;
 use super::{Border, GrayImage32};
+use crate::math::monitored;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 
 /// The image correlated with a kernel, an image of weights with odd sides:
 /// `out(u, v) = Σ kernel(i, j) I(u + i − rᵤ, v + j − rᵥ)`.
 ///
 /// It takes one multiplication for each weight and pixel; where the kernel is an outer product,
-/// [`separable_filter`](super::separable_filter) takes far fewer. The kernel is not flipped.
+/// [`separable_filter`](super::separable_filter) takes far fewer. The kernel is not flipped. The
+/// one stage is [`Stage::Filtering`].
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a kernel with an even side or none, [`Error::NotFinite`] for weights
-/// that are not finite.
+/// that are not finite, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -19,11 +23,16 @@ use crate::{Error, Result};
 /// let image = gray_from_values(3, 1, vec![7.0, 8.0, 9.0])?;
 /// // The weight right of the middle fetches the neighbor on the right.
 /// let fetch = gray_from_values(3, 1, vec![0.0, 0.0, 1.0])?;
-/// let moved = correlate(&image, &fetch, Border::Replicate)?;
+/// let moved = correlate(&image, &fetch, Border::Replicate, &mut ())?;
 /// assert_eq!(moved.as_raw(), &[8.0, 9.0, 9.0]);
 /// # Ok(()) }
 /// ```
-pub fn correlate(image: &GrayImage32, kernel: &GrayImage32, border: Border) -> Result<GrayImage32> {
+pub fn correlate(
+    image: &GrayImage32,
+    kernel: &GrayImage32,
+    border: Border,
+    monitor: &mut dyn Monitor,
+) -> Result<GrayImage32> {
     for side in [kernel.width(), kernel.height()] {
         if side % 2 == 0 {
             return Err(Error::OutOfRange {
@@ -45,10 +54,24 @@ pub fn correlate(image: &GrayImage32, kernel: &GrayImage32, border: Border) -> R
             let (u, v) = (u as isize + i as isize, v as isize + j as isize);
             sum += weight.0[0] * border.value(image, u - half_u, v - half_v);
         }
-        image::Luma([sum])
+        sum
     };
     let (width, height) = image.dimensions();
-    Ok(GrayImage32::from_fn(width, height, weighed))
+    let mut values = vec![0.0; image.as_raw().len()];
+    let row_len = width as usize;
+    monitored::for_each_chunk(
+        &mut values,
+        row_len,
+        Stage::Filtering,
+        monitor,
+        |first, row| {
+            let v = (first / row_len) as u32;
+            for (u, value) in (0..).zip(row) {
+                *value = weighed(u, v);
+            }
+        },
+    )?;
+    Ok(from_vec(width, height, values))
 }
 
 /// Noise gain of a filter: the standard deviation of its response to noise of standard deviation 1,
@@ -83,8 +106,8 @@ mod tests {
         let weights = across.iter().flat_map(|b| along.iter().map(move |a| a * b));
         let kernel = from_vec(5, 3, weights.collect());
         for border in [Border::Replicate, Border::Reflect101, Border::Constant(0.3)] {
-            let ours = correlate(&image, &kernel, border).unwrap();
-            let expected = separable_filter(&image, &along, &across, border).unwrap();
+            let ours = correlate(&image, &kernel, border, &mut ()).unwrap();
+            let expected = separable_filter(&image, &along, &across, border, &mut ()).unwrap();
             fixture::assert_close(&ours, &expected, 1e-5, "correlate");
         }
     }
@@ -97,12 +120,12 @@ mod tests {
             GrayImage32::new(3, 4),
             GrayImage32::new(0, 0),
         ] {
-            assert!(correlate(&image, &kernel, Border::Replicate).is_err());
+            assert!(correlate(&image, &kernel, Border::Replicate, &mut ()).is_err());
         }
         let odd = GrayImage32::from_pixel(3, 3, image::Luma([f32::INFINITY]));
-        assert!(correlate(&image, &odd, Border::Replicate).is_err());
+        assert!(correlate(&image, &odd, Border::Replicate, &mut ()).is_err());
         let dot = GrayImage32::from_pixel(1, 1, image::Luma([1.0]));
-        let empty = correlate(&GrayImage32::new(0, 5), &dot, Border::Reflect101);
+        let empty = correlate(&GrayImage32::new(0, 5), &dot, Border::Reflect101, &mut ());
         assert_eq!(empty.unwrap().dimensions(), (0, 5));
     }
 
@@ -111,7 +134,7 @@ mod tests {
         let mut random = Random::new(2);
         let noise = GrayImage32::from_fn(160, 120, |_, _| image::Luma([random.normal() as f32]));
         for sigma_px in [0.5, 1.0, 2.0] {
-            let slopes = gaussian_derivative(&noise, sigma_px, Border::Reflect101)
+            let slopes = gaussian_derivative(&noise, sigma_px, Border::Reflect101, &mut ())
                 .unwrap()
                 .du;
             let squares: f64 = slopes

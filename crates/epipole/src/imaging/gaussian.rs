@@ -2,6 +2,7 @@
 
 use super::separable::filter;
 use super::{Border, GrayImage32};
+use crate::progress::Monitor;
 use crate::{Error, Result};
 
 /// Maximum size of a kernel, ±10 standard deviations of the widest Gaussian.
@@ -69,25 +70,30 @@ pub(crate) fn radius_for(sigma_px: f64) -> usize {
 /// The image blurred by a Gaussian of standard deviation `sigma_px`, cut off at about 4σ.
 ///
 /// `size = round(8σ + 1) | 1` samples, as OpenCV's `GaussianBlur` takes for float images when no
-/// size is given.
+/// size is given. The one stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
 ///
 /// * `sigma_px`: pixels, in (0, 1000]
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a σ outside that range.
+/// [`Error::OutOfRange`] for a σ outside that range, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::imaging::{Border, gaussian_blur, gray_from_values};
 /// let flat = gray_from_values(2, 2, vec![0.5; 4])?;
-/// let blurred = gaussian_blur(&flat, 2.0, Border::Reflect101)?;
+/// let blurred = gaussian_blur(&flat, 2.0, Border::Reflect101, &mut ())?;
 /// assert!(blurred.as_raw().iter().all(|v| (v - 0.5).abs() < 1e-6));
 /// # Ok(()) }
 /// ```
-pub fn gaussian_blur(image: &GrayImage32, sigma_px: f64, border: Border) -> Result<GrayImage32> {
+pub fn gaussian_blur(
+    image: &GrayImage32,
+    sigma_px: f64,
+    border: Border,
+    monitor: &mut dyn Monitor,
+) -> Result<GrayImage32> {
     require_sigma(sigma_px)?;
     let kernel = gaussian_kernel(sigma_px, 2 * radius_for(sigma_px) + 1)?;
-    let [blurred] = filter(image, [(&kernel, &kernel)], border);
+    let [blurred] = filter(image, [(&kernel, &kernel)], border, monitor)?;
     Ok(blurred)
 }
 
@@ -143,11 +149,12 @@ mod tests {
             ("gauss_s1.5_reflect101.npy", 1.5, Border::Reflect101),
             ("gauss_s0.8_replicate.npy", 0.8, Border::Replicate),
         ] {
-            let ours = gaussian_blur(&image, sigma_px, border).unwrap();
+            let ours = gaussian_blur(&image, sigma_px, border, &mut ()).unwrap();
             fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
         }
         let kernel = gaussian_kernel(1.1, 5).unwrap();
-        let ours = separable_filter(&image, &kernel, &kernel, Border::Constant(0.0)).unwrap();
+        let ours =
+            separable_filter(&image, &kernel, &kernel, Border::Constant(0.0), &mut ()).unwrap();
         let name = "gauss_5_s1.1_constant.npy";
         fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
     }
@@ -156,7 +163,7 @@ mod tests {
     fn sigmas_outside_the_range_are_refused() {
         let image = GrayImage32::new(4, 4);
         for sigma_px in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
-            assert!(gaussian_blur(&image, sigma_px, Border::Replicate).is_err());
+            assert!(gaussian_blur(&image, sigma_px, Border::Replicate, &mut ()).is_err());
             assert!(gaussian_kernel(sigma_px, 3).is_err());
         }
         assert!(gaussian_kernel(1.0, 4).is_err());

@@ -3,10 +3,11 @@
 use super::approx::atan2;
 use super::gaussian::gaussian_derivative_kernels;
 use super::gray::from_vec;
-use super::separable::filter;
+use super::separable::{filter, filter_briefly};
 use super::{Border, GrayImage32};
 use crate::Result;
 use crate::math::simd::dispatched;
+use crate::progress::Monitor;
 
 /// The two partial derivatives of an image, in the units of the filter that made them.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,7 +131,7 @@ impl DerivativeFilter {
 /// ```
 pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -> Gradient {
     let (along, across) = kind.kernels();
-    let [du, dv] = filter(image, [(along, across), (across, along)], border);
+    let [du, dv] = filter_briefly(image, [(along, across), (across, along)], border);
     Gradient { du, dv }
 }
 
@@ -145,7 +146,7 @@ pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -
 /// ```
 pub fn centered_difference(image: &GrayImage32, border: Border) -> Gradient {
     let half = &[-0.5, 0.0, 0.5];
-    let [du, dv] = filter(image, [(half, &[1.0]), (&[1.0], half)], border);
+    let [du, dv] = filter_briefly(image, [(half, &[1.0]), (&[1.0], half)], border);
     Gradient { du, dv }
 }
 
@@ -168,22 +169,30 @@ pub fn sobel(image: &GrayImage32, border: Border) -> Gradient {
 ///
 /// * `sigma_px`: standard deviation of the Gaussian, pixels, in (0, 1000]
 ///
-/// The sampled derivative is scaled so that a ramp of slope 1 gives exactly 1.
+/// The sampled derivative is scaled so that a ramp of slope 1 gives exactly 1. The one stage is
+/// [`Stage::Filtering`](crate::progress::Stage::Filtering).
 ///
 /// # Errors
-/// [`OutOfRange`](crate::Error::OutOfRange) for a σ outside that range.
+/// [`OutOfRange`](crate::Error::OutOfRange) for a σ outside that range,
+/// [`Canceled`](crate::Error::Canceled).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::imaging::{Border, gaussian_derivative, gray_from_values};
 /// let ramp = gray_from_values(31, 1, (0..31).map(|u| u as f32).collect())?;
-/// let gradient = gaussian_derivative(&ramp, 2.0, Border::Replicate)?;
+/// let gradient = gaussian_derivative(&ramp, 2.0, Border::Replicate, &mut ())?;
 /// assert!((gradient.du.get_pixel(15, 0).0[0] - 1.0).abs() < 1e-5);
 /// # Ok(()) }
 /// ```
-pub fn gaussian_derivative(image: &GrayImage32, sigma_px: f64, border: Border) -> Result<Gradient> {
+pub fn gaussian_derivative(
+    image: &GrayImage32,
+    sigma_px: f64,
+    border: Border,
+    monitor: &mut dyn Monitor,
+) -> Result<Gradient> {
     let (smooth, slope) = gaussian_derivative_kernels(sigma_px)?;
-    let [du, dv] = filter(image, [(&slope, &smooth), (&smooth, &slope)], border);
+    let kernels = [(&*slope, &*smooth), (&*smooth, &*slope)];
+    let [du, dv] = filter(image, kernels, border, monitor)?;
     Ok(Gradient { du, dv })
 }
 
@@ -241,7 +250,7 @@ mod tests {
     #[test]
     fn gaussian_derivative_equals_scipy() {
         let image = fixture::gray32("texture.npy");
-        let gradient = gaussian_derivative(&image, 1.5, Border::Reflect101).unwrap();
+        let gradient = gaussian_derivative(&image, 1.5, Border::Reflect101, &mut ()).unwrap();
         // SciPy samples the same Gaussian but scales its derivative by 1/σ², a 10⁻⁴ difference.
         for (name, ours) in [
             ("gauss_du_s1.5.npy", gradient.du),

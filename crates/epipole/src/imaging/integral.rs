@@ -2,6 +2,7 @@
 
 use super::separable::filter;
 use super::{Border, GrayImage32};
+use crate::progress::Monitor;
 use crate::{Error, Result};
 
 /// Sums of all pixels above and to the left, `S(u, v) = Σ_{j<v} Σ_{i<u} I(i, j)`, in double
@@ -78,21 +79,28 @@ impl IntegralImage {
 ///
 /// * `size`: an odd number of pixels, at most 1001; for larger windows see [`IntegralImage`]
 ///
+/// The one stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
+///
 /// # Errors
-/// [`Error::OutOfRange`] for another size.
+/// [`Error::OutOfRange`] for another size, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::imaging::{Border, box_filter, gray_from_values};
 /// let image = gray_from_values(3, 1, vec![0.0, 3.0, 6.0])?;
-/// let mean = box_filter(&image, 3, Border::Replicate)?;
+/// let mean = box_filter(&image, 3, Border::Replicate, &mut ())?;
 /// assert!((mean.as_raw()[1] - 3.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
-pub fn box_filter(image: &GrayImage32, size: usize, border: Border) -> Result<GrayImage32> {
+pub fn box_filter(
+    image: &GrayImage32,
+    size: usize,
+    border: Border,
+    monitor: &mut dyn Monitor,
+) -> Result<GrayImage32> {
     require_box_size(size)?;
     let (ones, weights) = (vec![1.0; size], vec![1.0 / (size * size) as f32; size]);
-    let [mean] = filter(image, [(&ones, &weights)], border);
+    let [mean] = filter(image, [(&ones, &weights)], border, monitor)?;
     Ok(mean)
 }
 
@@ -119,11 +127,11 @@ mod tests {
             ("box_5_reflect101.npy", 5, Border::Reflect101),
             ("box_9_replicate.npy", 9, Border::Replicate),
         ] {
-            let ours = box_filter(&image, size, border).unwrap();
+            let ours = box_filter(&image, size, border, &mut ()).unwrap();
             fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
         }
         for size in [0, 2, 1003] {
-            assert!(box_filter(&image, size, Border::Replicate).is_err());
+            assert!(box_filter(&image, size, Border::Replicate, &mut ()).is_err());
         }
     }
 

@@ -5,26 +5,30 @@ use super::gray::from_vec;
 use super::kernel::{Kernel, Row};
 use super::rows::along_and_across;
 use super::{Border, GrayImage32};
+use crate::math::monitored::Reporter;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 /// The image correlated with the kernel `kernel_v · kernel_uᵀ`:
 /// `out(u, v) = Σⱼ Σᵢ kernel_v[j] kernel_u[i] I(u + i − rᵤ, v + j − rᵥ)`.
 ///
 /// It is a correlation: the kernels are not flipped. Sums run in a fixed order, symmetric kernels
-/// folded, so that a mirrored image gives the mirrored result bit by bit.
+/// folded, so that a mirrored image gives the mirrored result bit by bit. The one stage is
+/// [`Stage::Filtering`].
 ///
 /// * `kernel_u`, `kernel_v`: weights along u and v, odd numbers of them
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a kernel of even length or none, [`Error::NotFinite`] for weights
-/// that are not finite.
+/// that are not finite, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::imaging::{Border, gray_from_values, separable_filter};
 /// let step = gray_from_values(4, 1, vec![0.0, 0.0, 1.0, 1.0])?;
-/// let slope = separable_filter(&step, &[-0.5, 0.0, 0.5], &[1.0], Border::Replicate)?;
+/// let slope = separable_filter(&step, &[-0.5, 0.0, 0.5], &[1.0], Border::Replicate, &mut ())?;
 /// assert_eq!(slope.as_raw(), &[0.0, 0.5, 0.5, 0.0]);
 /// # Ok(()) }
 /// ```
@@ -33,6 +37,7 @@ pub fn separable_filter(
     kernel_u: &[f32],
     kernel_v: &[f32],
     border: Border,
+    monitor: &mut dyn Monitor,
 ) -> Result<GrayImage32> {
     for kernel in [kernel_u, kernel_v] {
         if kernel.len() % 2 == 0 {
@@ -48,59 +53,87 @@ pub fn separable_filter(
             });
         }
     }
-    let [filtered] = filter(image, [(kernel_u, kernel_v)], border);
+    let [filtered] = filter(image, [(kernel_u, kernel_v)], border, monitor)?;
     Ok(filtered)
 }
 
 /// The image under several separable kernels, in one walk over its rows. Kernel lengths are odd.
+///
+/// # Errors
+/// [`Error::Canceled`].
 pub(crate) fn filter<const N: usize>(
     image: &GrayImage32,
     kernels: [(&[f32], &[f32]); N],
     border: Border,
-) -> [GrayImage32; N] {
+    monitor: &mut dyn Monitor,
+) -> Result<[GrayImage32; N]> {
     let mut outputs = std::array::from_fn(|_| GrayImage32::default());
-    filter_into(image, kernels, border, outputs.each_mut());
-    outputs
+    filter_into(image, kernels, border, outputs.each_mut(), monitor)?;
+    Ok(outputs)
 }
 
-/// [`filter`] into images whose memory is used again.
+/// [`filter`] with kernels so short that it takes no monitor.
+pub(crate) fn filter_briefly<const N: usize>(
+    image: &GrayImage32,
+    kernels: [(&[f32], &[f32]); N],
+    border: Border,
+) -> [GrayImage32; N] {
+    filter(image, kernels, border, &mut ()).expect("`()` never cancels")
+}
+
+/// [`filter`] into images whose memory is used again; they are empty after an error.
 pub(crate) fn filter_into<const N: usize>(
     image: &GrayImage32,
     kernels: [(&[f32], &[f32]); N],
     border: Border,
     mut targets: [&mut GrayImage32; N],
-) {
+    monitor: &mut dyn Monitor,
+) -> Result<()> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let memory = targets
         .each_mut()
         .map(|target| std::mem::take(*target).into_raw());
-    let outputs = in_bands(memory, width, height, |rows, sink| {
+    let work = |rows: Range<usize>, sink: Sink<N>, reporter: &mut Reporter| {
         let mut filter = RowFilter::new(image, kernels, border);
+        let (first, count) = (rows.start, rows.len());
+        filter.prepare(first, reporter)?;
         for y in rows {
+            reporter.report(y - first, count)?;
             sink(&mut |out| filter.row(y, out));
         }
-    });
+        Ok(())
+    };
+    let outputs = in_bands(memory, width, height, Stage::Filtering, monitor, work)?;
     for (target, values) in targets.into_iter().zip(outputs) {
         *target = from_vec(image.width(), image.height(), values);
     }
+    Ok(())
 }
 
 /// Takes a closure that fills the next row of each image.
 pub(crate) type Sink<'a, const N: usize> = &'a mut dyn FnMut(&mut dyn FnMut([Row; N]));
 
-/// Makes equally large images row by row: `work` gets a range of rows and a sink that it calls for
-/// each of them in turn. Ranges are shared between threads where the feature allows; a row must
-/// not depend on where its range begins. Vectors that are large enough are used again.
+/// Makes equally large images row by row: `work` gets a range of rows, a sink that it calls for
+/// each of them in turn, and a reporter for before that. Ranges are shared between threads where
+/// the feature allows; a row must not depend on where its range begins. Vectors that are large
+/// enough are used again.
+///
+/// # Errors
+/// Those of `work`.
 pub(crate) fn in_bands<const N: usize>(
     mut images: [Vec<f32>; N],
     width: usize,
     height: usize,
-    work: impl Fn(Range<usize>, Sink<N>) + Sync,
-) -> [Vec<f32>; N] {
+    stage: Stage,
+    monitor: &mut dyn Monitor,
+    work: impl Fn(Range<usize>, Sink<N>, &mut Reporter) -> Result<()> + Sync,
+) -> Result<[Vec<f32>; N]> {
     let size = width * height;
     if size == 0 {
-        return [const { Vec::new() }; N];
+        return Ok([const { Vec::new() }; N]);
     }
+    let canceled = &AtomicBool::new(false);
+    let reporter = &mut Reporter::of_caller(stage, monitor, canceled, 0.0..1.0);
     // Below about a quarter of a megapixel threads cost more than they give.
     #[cfg(feature = "parallel")]
     let threads = rayon::current_num_threads().min(size / (1 << 17));
@@ -112,8 +145,9 @@ pub(crate) fn in_bands<const N: usize>(
             image.clear();
             image.reserve_exact(size);
         }
-        work(0..height, &mut |fill| fill(images.each_mut().map(Row::End)));
-        return images;
+        let sink: Sink<N> = &mut |fill| fill(images.each_mut().map(Row::End));
+        work(0..height, sink, reporter)?;
+        return Ok(images);
     }
     for image in &mut images {
         if image.capacity() < size {
@@ -122,34 +156,42 @@ pub(crate) fn in_bands<const N: usize>(
         }
         image.resize(size, 0.0);
     }
-    let band = |rows: Range<usize>, mut pieces: [&mut [f32]; N]| {
-        work(rows, &mut |fill| {
+    let band = |rows: Range<usize>, mut pieces: [&mut [f32]; N], reporter: &mut Reporter| {
+        let sink: Sink<N> = &mut |fill| {
             fill(pieces.each_mut().map(|piece| {
                 let (row, rest) = std::mem::take(piece).split_at_mut(width);
                 *piece = rest;
                 Row::Over(row)
             }));
-        });
+        };
+        work(rows, sink, reporter)
     };
     let mut rest = images.each_mut().map(|image| image.as_mut_slice());
     #[cfg(feature = "parallel")]
     if threads > 1 {
-        rayon::scope(|scope| {
-            for rows in crate::imaging::bands(height, threads) {
-                let pieces = rest.each_mut().map(|rest| {
-                    let (head, tail) =
-                        std::mem::take(rest).split_at_mut((rows.end - rows.start) * width);
-                    *rest = tail;
-                    head
+        let mut bands = crate::imaging::bands(height, threads).into_iter();
+        let mut pieces_of = |rows: &Range<usize>| {
+            rest.each_mut().map(|rest| {
+                let (head, tail) = std::mem::take(rest).split_at_mut(rows.len() * width);
+                *rest = tail;
+                head
+            })
+        };
+        let own = bands.next().map(|rows| (pieces_of(&rows), rows));
+        // The others can only fail by what the caller's reporter tells them.
+        rayon::in_place_scope(|scope| {
+            for rows in bands {
+                let (band, pieces) = (&band, pieces_of(&rows));
+                scope.spawn(move |_| {
+                    let _ = band(rows, pieces, &mut Reporter::of_other(stage, canceled));
                 });
-                let band = &band;
-                scope.spawn(move |_| band(rows, pieces));
             }
-        });
-        return images;
+            own.map_or(Ok(()), |(pieces, rows)| band(rows, pieces, reporter))
+        })?;
+        return Ok(images);
     }
-    band(0..height, rest.each_mut().map(std::mem::take));
-    images
+    band(0..height, rest.each_mut().map(std::mem::take), reporter)?;
+    Ok(images)
 }
 
 /// Rows of an image under several separable kernels. Asked for rows in order it filters each
@@ -159,7 +201,8 @@ pub(crate) struct RowFilter<'a, const N: usize> {
     kernels: [[Kernel<'a>; 2]; N],
     border: Border,
     rings: [Ring; N],
-    last: Option<usize>,
+    /// Row that the rings are filled for.
+    next: Option<usize>,
     edge: Vec<f32>,
 }
 
@@ -175,34 +218,62 @@ impl<'a, const N: usize> RowFilter<'a, N> {
             kernels: kernels.map(|(u, v)| [Kernel::new(u), Kernel::new(v)]),
             border,
             rings: kernels.map(|(_, kernel_v)| Ring::new(kernel_v.len(), width)),
-            last: None,
+            next: None,
             edge: Vec::new(),
         }
     }
 
+    /// Fills the rings for row `y`. Of a long kernel this takes longer than the rows that follow.
+    ///
+    /// # Errors
+    /// [`Error::Canceled`].
+    pub(crate) fn prepare(&mut self, y: usize, reporter: &mut Reporter) -> Result<()> {
+        for (k, row) in self.rows_before(y) {
+            reporter.report(0, 1)?;
+            self.push(k, row);
+        }
+        self.next = Some(y);
+        Ok(())
+    }
+
     /// Row `y` under each kernel.
     pub(crate) fn row(&mut self, y: usize, out: [Row; N]) {
-        let (width, height) = (self.image.width() as usize, self.image.height() as usize);
-        let follows = y > 0 && self.last == Some(y - 1);
-        self.last = Some(y);
-        let source = |row: isize| {
-            let row = self.border.index(row, height);
-            row.map(|m| &self.image.as_raw()[m * width..(m + 1) * width])
-        };
+        if self.next != Some(y) {
+            for (k, row) in self.rows_before(y) {
+                self.push(k, row);
+            }
+        }
+        self.next = Some(y + 1);
         for (k, out) in out.into_iter().enumerate() {
             let [along, across] = &self.kernels[k];
+            let source = self.source(y as isize + (across.len() / 2) as isize);
             let (ring, edge) = (&mut self.rings[k], &mut self.edge);
-            let radius = (across.len() / 2) as isize;
-            let newest = y as isize + radius;
-            if !follows {
-                for row in newest - 2 * radius..newest {
-                    along.along(source(row), self.border, edge, ring.push());
-                }
-            }
             ring.push();
-            let (kernels, row) = ([along, across], source(newest));
-            along_and_across(kernels, row, self.border, edge, ring.rows(), out);
+            let kernels = [along, across];
+            along_and_across(kernels, source, self.border, edge, ring.rows(), out);
         }
+    }
+
+    /// Kernels and source rows that the rings hold before row `y`.
+    fn rows_before(&self, y: usize) -> impl Iterator<Item = (usize, isize)> + use<N> {
+        let radii = self.kernels.each_ref().map(|[_, across]| across.len() / 2);
+        radii.into_iter().enumerate().flat_map(move |(k, radius)| {
+            let (y, radius) = (y as isize, radius as isize);
+            (y - radius..y + radius).map(move |row| (k, row))
+        })
+    }
+
+    /// Filters a source row along u into the ring of a kernel.
+    fn push(&mut self, k: usize, row: isize) {
+        let source = self.source(row);
+        let (along, ring) = (&self.kernels[k][0], &mut self.rings[k]);
+        along.along(source, self.border, &mut self.edge, ring.push());
+    }
+
+    fn source(&self, row: isize) -> Option<&'a [f32]> {
+        let (width, height) = (self.image.width() as usize, self.image.height() as usize);
+        let row = self.border.index(row, height);
+        row.map(|m| &self.image.as_raw()[m * width..(m + 1) * width])
     }
 }
 
@@ -272,7 +343,7 @@ mod tests {
             for ku in kernels {
                 for kv in kernels {
                     for border in [Border::Replicate, Border::Reflect101, Border::Constant(0.3)] {
-                        let ours = separable_filter(&image, ku, kv, border).unwrap();
+                        let ours = separable_filter(&image, ku, kv, border, &mut ()).unwrap();
                         let expected = reference(&image, ku, kv, border);
                         for (a, b) in ours.as_raw().iter().zip(expected.as_raw()) {
                             assert!((a - b).abs() < 2e-4, "{w}x{h} {ku:?} {kv:?}: {a} {b}");
@@ -298,12 +369,12 @@ mod tests {
             let image = tiled(width, 9);
             for (ku, kv) in pairs {
                 let border = Border::Reflect101;
-                let [once] = filter(&image, [(ku, kv)], border);
-                let [along] = filter(&image, [(ku, &[1.0])], border);
-                let [twice] = filter(&along, [(&[1.0], kv)], border);
+                let [once] = filter_briefly(&image, [(ku, kv)], border);
+                let [along] = filter_briefly(&image, [(ku, &[1.0])], border);
+                let [twice] = filter_briefly(&along, [(&[1.0], kv)], border);
                 assert_eq!(once, twice, "{width} {ku:?} {kv:?}");
                 let mut again = GrayImage32::from_pixel(200, 9, image::Luma([7.0]));
-                filter_into(&image, [(ku, kv)], border, [&mut again]);
+                filter_into(&image, [(ku, kv)], border, [&mut again], &mut ()).unwrap();
                 assert_eq!(once, again, "{width} {ku:?} {kv:?}");
             }
         }
@@ -313,10 +384,16 @@ mod tests {
     fn bad_kernels_and_empty_images() {
         let image = GrayImage32::new(3, 3);
         for (ku, kv) in [(&[1.0f32, 1.0][..], &[1.0f32][..]), (&[1.0], &[])] {
-            assert!(separable_filter(&image, ku, kv, Border::Replicate).is_err());
+            assert!(separable_filter(&image, ku, kv, Border::Replicate, &mut ()).is_err());
         }
-        assert!(separable_filter(&image, &[f32::NAN], &[1.0], Border::Replicate).is_err());
-        let empty = separable_filter(&GrayImage32::new(0, 5), &[1.0], &[1.0], Border::Reflect101);
+        assert!(separable_filter(&image, &[f32::NAN], &[1.0], Border::Replicate, &mut ()).is_err());
+        let empty = separable_filter(
+            &GrayImage32::new(0, 5),
+            &[1.0],
+            &[1.0],
+            Border::Reflect101,
+            &mut (),
+        );
         assert_eq!(empty.unwrap().dimensions(), (0, 5));
     }
 
@@ -325,8 +402,10 @@ mod tests {
         let image = fixture::gray32("texture.npy");
         let kernel = [0.1, 0.2, 0.4, 0.2, 0.1];
         let flip = image::imageops::flip_horizontal::<GrayImage32>;
-        let a = flip(&separable_filter(&image, &kernel, &kernel, Border::Reflect101).unwrap());
-        let b = separable_filter(&flip(&image), &kernel, &kernel, Border::Reflect101).unwrap();
+        let a =
+            flip(&separable_filter(&image, &kernel, &kernel, Border::Reflect101, &mut ()).unwrap());
+        let b =
+            separable_filter(&flip(&image), &kernel, &kernel, Border::Reflect101, &mut ()).unwrap();
         assert_eq!(a, b);
     }
 }

@@ -16,7 +16,7 @@ use super::{GrayImage32, laplacian_pyramid};
 /// # fn main() -> Result<(), epipole::Error> {
 /// let stripes = (0..64 * 64).map(|n| if n % 64 / 4 % 2 == 0 { 0.2 } else { 0.8 });
 /// let sharp = gray_from_values(64, 64, stripes.collect())?;
-/// let soft = gaussian_blur(&sharp, 1.5, Border::Replicate)?;
+/// let soft = gaussian_blur(&sharp, 1.5, Border::Replicate, &mut ())?;
 /// assert!(sharpness(&sharp) > 2.0 * sharpness(&soft));
 /// # Ok(()) }
 /// ```

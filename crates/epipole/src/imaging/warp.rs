@@ -2,6 +2,8 @@
 
 use super::sample::{bicubic, bilinear};
 use super::{Border, Channel};
+use crate::math::monitored;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::{ImageBuffer, Pixel};
@@ -58,8 +60,10 @@ impl WarpOptions {
 ///
 /// * `out_from_image`: `[a b c; d e f]`, pixels to pixels, as OpenCV's `warpAffine` takes it
 ///
+/// The one stage is [`Stage::Warping`].
+///
 /// # Errors
-/// [`Error::NotFinite`] and [`Error::Degenerate`] as [`warp_perspective`].
+/// As [`warp_perspective`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -67,7 +71,7 @@ impl WarpOptions {
 /// use nalgebra::Matrix2x3;
 /// let image = gray_from_values(3, 1, vec![1.0, 2.0, 3.0])?;
 /// let right = Matrix2x3::new(1.0, 0.0, 1.0, 0.0, 1.0, 0.0);
-/// let moved = warp_affine(&image, &right, &WarpOptions::new(3, 1))?;
+/// let moved = warp_affine(&image, &right, &WarpOptions::new(3, 1), &mut ())?;
 /// assert_eq!(moved.as_raw(), &[0.0, 1.0, 2.0]);
 /// # Ok(()) }
 /// ```
@@ -75,10 +79,11 @@ pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
     image: &ImageBuffer<P, Vec<P::Subpixel>>,
     out_from_image: &Matrix2x3<f64>,
     options: &WarpOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<ImageBuffer<P, Vec<P::Subpixel>>> {
     let mut map = Matrix3::identity();
     map.fixed_view_mut::<2, 3>(0, 0).copy_from(out_from_image);
-    warp_perspective(image, &map, options)
+    warp_perspective(image, &map, options, monitor)
 }
 
 /// The image moved by a homography: `out(x') = I(x)` where `x' ~ H x`, `H` = `out_from_image`.
@@ -87,11 +92,12 @@ pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
 ///
 /// Gray or color, bytes or floats. Pixels of the result that no finite pixel maps to read the
 /// border's constant, 0 unless set. The map is followed backwards, pixel by pixel; a map that
-/// shrinks the image aliases, so [`resize`](super::resize()) or blur first.
+/// shrinks the image aliases, so [`resize`](super::resize()) or blur first. The one stage is
+/// [`Stage::Warping`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a matrix that is not finite, [`Error::Degenerate`] for one without an
-/// inverse.
+/// inverse, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -99,10 +105,10 @@ pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
 /// use nalgebra::Matrix3;
 /// let image = gray_from_values(2, 1, vec![1.0, 3.0])?;
 /// let wider = Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into());
-/// let out = warp_perspective(&image, &wider, &WarpOptions::new(3, 1))?;
+/// let out = warp_perspective(&image, &wider, &WarpOptions::new(3, 1), &mut ())?;
 /// assert_eq!(out.as_raw(), &[1.0, 2.0, 3.0]);
 /// let color = image::RgbImage::from_raw(2, 1, vec![0, 10, 20, 100, 10, 21]).expect("two pixels");
-/// let out = warp_perspective(&color, &wider, &WarpOptions::new(3, 1))?;
+/// let out = warp_perspective(&color, &wider, &WarpOptions::new(3, 1), &mut ())?;
 /// assert_eq!(out.get_pixel(1, 0).0, [50, 10, 21]);
 /// # Ok(()) }
 /// ```
@@ -110,6 +116,7 @@ pub fn warp_perspective<P: Pixel<Subpixel: Channel>>(
     image: &ImageBuffer<P, Vec<P::Subpixel>>,
     out_from_image: &Matrix3<f64>,
     options: &WarpOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<ImageBuffer<P, Vec<P::Subpixel>>> {
     if out_from_image.iter().any(|v| !v.is_finite()) {
         return Err(Error::NotFinite {
@@ -133,24 +140,30 @@ pub fn warp_perspective<P: Pixel<Subpixel: Channel>>(
     let m = image_from_out;
     let (size, border, raw) = (image.dimensions(), options.border, image.as_raw());
     let num_channels = usize::from(P::CHANNEL_COUNT);
-    let num_pixels = options.width as usize * options.height as usize;
-    let mut values = Vec::with_capacity(num_channels * num_pixels);
-    for row in 0..options.height {
-        let y = f64::from(row);
-        for column in 0..options.width {
-            let x = f64::from(column);
-            let w = m[(2, 0)] * x + m[(2, 1)] * y + m[(2, 2)];
-            let u = (m[(0, 0)] * x + m[(0, 1)] * y + m[(0, 2)]) / w;
-            let v = (m[(1, 0)] * x + m[(1, 1)] * y + m[(1, 2)]) / w;
-            for channel in 0..num_channels {
-                let read = |pixel: usize| raw[pixel * num_channels + channel].to_float();
-                values.push(Channel::from_float(match options.interpolation {
-                    Interpolation::Bilinear => bilinear(size, u, v, border, read),
-                    Interpolation::Bicubic => bicubic(size, u, v, border, read),
-                }));
+    let row_len = num_channels * options.width as usize;
+    let mut values = vec![Channel::from_float(0.0); row_len * options.height as usize];
+    monitored::for_each_chunk(
+        &mut values,
+        row_len,
+        Stage::Warping,
+        monitor,
+        |first, row| {
+            let y = (first / row_len) as f64;
+            for (column, pixel) in row.chunks_exact_mut(num_channels).enumerate() {
+                let x = column as f64;
+                let w = m[(2, 0)] * x + m[(2, 1)] * y + m[(2, 2)];
+                let u = (m[(0, 0)] * x + m[(0, 1)] * y + m[(0, 2)]) / w;
+                let v = (m[(1, 0)] * x + m[(1, 1)] * y + m[(1, 2)]) / w;
+                for (channel, value) in pixel.iter_mut().enumerate() {
+                    let read = |pixel: usize| raw[pixel * num_channels + channel].to_float();
+                    *value = Channel::from_float(match options.interpolation {
+                        Interpolation::Bilinear => bilinear(size, u, v, border, read),
+                        Interpolation::Bicubic => bicubic(size, u, v, border, read),
+                    });
+                }
             }
-        }
-    }
+        },
+    )?;
     let out = ImageBuffer::from_raw(options.width, options.height, values);
     Ok(out.expect("every channel of every pixel was computed"))
 }
@@ -166,11 +179,11 @@ mod tests {
         let mut options = WarpOptions::new(45, 35);
         options.border = Border::Replicate;
         let affine = Matrix2x3::new(0.9, 0.3, 2.0, -0.2, 1.1, 5.0);
-        let ours = warp_affine(&image, &affine, &options).unwrap();
+        let ours = warp_affine(&image, &affine, &options, &mut ()).unwrap();
         let name = "warp_affine.npy";
         fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
         let homography = Matrix3::new(1.1, 0.2, -3.0, -0.1, 0.9, 4.0, 1e-3, -2e-3, 1.0);
-        let ours = warp_perspective(&image, &homography, &options).unwrap();
+        let ours = warp_perspective(&image, &homography, &options, &mut ()).unwrap();
         let name = "warp_perspective.npy";
         fixture::assert_close(&ours, &fixture::gray32(name), 1e-6, name);
     }
@@ -183,11 +196,11 @@ mod tests {
             Matrix3::zeros(),
             Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0),
         ] {
-            let result = warp_perspective(&image, &matrix, &options);
+            let result = warp_perspective(&image, &matrix, &options, &mut ());
             assert!(matches!(result, Err(Error::Degenerate { .. })));
         }
         let nan = Matrix3::repeat(f64::NAN);
-        assert!(warp_perspective(&image, &nan, &options).is_err());
+        assert!(warp_perspective(&image, &nan, &options, &mut ()).is_err());
     }
 
     #[test]
@@ -199,7 +212,7 @@ mod tests {
                 interpolation,
                 ..WarpOptions::new(40, 8)
             };
-            let out = warp_perspective(&image, &map, &options).unwrap();
+            let out = warp_perspective(&image, &map, &options, &mut ()).unwrap();
             assert!(crate::imaging::is_finite(&out));
         }
     }

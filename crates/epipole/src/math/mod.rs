@@ -3,6 +3,7 @@
 mod geodetic;
 mod length;
 mod line;
+pub(crate) mod monitored;
 pub(crate) mod null_space;
 pub(crate) mod order;
 pub(crate) mod parallel;

@@ -83,12 +83,8 @@ pub(crate) fn sum(count: usize, f: impl Fn(usize) -> f64 + Sync) -> f64 {
     partial.iter().sum()
 }
 
-/// `f` of each item, in the order of the items.
-pub(crate) fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Sync) -> Vec<U> {
-    map_with(items, || (), |(), item| f(item))
-}
-
-/// [`map`] with memory that calls reuse; results must not depend on its content.
+/// `f` of each item, in the order of the items, with memory that calls reuse; results must not
+/// depend on its content.
 pub(crate) fn map_with<T: Sync, U: Send, S>(
     items: &[T],
     memory: impl Fn() -> S + Sync,
@@ -122,7 +118,7 @@ mod tests {
             for_each(&mut items, |index, item| *item += index + 1);
             assert!(items.iter().enumerate().all(|(n, item)| *item == n + 1));
             let indices: Vec<usize> = (0..count).collect();
-            assert_eq!(map(&indices, |&n| n + 1), items);
+            assert_eq!(map_with(&indices, || (), |(), &n| n + 1), items);
             let mut firsts = vec![0; count];
             for_each_chunk(&mut firsts, 3, |first, chunk| chunk.fill(first));
             assert!(

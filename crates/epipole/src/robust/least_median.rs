@@ -4,6 +4,7 @@ use super::sampler::Sampler;
 use super::{Estimator, SamplerKind};
 use crate::math::order::at_rank;
 use crate::math::random::Random;
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
@@ -63,9 +64,11 @@ pub struct LeastMedian<M> {
 ///
 /// * `estimator`: as for [`ransac`](super::ransac)
 ///
+/// The one stage is [`Stage::RobustEstimation`].
+///
 /// # Errors
 /// [`Error::TooFew`] unless there are more data than a sample has, [`Error::OutOfRange`] for no
-/// samples, [`Error::Degenerate`] if no sample gave a model.
+/// samples, [`Error::Degenerate`] if no sample gave a model, [`Error::Canceled`].
 ///
 /// Source: Rousseeuw 1984, "Least median of squares regression"; Rousseeuw & Leroy 1987, "Robust
 /// regression and outlier detection", ch. 5 (the scale).
@@ -77,7 +80,7 @@ pub struct LeastMedian<M> {
 /// // Nine points of the row v = 2, and six that are elsewhere; nobody says how far is far.
 /// let mut points: Vec<_> = (0..9).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
 /// points.extend((0..6).map(|i| Point2::new(f64::from(i) * 3.0, 40.0 + f64::from(i * i))));
-/// let found = least_median(LineEstimator::new(&points)?, &LeastMedianOptions::default())?;
+/// let found = least_median(LineEstimator::new(&points)?, &LeastMedianOptions::default(), &mut ())?;
 /// assert!(found.model.signed_distance(&Point2::new(100.0, 2.0)).abs() < 1e-9);
 /// assert_eq!(found.num_inliers, 9);
 /// # Ok(()) }
@@ -85,6 +88,7 @@ pub struct LeastMedian<M> {
 pub fn least_median<E: Estimator>(
     mut estimator: E,
     options: &LeastMedianOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<LeastMedian<E::Model>> {
     let problem = estimator.problem();
     let (num_data, size, name) = (problem.data.len(), problem.sample_size, problem.name);
@@ -102,7 +106,9 @@ pub fn least_median<E: Estimator>(
     let mut models = Vec::with_capacity(problem.max_models);
     let mut errors_sq = vec![0.0; num_data];
     let mut best: Option<(f64, E::Model)> = None;
-    for _ in 0..options.num_samples {
+    for k in 0..options.num_samples {
+        let share = k as f32 / options.num_samples as f32;
+        report(monitor, Stage::RobustEstimation, share)?;
         sampler.draw(&mut random, &mut sample);
         models.clear();
         estimator.fit_sample(&sample, &mut models);
@@ -186,7 +192,8 @@ mod tests {
     fn forty_percent_outliers_do_no_harm_and_the_noise_is_found() {
         for seed in 0..30 {
             let points = cloud(seed, 24, 3.0);
-            let found = least_median(LineEstimator::new(&points).unwrap(), &OPTIONS).unwrap();
+            let found =
+                least_median(LineEstimator::new(&points).unwrap(), &OPTIONS, &mut ()).unwrap();
             let off = (found.model.angle_rad() - libm::atan(0.5)).to_degrees();
             assert!(off.abs() < 1.5, "{seed}: {off}");
             assert!((1.5..7.0).contains(&found.sigma_px), "{}", found.sigma_px);
@@ -198,7 +205,8 @@ mod tests {
     fn three_quarters_of_outliers_break_it() {
         let off = |seed| {
             let points = cloud(seed, 45, 3.0);
-            let found = least_median(LineEstimator::new(&points).unwrap(), &OPTIONS).unwrap();
+            let found =
+                least_median(LineEstimator::new(&points).unwrap(), &OPTIONS, &mut ()).unwrap();
             (found.model.angle_rad() - libm::atan(0.5))
                 .to_degrees()
                 .abs()
@@ -210,7 +218,11 @@ mod tests {
     fn equal_seeds_agree_and_hopeless_data_are_refused() {
         let points = cloud(4, 20, 3.0);
         let run = |options: &LeastMedianOptions, count: usize| {
-            least_median(LineEstimator::new(&points[..count]).unwrap(), options)
+            least_median(
+                LineEstimator::new(&points[..count]).unwrap(),
+                options,
+                &mut (),
+            )
         };
         assert_eq!(run(&OPTIONS, 60), run(&OPTIONS, 60));
         assert!(matches!(

@@ -1,13 +1,13 @@
 //! Block matching.
 
 use super::DisparityImage;
-use super::filter::DisparityFilter;
+use super::filter::{DisparityFilter, SEARCH_SHARE};
 use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
 use super::work::Strips;
 use crate::math::simd::dispatched;
-use crate::progress::Monitor;
+use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
@@ -112,7 +112,8 @@ impl StereoBm {
             // The first rows of a strip cost as much again as the window is high.
             least_rows: 4 * self.window_px as usize,
         };
-        strips.run(&mut values, monitor, |first_row, values, reporter| {
+        let part = &mut Part::new(monitor, 0.0, SEARCH_SHARE);
+        strips.run(&mut values, part, |first_row, values, reporter| {
             let mut windows = Windows::new(search, self, &left, &right, first_row);
             let mut selector = Selector::new(search, self.filter);
             let mut sums = vec![0; search.width * search.num_cells];
@@ -125,7 +126,8 @@ impl StereoBm {
             }
             Ok(())
         })?;
-        self.filter.clean(search.image(values))
+        let clean = &mut Part::new(monitor, SEARCH_SHARE, 1.0);
+        self.filter.clean(search.image(values), clean)
     }
 
     /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest

@@ -1,24 +1,32 @@
 //! Removing answers that stand alone, and closing single gaps.
 
 use super::DisparityImage;
+use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 
 /// Removes the answers of every connected set of fewer than `min_size` pixels; neighbors left,
-/// right, above and below are connected if their disparities differ by at most `range_px`.
+/// right, above and below are connected if their disparities differ by at most `range_px`. The one
+/// stage is [`Stage::DenseMatching`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] unless `range_px` is a number ≥ 0.
+/// [`Error::OutOfRange`] unless `range_px` is a number ≥ 0; [`Error::Canceled`], upon which nothing
+/// is removed.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::stereo::{DisparityImage, remove_speckles};
 /// let mut disparity = DisparityImage::from_raw(4, 1, vec![5.0, 5.5, 6.0, 20.0])?;
-/// remove_speckles(&mut disparity, 2, 1.0)?;
+/// remove_speckles(&mut disparity, 2, 1.0, &mut ())?;
 /// assert_eq!(disparity.get(2, 0), Some(6.0));
 /// assert_eq!(disparity.get(3, 0), None);
 /// # Ok(()) }
 /// ```
-pub fn remove_speckles(disparity: &mut DisparityImage, min_size: u32, range_px: f32) -> Result<()> {
+pub fn remove_speckles(
+    disparity: &mut DisparityImage,
+    min_size: u32,
+    range_px: f32,
+    monitor: &mut dyn Monitor,
+) -> Result<()> {
     if range_px.is_nan() || range_px < 0.0 {
         return Err(Error::OutOfRange {
             what: "the range of a speckle",
@@ -35,6 +43,10 @@ pub fn remove_speckles(disparity: &mut DisparityImage, min_size: u32, range_px: 
     let mut run_of_pixel = vec![NO_RUN; values.len()];
     let mut runs = Sets::default();
     for i in 0..values.len() {
+        if i % width == 0 {
+            let share = 0.9 * i as f32 / values.len() as f32;
+            report(monitor, Stage::DenseMatching, share)?;
+        }
         // NaN compares as false, so it connects to nothing.
         if values[i].is_nan() {
             continue;
@@ -58,6 +70,7 @@ pub fn remove_speckles(disparity: &mut DisparityImage, min_size: u32, range_px: 
             }
         }
     }
+    report(monitor, Stage::DenseMatching, 0.9)?;
     let is_small = runs.smaller_than(min_size);
     for (value, &run) in values.iter_mut().zip(&run_of_pixel) {
         if run != NO_RUN && is_small[run as usize] {
@@ -223,7 +236,7 @@ mod tests {
                 let disparity = DisparityImage::from_raw(width, height, values).unwrap();
                 for (min_size, range_px) in [(2, 0.0), (5, 0.0), (5, 1.5), (200, 1.5)] {
                     let mut found = disparity.clone();
-                    remove_speckles(&mut found, min_size, range_px).unwrap();
+                    remove_speckles(&mut found, min_size, range_px, &mut ()).unwrap();
                     assert_eq!(found, grown(&disparity, min_size as usize, range_px));
                 }
             }

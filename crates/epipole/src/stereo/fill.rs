@@ -1,6 +1,8 @@
 //! A disparity for every pixel: what is seen beside a gap goes on behind it.
 
 use super::DisparityImage;
+use crate::math::monitored;
+use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 use image::GrayImage;
 
@@ -17,11 +19,12 @@ const GRAY_SCALE: f64 = 8.0;
 /// take the nearest row's). Then each filled pixel takes the median of the disparities in a
 /// window of 15×15 around it, weighted by how similar the left picture's gray values are
 /// (`exp(−|ΔI| / 8)`). Given answers do not change. Where no pixel has an answer, none gets one.
+/// The one stage is [`Stage::DenseMatching`].
 ///
 /// * `left`: the picture that the disparities belong to
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the two are not of equal size.
+/// [`Error::SizeMismatch`] if the two are not of equal size, [`Error::Canceled`].
 ///
 /// Sources: Hirschmüller 2008, §2.6 (background interpolation); Ma, He, Wei, Sun & Wu 2013,
 /// "Constant time weighted median filtering for stereo matching and beyond".
@@ -32,11 +35,15 @@ const GRAY_SCALE: f64 = 8.0;
 /// use image::GrayImage;
 /// let row = vec![2.0, 2.0, f32::NAN, 9.0, 9.0];
 /// let disparity = DisparityImage::from_raw(5, 1, row)?;
-/// let filled = fill_gaps(&disparity, &GrayImage::new(5, 1))?;
+/// let filled = fill_gaps(&disparity, &GrayImage::new(5, 1), &mut ())?;
 /// assert_eq!(filled.get(2, 0), Some(2.0));
 /// # Ok(()) }
 /// ```
-pub fn fill_gaps(disparity: &DisparityImage, left: &GrayImage) -> Result<DisparityImage> {
+pub fn fill_gaps(
+    disparity: &DisparityImage,
+    left: &GrayImage,
+    monitor: &mut dyn Monitor,
+) -> Result<DisparityImage> {
     for (what, first, second) in [
         (
             "the rows of the disparities and the picture",
@@ -72,10 +79,9 @@ pub fn fill_gaps(disparity: &DisparityImage, left: &GrayImage) -> Result<Dispari
     let votes: [u32; 256] = std::array::from_fn(|difference| {
         1 + (65535.0 * libm::exp(-(difference as f64) / GRAY_SCALE)) as u32
     });
-    let refined: Vec<f32> = gaps
-        .iter()
-        .map(|&i| weighted_median(&filled, left, &votes, i % width, i / width))
-        .collect();
+    let refined = monitored::map(&gaps, Stage::DenseMatching, monitor, |&i| {
+        weighted_median(&filled, left, &votes, i % width, i / width)
+    })?;
     for (&i, value) in gaps.iter().zip(refined) {
         filled.values_mut()[i] = value;
     }
@@ -171,15 +177,15 @@ mod tests {
     fn empty_rows_and_empty_pictures() {
         let values = vec![NAN, NAN, 4.0, NAN, NAN, NAN];
         let disparity = DisparityImage::from_raw(2, 3, values).unwrap();
-        let filled = fill_gaps(&disparity, &GrayImage::new(2, 3)).unwrap();
+        let filled = fill_gaps(&disparity, &GrayImage::new(2, 3), &mut ()).unwrap();
         assert_eq!(filled.as_raw(), &[4.0; 6]);
         let nothing = DisparityImage::from_raw(2, 3, vec![NAN; 6]).unwrap();
-        let still = fill_gaps(&nothing, &GrayImage::new(2, 3)).unwrap();
+        let still = fill_gaps(&nothing, &GrayImage::new(2, 3), &mut ()).unwrap();
         assert_eq!(still.density(), 0.0);
         let none = DisparityImage::from_raw(0, 0, vec![]).unwrap();
-        assert!(fill_gaps(&none, &GrayImage::new(0, 0)).is_ok());
-        assert!(fill_gaps(&none, &GrayImage::new(1, 0)).is_err());
-        assert!(fill_gaps(&nothing, &GrayImage::new(2, 4)).is_err());
+        assert!(fill_gaps(&none, &GrayImage::new(0, 0), &mut ()).is_ok());
+        assert!(fill_gaps(&none, &GrayImage::new(1, 0), &mut ()).is_err());
+        assert!(fill_gaps(&nothing, &GrayImage::new(2, 4), &mut ()).is_err());
     }
 
     /// The picture's edge, not the gap's middle, divides the two surfaces, and nothing given
@@ -199,7 +205,7 @@ mod tests {
             })
             .collect();
         let disparity = DisparityImage::from_raw(width, height, values).unwrap();
-        let filled = fill_gaps(&disparity, &left).unwrap();
+        let filled = fill_gaps(&disparity, &left, &mut ()).unwrap();
         for v in 0..height {
             for u in 0..width {
                 assert_eq!(filled.get(u, v), Some(truth(u)), "at {u}, {v}");

@@ -2,8 +2,12 @@
 
 use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
+
+/// Share of a dense matcher's time until its answers are filtered.
+pub(super) const SEARCH_SHARE: f32 = 0.9;
 
 /// Tests that an answer of a dense matcher must pass.
 ///
@@ -68,8 +72,15 @@ impl DisparityFilter {
     ///
     /// # Errors
     /// As [`remove_speckles`].
-    pub(super) fn clean(&self, mut disparity: DisparityImage) -> Result<DisparityImage> {
-        remove_speckles(&mut disparity, self.speckle_size, self.speckle_range_px)?;
+    pub(super) fn clean(
+        &self,
+        mut disparity: DisparityImage,
+        monitor: &mut dyn Monitor,
+    ) -> Result<DisparityImage> {
+        let (size, range_px) = (self.speckle_size, self.speckle_range_px);
+        let part = &mut Part::new(monitor, 0.0, 0.7);
+        remove_speckles(&mut disparity, size, range_px, part)?;
+        report(monitor, Stage::DenseMatching, 0.7)?;
         close_gaps(
             &mut disparity,
             self.max_gap_px as usize,

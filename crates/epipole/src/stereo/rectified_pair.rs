@@ -3,6 +3,7 @@
 use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
 use crate::imaging::rgb_to_gray;
 use crate::math::order::at_rank;
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use image::{GrayImage, RgbImage};
 use nalgebra::{Point2, Point3, Vector4};
@@ -113,9 +114,15 @@ impl RectifiedPair {
     ///
     /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
     ///
+    /// The one stage is [`Stage::Warping`](crate::progress::Stage::Warping).
+    ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for photographs of different size.
-    pub fn new(rig: &Rectification, photographs: [&RgbImage; 2]) -> Result<Self> {
+    /// [`Error::SizeMismatch`] for photographs of different size, [`Error::Canceled`].
+    pub fn new(
+        rig: &Rectification,
+        photographs: [&RgbImage; 2],
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
             ("the rows of the two photographs", sizes[0].0, sizes[1].0),
@@ -129,11 +136,23 @@ impl RectifiedPair {
                 });
             }
         }
-        let maps = [rig.map(0)?, rig.map(1)?];
+        let maps = [
+            rig.map(0, &mut Part::new(monitor, 0.0, 0.3))?,
+            rig.map(1, &mut Part::new(monitor, 0.3, 0.6))?,
+        ];
+        let [first, second] = photographs;
+        let pictures = [
+            maps[0].warp(first, &mut Part::new(monitor, 0.6, 0.7))?,
+            maps[1].warp(second, &mut Part::new(monitor, 0.7, 0.8))?,
+        ];
+        // Each takes about as long as a warp.
+        report(monitor, Stage::Warping, 0.8)?;
+        let shown = filled(&maps[0], sizes[0], 0.0);
+        report(monitor, Stage::Warping, 0.9)?;
         Ok(Self {
             rig: rig.clone(),
-            pictures: [0, 1].map(|index| maps[index].warp(photographs[index])),
-            shown: filled(&maps[0], sizes[0], 0.0),
+            pictures,
+            shown,
             trusted: maps.map(|map| filled(&map, sizes[0], EDGE_PX)),
         })
     }
@@ -165,13 +184,18 @@ impl RectifiedPair {
         Ok(self.kept(&found, |index, disparity| self.is_within(index, disparity)))
     }
 
-    /// The same with an answer for every pixel that the photograph fills, as [`fill_gaps`].
+    /// The same with an answer for every pixel that the photograph fills, as [`fill_gaps`] with its
+    /// stage.
     ///
     /// # Errors
     /// As [`fill_gaps`].
-    pub fn filled(&self, disparity: &DisparityImage) -> Result<DisparityImage> {
+    pub fn filled(
+        &self,
+        disparity: &DisparityImage,
+        monitor: &mut dyn Monitor,
+    ) -> Result<DisparityImage> {
         let first = self.along_rows(&rgb_to_gray(&self.pictures[0]));
-        let filled = self.turned(&fill_gaps(&self.turned(disparity), &first)?);
+        let filled = self.turned(&fill_gaps(&self.turned(disparity), &first, monitor)?);
         Ok(self.kept(&filled, |index, _| self.shown[index]))
     }
 

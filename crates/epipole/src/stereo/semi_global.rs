@@ -1,13 +1,14 @@
 //! Semi-global matching.
 
 use super::DisparityImage;
-use super::filter::DisparityFilter;
+use super::filter::{DisparityFilter, SEARCH_SHARE};
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
-use super::work::{Reporter, alone, in_two};
-use crate::progress::Monitor;
+use super::work::{alone, in_two};
+use crate::math::monitored::Reporter;
+use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
@@ -134,12 +135,14 @@ impl StereoSgm {
             options: self,
             penalties: self.penalties(),
         };
+        let part = &mut Part::new(monitor, 0.0, SEARCH_SHARE);
         let values = match self.paths {
-            StereoPaths::Five => alone(monitor, |reporter| task.five_paths(reporter))?,
-            StereoPaths::Four => task.both_ways::<2>(monitor)?,
-            StereoPaths::Eight => task.both_ways::<4>(monitor)?,
+            StereoPaths::Five => alone(part, |reporter| task.five_paths(reporter))?,
+            StereoPaths::Four => task.both_ways::<2>(part)?,
+            StereoPaths::Eight => task.both_ways::<4>(part)?,
         };
-        self.filter.clean(search.image(values))
+        let clean = &mut Part::new(monitor, SEARCH_SHARE, 1.0);
+        self.filter.clean(search.image(values), clean)
     }
 
     /// As [`StereoSgm::compute`], for gray values of any range: the smallest and the largest value

@@ -1,50 +1,24 @@
 //! Dividing work between threads, telling how far it is, and stopping it.
 
-use crate::progress::{Monitor, Stage, Status};
-use crate::{Error, Result};
+use crate::Result;
+use crate::math::monitored::Reporter;
+use crate::progress::{Monitor, Stage};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-/// Progress callback of a worker: reports to the caller, or only checks for cancellation.
-pub(super) struct Reporter<'a> {
-    monitor: Option<&'a mut dyn Monitor>,
-    canceled: &'a AtomicBool,
-    shares: Range<f32>,
-}
-
-impl Reporter<'_> {
-    /// Before step `done` of `all`.
-    ///
-    /// # Errors
-    /// [`Error::Canceled`] if it is time to stop.
-    #[inline(never)]
-    pub(super) fn report(&mut self, done: usize, all: usize) -> Result<()> {
-        if let (Some(monitor), true) = (&mut self.monitor, done.is_multiple_of(8)) {
-            let part = done as f32 / all.max(1) as f32;
-            let share = self.shares.start + (self.shares.end - self.shares.start) * part;
-            let stage = Stage::DenseMatching;
-            if monitor.report(Status { stage, share }).is_break() {
-                self.canceled.store(true, Ordering::Relaxed);
-            }
-        }
-        if self.canceled.load(Ordering::Relaxed) {
-            Err(Error::Canceled)
-        } else {
-            Ok(())
-        }
-    }
-}
+const STAGE: Stage = Stage::DenseMatching;
 
 /// Work for one thread.
 pub(super) fn alone<T>(
     monitor: &mut dyn Monitor,
     work: impl FnOnce(&mut Reporter) -> Result<T>,
 ) -> Result<T> {
-    work(&mut Reporter {
-        monitor: Some(monitor),
-        canceled: &AtomicBool::new(false),
-        shares: 0.0..1.0,
-    })
+    work(&mut Reporter::of_caller(
+        STAGE,
+        monitor,
+        &AtomicBool::new(false),
+        0.0..1.0,
+    ))
 }
 
 /// Two pieces of work that do not depend on each other, side by side where there are threads.
@@ -60,31 +34,30 @@ pub(super) fn in_two(
         let mut second_result = Ok(());
         let first_result = rayon::in_place_scope(|scope| {
             scope.spawn(|_| {
-                second_result = second(&mut Reporter {
-                    monitor: None,
-                    canceled,
-                    shares: 0.0..1.0,
-                });
+                second_result = second(&mut Reporter::of_other(STAGE, canceled));
             });
-            first(&mut Reporter {
-                monitor: Some(monitor),
+            first(&mut Reporter::of_caller(
+                STAGE,
+                monitor,
                 canceled,
-                shares: shares.clone(),
-            })
+                shares.clone(),
+            ))
         });
         return first_result.and(second_result);
     }
     let middle = 0.5 * (shares.start + shares.end);
-    first(&mut Reporter {
-        monitor: Some(&mut *monitor),
+    first(&mut Reporter::of_caller(
+        STAGE,
+        &mut *monitor,
         canceled,
-        shares: shares.start..middle,
-    })?;
-    second(&mut Reporter {
-        monitor: Some(monitor),
+        shares.start..middle,
+    ))?;
+    second(&mut Reporter::of_caller(
+        STAGE,
+        monitor,
         canceled,
-        shares: middle..shares.end,
-    })
+        middle..shares.end,
+    ))
 }
 
 /// Rows of an image, divided between threads.
@@ -121,26 +94,15 @@ impl Strips {
                     let mine = strips.next().zip(slots.next());
                     for ((k, strip), result) in strips.zip(slots) {
                         scope.spawn(move |_| {
-                            *result = work(
-                                k * rows,
-                                strip,
-                                &mut Reporter {
-                                    monitor: None,
-                                    canceled,
-                                    shares: 0.0..1.0,
-                                },
-                            );
+                            *result =
+                                work(k * rows, strip, &mut Reporter::of_other(STAGE, canceled));
                         });
                     }
                     if let Some(((_, strip), result)) = mine {
                         *result = work(
                             0,
                             strip,
-                            &mut Reporter {
-                                monitor: Some(monitor),
-                                canceled,
-                                shares: 0.0..1.0,
-                            },
+                            &mut Reporter::of_caller(STAGE, monitor, canceled, 0.0..1.0),
                         );
                     }
                 });
@@ -150,11 +112,7 @@ impl Strips {
         work(
             0,
             values,
-            &mut Reporter {
-                monitor: Some(monitor),
-                canceled,
-                shares: 0.0..1.0,
-            },
+            &mut Reporter::of_caller(STAGE, monitor, canceled, 0.0..1.0),
         )
     }
 }

@@ -63,7 +63,7 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
             .disparity_range(&places(&cameras[0], &photographs[0]))
             .unwrap();
         let images = photographs.each_ref().map(|photograph| &photograph.image);
-        let redrawn = RectifiedPair::new(&rig, images).unwrap();
+        let redrawn = RectifiedPair::new(&rig, images, &mut ()).unwrap();
         let matcher = StereoSgm::default()
             .with_min_disparity_px(first)
             .with_num_disparities((end - first + 1) as u32);
@@ -89,7 +89,7 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
         );
         assert!(half < 0.01 && most < 0.05, "{aside:?}: {half} {most}");
         // Every pixel that the photograph fills has an answer then, and no other; given ones stay.
-        let filled = redrawn.filled(&found).unwrap();
+        let filled = redrawn.filled(&found, &mut ()).unwrap();
         let answered =
             |image: &DisparityImage| image.as_raw().iter().filter(|d| !d.is_nan()).count();
         assert_eq!(answered(&filled), redrawn.num_shown());
@@ -104,7 +104,7 @@ fn borders_and_what_matches_them_have_no_answer() {
     let (cameras, photographs) = pair(Vector3::new(0.2, 0.0, 0.0));
     let rig = rig_of(&cameras).unwrap();
     let images = photographs.each_ref().map(|photograph| &photograph.image);
-    let redrawn = RectifiedPair::new(&rig, images).unwrap();
+    let redrawn = RectifiedPair::new(&rig, images, &mut ()).unwrap();
     let everywhere = |left: &GrayImage, _: &GrayImage| {
         let number = (left.width() * left.height()) as usize;
         DisparityImage::from_raw(left.width(), left.height(), vec![30.0; number])

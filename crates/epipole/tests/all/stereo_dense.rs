@@ -214,7 +214,7 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
     let hidden = |u: u32, v: u32| is_hidden(u, v).then(|| truth(u, v));
     let (wrongly, _, _) = score(&found, 20, hidden);
     assert!(wrongly < 0.35, "{wrongly} of the hidden pixels answered");
-    let filled = fill_gaps(&found, &left).unwrap();
+    let filled = fill_gaps(&found, &left, &mut ()).unwrap();
     let (answered, good, _) = score(&filled, 20, |u, v| Some(truth(u, v)));
     assert_eq!(answered, 1.0);
     assert!(good > 0.97, "{good} within 1 px after filling");
@@ -524,7 +524,8 @@ fn real_pairs_are_matched_better_than_by_the_usual_matcher() {
         ];
         for (found, [peer_filled, peer_answered, peer_density]) in ours {
             let [_, bad_answered, density] = bad_2(&found, &truth);
-            let [bad_filled, _, filled] = bad_2(&fill_gaps(&found, &left).unwrap(), &truth);
+            let [bad_filled, _, filled] =
+                bad_2(&fill_gaps(&found, &left, &mut ()).unwrap(), &truth);
             println!(
                 "{name}: bad-2 filled {bad_filled:.2} % (peer {peer_filled}), of answered \
                  {bad_answered:.2} % (peer {peer_answered}), density {density:.2} % (peer \

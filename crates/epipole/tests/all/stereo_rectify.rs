@@ -82,7 +82,7 @@ fn real_matches_share_a_row() {
         );
         // The maps that redraw the photographs read where the positions came from.
         for i in 0..2 {
-            let map = rectified.map(i).unwrap();
+            let map = rectified.map(i, &mut ()).unwrap();
             for (m, moved) in rig.matches.iter().zip(&moved) {
                 let p = moved[i];
                 if !(1.0..f64::from(width) - 2.0).contains(&p.x)

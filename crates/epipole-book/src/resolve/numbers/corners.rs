@@ -107,7 +107,7 @@ fn opencv_divisor(block: usize) -> Result<Number, String> {
         let options = StructureTensorOptions::default()
             .with_window(Window::Box(block))
             .with_scaling(scaling);
-        let response = harris_response(&dot, 0.04, &options).map_err(sentence)?;
+        let response = harris_response(&dot, 0.04, &options, &mut ()).map_err(sentence)?;
         Ok::<f64, String>(f64::from(response.get_pixel(2, 2).0[0]))
     };
     let ratio = at_dot(Scaling::Textbook)? / at_dot(Scaling::OpenCv)?;

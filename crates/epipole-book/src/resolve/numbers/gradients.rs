@@ -178,6 +178,7 @@ fn slope_of_edge(a: &Arguments) -> Result<f64, String> {
     let ramp = |u: i32| 68.0 + 120.0 * (0.5 + f64::from(u) / 6.0).clamp(0.0, 1.0);
     let edge = gray_row(&(-HALF..=HALF).map(ramp).collect::<Vec<f64>>())?;
     let (smooth, slope) = kernels(a)?;
-    let slopes = separable_filter(&edge, &slope, &smooth, Border::Replicate).map_err(sentence)?;
+    let slopes =
+        separable_filter(&edge, &slope, &smooth, Border::Replicate, &mut ()).map_err(sentence)?;
     Ok(slopes.get_pixel(HALF as u32, 0).0[0].into())
 }

@@ -19,7 +19,7 @@ pub(super) const ENTRIES: &[Entry] = &[
                 _ => {
                     let image = gray_from_values(2, 2, values).map_err(sentence)?;
                     let middle = [Keypoint::at(0.5, 0.5, 1.0)];
-                    describe_patches(&image, &middle, 2, 1.0).map_err(sentence)
+                    describe_patches(&image, &middle, 2, 1.0, &mut ()).map_err(sentence)
                 }
             };
             let query = described(first)?.get(0).unwrap_or_default();

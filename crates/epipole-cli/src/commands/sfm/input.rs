@@ -4,10 +4,10 @@ use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::{tell_of_others, tell_of_unseen};
-use crate::lens;
 use crate::listing::{Listed, ListingArguments};
 use crate::photo::{KeptLens, Photo};
 use crate::reading::SizeArguments;
+use crate::{interrupt, lens};
 use clap::Args;
 use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::Camera;
@@ -92,7 +92,7 @@ impl InputArguments {
         let camera = camera.map(|file| lens::read(file, first)).transpose()?;
         let flat = (camera.as_ref())
             .filter(|_| self.undistort)
-            .map(|camera| Undistortion::new(camera, Keep::Valid));
+            .map(|camera| Undistortion::new(camera, Keep::Valid, &mut interrupt::watch));
         let flat = flat.transpose()?;
         if let (Some(camera), None) = (&camera, &flat) {
             tell_of_unseen(camera, context)?;

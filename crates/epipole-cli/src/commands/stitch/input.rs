@@ -3,8 +3,8 @@
 use super::arguments::{Arguments, Model};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::lens;
 use crate::photo::Photo;
+use crate::{interrupt, lens};
 use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::Intrinsics;
 use epipole::sfm;
@@ -39,7 +39,7 @@ impl Input {
             .transpose()?;
         let flat = camera
             .as_ref()
-            .map(|camera| Undistortion::new(camera, Keep::Valid));
+            .map(|camera| Undistortion::new(camera, Keep::Valid, &mut interrupt::watch));
         let flat = flat.transpose()?;
         let mut input = Self {
             photos: Vec::new(),

@@ -183,7 +183,7 @@ impl Project {
                         "    let lens = Lens::from_coefficients(LensKind::{:?}, &{})?;\n    let camera = Camera \
                          {{\n        intrinsics: Intrinsics::new({fu:?}, {fv:?}, {cu:?}, {cv:?})?,\n        lens,\n        \
                          width: {},\n        height: {},\n    }};\n    let flat = Undistortion::new(&camera, \
-                         Keep::Valid)?;\n    let undistortion = Some(&flat);\n",
+                         Keep::Valid, &mut ())?;\n    let undistortion = Some(&flat);\n",
                         camera.lens,
                         listed(&camera.coefficients),
                         camera.size.0,

@@ -156,7 +156,8 @@ fn taken(board: &Board, progress: Progress<'_>) -> Result<&'static Taken, Error>
     let (camera, mut photographs, mut views) = (camera()?, Vec::new(), Vec::new());
     for index in 0..NUM_VIEWS {
         tell(progress, index as f64 / NUM_VIEWS as f64)?;
-        let image = photograph_of_board(board, &camera, &pose(index), NOISE, index as u64);
+        let image =
+            photograph_of_board(board, &camera, &pose(index), NOISE, index as u64, &mut ())?;
         views.push(match find_board(&image, board, &mut ())? {
             BoardSearch::Found(found) => Some(found),
             _ => None,

@@ -97,7 +97,7 @@ impl Flow {
         let mut path = vec![Vector2::zeros()];
         for step in 1..=setup.num_steps {
             let options = options.with_max_iterations(step);
-            let tracks = track_lucas_kanade(&before, &after, &[center], &options)?;
+            let tracks = track_lucas_kanade(&before, &after, &[center], &options, &mut ())?;
             match tracks.first() {
                 Some(Some(track)) => path.push(track.point - center),
                 _ => break,

@@ -68,8 +68,8 @@ impl Field {
         let (levels, Gradient { du, dv }) = match smooth_px {
             None => (levels.clone(), centered_difference(levels, border)),
             Some(sigma_px) => (
-                gaussian_blur(levels, sigma_px, border)?,
-                gaussian_derivative(levels, sigma_px, border)?,
+                gaussian_blur(levels, sigma_px, border, &mut ())?,
+                gaussian_derivative(levels, sigma_px, border, &mut ())?,
             ),
         };
         let shown = OnceCell::new();

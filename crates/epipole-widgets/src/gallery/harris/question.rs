@@ -92,9 +92,9 @@ impl question::Question for Question {
             Source::Own(picture) => picture.clone(),
         };
         let gray = gray_levels(picture.image());
-        let response = harris_response(&gray, self.k, &self.options())?;
+        let response = harris_response(&gray, self.k, &self.options(), &mut ())?;
         tell(progress, 0.8)?;
-        let mut peaks = non_maximum_suppression(&response, SUPPRESSION_RADIUS_PX, 0.0)?;
+        let mut peaks = non_maximum_suppression(&response, SUPPRESSION_RADIUS_PX, 0.0, &mut ())?;
         peaks.truncate(MAX_PEAKS);
         Ok(Answer {
             peaks: (peaks.iter())

@@ -37,7 +37,7 @@ impl LensBendView {
             None => {
                 let (scene, camera) = (still_life(), camera(SHARP_SIZE));
                 let sharp = self.photo.picture(&scene, &camera, [0.0; 3], SHARP_SIZE);
-                through(&lens).warp(sharp.ok()?)
+                through(&lens).ok()?.warp(sharp.ok()?, &mut ()).ok()?
             }
         };
         Some(&self.taken.insert((lens, num_slices, image)).2)
@@ -65,7 +65,7 @@ impl View for LensBendView {
         let taken = self.taken(model)?;
         match panel {
             "taken" => Some(taken.clone()),
-            "corrected" => Some(straightened(&model.guess()).warp(taken)),
+            "corrected" => straightened(&model.guess(), taken).ok(),
             _ => None,
         }
     }
@@ -79,7 +79,9 @@ impl View for LensBendView {
         let [taken, corrected] = panels;
         if let Some(image) = self.taken(model) {
             canvas.photograph(taken.rect, image);
-            canvas.photograph(corrected.rect, &straightened(&model.guess()).warp(image));
+            if let Ok(straight) = straightened(&model.guess(), image) {
+                canvas.photograph(corrected.rect, &straight);
+            }
         }
         for (panel, edges) in [(taken, model.bent()), (corrected, model.corrected())] {
             canvas.clipped(panel.rect.inset(1.0), |canvas| {
@@ -101,7 +103,7 @@ impl View for LensBendView {
 }
 
 /// Returns the map from the sharp photograph to that through the lens.
-fn through(lens: &Distortion) -> PixelMap {
+fn through(lens: &Distortion) -> epipole::Result<PixelMap> {
     let (width, height) = SIZE;
     let nodes = [width.div_ceil(NODE) + 1, height.div_ceil(NODE) + 1];
     let [of_seen, of_sharp] = [intrinsics(SIZE), intrinsics(SHARP_SIZE)];
@@ -114,7 +116,7 @@ fn through(lens: &Distortion) -> PixelMap {
         }
     }
     let at = |column: u32, row: u32| exact[(row * nodes[0] + column) as usize];
-    PixelMap::from_fn(width, height, |u, v| {
+    let source = |u: u32, v: u32| {
         let (column, row) = (u / NODE, v / NODE);
         let [across, down] = [u, v].map(|place| f64::from(place % NODE) / f64::from(NODE));
         let between = |from: Option<Point2<f64>>, to: Option<Point2<f64>>, share: f64| {
@@ -123,17 +125,19 @@ fn through(lens: &Distortion) -> PixelMap {
         let upper = between(at(column, row), at(column + 1, row), across);
         let lower = between(at(column, row + 1), at(column + 1, row + 1), across);
         between(upper, lower, down)
-    })
+    };
+    PixelMap::from_fn(width, height, source, &mut ())
 }
 
-/// Returns the map that takes a distortion out of a photograph.
-fn straightened(guess: &Distortion) -> PixelMap {
+/// Returns a photograph with a distortion taken out.
+fn straightened(guess: &Distortion, taken: &RgbImage) -> epipole::Result<RgbImage> {
     let (width, height) = SIZE;
     let intrinsics = intrinsics(SIZE);
-    PixelMap::from_fn(width, height, |u, v| {
+    let source = |u, v| {
         let straight = ray(&Point2::new(f64::from(u), f64::from(v)), &intrinsics);
         Some(pixel(&guess.distort(&straight), &intrinsics))
-    })
+    };
+    PixelMap::from_fn(width, height, source, &mut ())?.warp(taken, &mut ())
 }
 
 /// Draws edges, and beside each the straight line through its ends.

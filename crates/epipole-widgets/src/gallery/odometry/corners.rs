@@ -113,7 +113,7 @@ fn follow(
     let options = TrackOptions::default()
         .with_half_window(HALF_WINDOW)
         .with_max_forward_backward_px(Some(MAX_BACK_PX));
-    let found = track_lucas_kanade(from, to, places, &options)?;
+    let found = track_lucas_kanade(from, to, places, &options, &mut ())?;
     Ok(found
         .iter()
         .map(|track| track.map(|track| track.point))

@@ -61,7 +61,7 @@ impl question::Question for Question {
         let options = SiftOptions::default()
             .with_layers_per_octave(NUM_LAYERS)
             .with_upsample(false);
-        let space = scale_space(&gray, &options)?;
+        let space = scale_space(&gray, &options, &mut ())?;
         tell(progress, 0.95)?;
         let octaves = space.octaves.into_iter().take(NUM_OCTAVES);
         let layers = octaves.flat_map(|octave| {

@@ -60,7 +60,7 @@ impl Change {
         let smooth;
         let source = match blur_px > 0.1 {
             true => {
-                smooth = gaussian_blur(gray, blur_px, Border::Replicate)?;
+                smooth = gaussian_blur(gray, blur_px, Border::Replicate, &mut ())?;
                 &smooth
             }
             false => gray,
@@ -110,7 +110,7 @@ impl Prints {
             })
             .collect();
         if finds_direction {
-            let directions = sift_directions(gray, &keypoints, &options())?;
+            let directions = sift_directions(gray, &keypoints, &options(), &mut ())?;
             for (keypoint, found) in keypoints.iter_mut().zip(directions) {
                 keypoint.angle_rad = found.first().copied().unwrap_or(0.0);
             }
@@ -122,8 +122,8 @@ impl Prints {
             scale_px,
             lists: [
                 raw_patches(gray, places)?,
-                describe_patches(gray, &keypoints, SAMPLES, SPACING_PX)?,
-                describe_sift(gray, &keypoints, &options())?,
+                describe_patches(gray, &keypoints, SAMPLES, SPACING_PX, &mut ())?,
+                describe_sift(gray, &keypoints, &options(), &mut ())?,
             ],
         })
     }

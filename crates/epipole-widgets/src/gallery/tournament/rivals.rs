@@ -64,7 +64,7 @@ fn sampled<E: Estimator>(
         };
         Ok(rules.run(estimator()?, &refit)?.0)
     };
-    let median = estimator().and_then(|estimator| least_median(estimator, &options));
+    let median = estimator().and_then(|estimator| least_median(estimator, &options, &mut ()));
     [
         median.map(|found| found.model),
         vote(false, false),

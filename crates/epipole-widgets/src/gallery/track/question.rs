@@ -83,7 +83,8 @@ impl question::Question for Question {
         for index in 1..used.len() {
             tell(progress, 0.7 + 0.3 * index as f64 / used.len() as f64)?;
             let places: Vec<_> = alive.iter().map(|(_, place)| *place).collect();
-            let found = track_lucas_kanade(&gray[index - 1], &gray[index], &places, &options)?;
+            let found =
+                track_lucas_kanade(&gray[index - 1], &gray[index], &places, &options, &mut ())?;
             alive = (alive.iter().zip(found))
                 .filter_map(|((corner, _), found)| Some((*corner, found?.point)))
                 .collect();

@@ -71,7 +71,7 @@ pub(super) fn surface(
         .with_alpha(1.0)
         .with_size(Some((side(width), side(height))));
     let rig = rectify_calibrated(cameras, cam2_from_cam1, &options)?;
-    let redrawn = RectifiedPair::new(&rig, photographs)?;
+    let redrawn = RectifiedPair::new(&rig, photographs, &mut ())?;
     let (min_disparity_px, num_disparities) = searched(rig.disparity_range(places)?);
     let matcher = StereoSgm::default()
         .with_min_disparity_px(min_disparity_px)

@@ -8,7 +8,7 @@ use crate::Result;
 use crate::calibration::saddles::check_range;
 use crate::homography::homography_4point;
 use crate::imaging::{Border, GrayImage32, pyramid_down};
-use crate::progress::{Monitor, Stage, report};
+use crate::progress::{Monitor, Part, Stage, report};
 use derive_setters::Setters;
 use nalgebra::{Matrix3, Point2, center};
 
@@ -123,6 +123,7 @@ pub fn detect_markers(
     let mut share = 0.0;
     loop {
         report(monitor, Stage::FeatureDetection, share)?;
+        let (from, middle) = (share, share + 0.4 * (1.0 - share));
         share += 0.75 * (1.0 - share);
         let here = level.as_ref().unwrap_or(image);
         let is_last = here.width().max(here.height()) <= COARSEST_SIDE;
@@ -130,8 +131,11 @@ pub fn detect_markers(
             least: least_px.max(options.min_side_px / scale),
             most: if is_last { f64::INFINITY } else { MOST_SIDE_PX },
         };
-        for quad in find_quads(here, sides)? {
-            let Some((corners, bits)) = read_quad(here, &quad, cells) else {
+        let quads = find_quads(here, sides, &mut Part::new(monitor, from, middle))?;
+        for (k, quad) in quads.iter().enumerate() {
+            let done = middle + (share - middle) * k as f32 / quads.len() as f32;
+            report(monitor, Stage::FeatureDetection, done)?;
+            let Some((corners, bits)) = read_quad(here, quad, cells) else {
                 continue;
             };
             let Some((id, quarters, hamming)) = dictionary.nearest(bits, max_hamming) else {

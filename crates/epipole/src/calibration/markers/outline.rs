@@ -152,7 +152,7 @@ mod tests {
             Luma([0.9 - 0.8 * inside as f32 / 64.0])
         });
         for (sigma_px, reach_px) in [(0.5, 3.0), (1.5, 4.0)] {
-            let image = gaussian_blur(&sharp, sigma_px, Border::Replicate).unwrap();
+            let image = gaussian_blur(&sharp, sigma_px, Border::Replicate, &mut ()).unwrap();
             let start = truth.map(|p| p + Vector2::new(0.9, -0.7));
             let nearer = refine_outline(&image, &start, reach_px).unwrap();
             let found = refine_outline(&image, &nearer, reach_px).unwrap();

@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, box_filter};
+use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::Point2;
 
 /// Side of the surroundings that a pixel is compared with, pixels.
@@ -22,18 +23,31 @@ pub(super) struct Sides {
 
 /// Outlines of dark spots that are nearly quadrilaterals, to about a pixel. Corners are clockwise
 /// on the screen.
-pub(super) fn find_quads(image: &GrayImage32, sides: Sides) -> Result<Vec<[Point2<f64>; 4]>> {
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+pub(super) fn find_quads(
+    image: &GrayImage32,
+    sides: Sides,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<[Point2<f64>; 4]>> {
+    let stage = Stage::FeatureDetection;
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width < 5 || height < 5 {
         return Ok(Vec::new());
     }
-    let mean = box_filter(image, SURROUNDINGS_PX, Border::Replicate)?;
+    let part = &mut Part::new(monitor, 0.0, 0.3).of_stage(stage);
+    let mean = box_filter(image, SURROUNDINGS_PX, Border::Replicate, part)?;
     let pairs = image.as_raw().iter().zip(mean.as_raw());
     let mut is_dark: Vec<bool> = pairs.map(|(v, mean)| mean - v > LEAST_CONTRAST).collect();
     let mut quads = Vec::new();
     let mut stack = Vec::new();
     let mut rows: Vec<[usize; 2]> = Vec::new();
     for start in 0..is_dark.len() {
+        if start % width == 0 {
+            let share = 0.3 + 0.7 * start as f32 / is_dark.len() as f32;
+            report(monitor, stage, share)?;
+        }
         if !core::mem::take(&mut is_dark[start]) {
             continue;
         }
@@ -176,7 +190,7 @@ mod tests {
     #[test]
     fn a_slanted_square_is_found() {
         let corners = [[30.0, 20.0], [65.0, 28.0], [58.0, 66.0], [22.0, 55.0]];
-        let found = find_quads(&drawn(corners), SIDES).unwrap();
+        let found = find_quads(&drawn(corners), SIDES, &mut ()).unwrap();
         assert_eq!(found.len(), 1);
         let first = (0..4)
             .min_by(|&a, &b| found[0][a].y.total_cmp(&found[0][b].y))
@@ -196,7 +210,10 @@ mod tests {
             Luma([if x * x + y * y < 400.0 { 0.1 } else { 0.8 }])
         });
         for image in [thin, at_border, disk, GrayImage32::new(3, 90)] {
-            assert_eq!(find_quads(&image, SIDES).unwrap(), Vec::<[_; 4]>::new());
+            assert_eq!(
+                find_quads(&image, SIDES, &mut ()).unwrap(),
+                Vec::<[_; 4]>::new()
+            );
         }
     }
 }

@@ -9,16 +9,18 @@ use super::integers::Integers;
 use super::neighbors::{Found, Neighbors, Scanned};
 use crate::feature::Descriptors;
 use crate::feature::descriptors::Values;
-use crate::math::parallel;
-use crate::progress::{Monitor, Stage, report};
+use crate::math::{monitored, parallel};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use std::borrow::Cow;
 use std::ops::Range;
 
 /// Descriptors of the first list that share a walk over the second.
 const ROWS: usize = 64;
-/// Descriptors of the first list between two reports of progress.
-const REPORT: usize = 1024;
+/// Numbers of the first list that share a walk over the second, if descriptors are long.
+const ROW_NUMBERS: usize = 128 * ROWS;
+/// Descriptors of the first list whose results are gathered at once.
+const GROUP: usize = 1024;
 
 pub(super) fn search(
     first: &Descriptors,
@@ -43,12 +45,12 @@ pub(super) fn search(
     if let (Some(a), Some(b)) = (whole_bytes(first), whole_bytes(second)) {
         let second = Integers::new(&b, n);
         let scan = |rows: &Range<usize>| dots::scan(&second, &a[rows.start * n..rows.end * n]);
-        return gather(first.len(), b.len() / n, scan, monitor);
+        return gather([first.len(), b.len() / n, n], scan, monitor);
     }
     let a = first.to_floats();
     let second = Floats::new(second.to_floats(), n);
     let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
-    gather(first.len(), second.count(), scan, monitor)
+    gather([first.len(), second.count(), n], scan, monitor)
 }
 
 /// A type of squared distance.
@@ -63,20 +65,26 @@ impl Distance for f32 {
 }
 
 fn gather<D: Distance>(
-    num_rows: usize,
-    num_columns: usize,
+    [num_rows, num_columns, dimension]: [usize; 3],
     scan: impl Fn(&Range<usize>) -> Scanned<D> + Sync + Send,
     monitor: &mut dyn Monitor,
 ) -> Result<Found> {
     let root = |squared: D| squared.into().sqrt();
+    let stage = Stage::FeatureMatching;
+    let piece_len = (ROW_NUMBERS / dimension.max(1)).clamp(8, ROWS);
     let mut rows = Vec::with_capacity(num_rows);
     let mut nearest = vec![(D::FARTHEST, 0); num_columns];
-    for group in parallel::pieces(num_rows, REPORT) {
-        let pieces: Vec<_> = parallel::pieces(group.len(), ROWS)
+    for group in parallel::pieces(num_rows, GROUP) {
+        let pieces: Vec<_> = parallel::pieces(group.len(), piece_len)
             .into_iter()
             .map(|piece| piece.start + group.start..piece.end + group.start)
             .collect();
-        for (piece, scanned) in pieces.iter().zip(parallel::map(&pieces, &scan)) {
+        let [from, to] = [group.start, group.end].map(|row| row as f32 / num_rows as f32);
+        let part = &mut Part::new(monitor, from, to);
+        for (piece, scanned) in pieces
+            .iter()
+            .zip(monitored::map(&pieces, stage, part, &scan)?)
+        {
             rows.extend(scanned.rows.iter().map(|&(index, near, second)| Neighbors {
                 index,
                 distance: root(near) as f32,
@@ -89,9 +97,8 @@ fn gather<D: Distance>(
                 }
             }
         }
-        let share = group.end as f32 / num_rows as f32;
-        report(monitor, Stage::FeatureMatching, share)?;
     }
+    report(monitor, stage, 1.0)?;
     Ok(Found {
         rows,
         columns: nearest.into_iter().map(|(_, row)| row).collect(),

@@ -2,15 +2,15 @@
 
 use super::neighbors::{Found, Neighbors};
 use crate::Result;
-use crate::math::parallel;
 use crate::math::simd::dispatched;
-use crate::progress::{Monitor, Stage, report};
+use crate::math::{monitored, parallel};
+use crate::progress::{Monitor, Part, Stage, report};
 use std::ops::Range;
 
 /// Descriptors of the first list that share a walk over the second.
 const ROWS: usize = 128;
-/// Descriptors of the first list between two reports of progress.
-const REPORT: usize = 8 * ROWS;
+/// Pieces of the first list whose results are gathered at once.
+const GROUP: usize = 8;
 
 /// For each descriptor of one list the two of the other with the fewest bits that differ, exactly.
 pub(super) fn search(
@@ -28,8 +28,14 @@ pub(super) fn search(
     let mut nearest = vec![(u32::MAX, 0); second.len()];
     let mut rows = Vec::with_capacity(first.len());
     let pieces = parallel::pieces(first.len(), ROWS);
-    for group in pieces.chunks(REPORT / ROWS) {
-        for (more, columns) in parallel::map(group, |piece| scan(first, second, piece.clone())) {
+    let stage = Stage::FeatureMatching;
+    for (k, group) in pieces.chunks(GROUP).enumerate() {
+        let [from, to] = [k, k + 1].map(|k| k as f32 / pieces.len().div_ceil(GROUP) as f32);
+        let part = &mut Part::new(monitor, from, to);
+        let found = monitored::map(group, stage, part, |piece| {
+            scan(first, second, piece.clone())
+        })?;
+        for (more, columns) in found {
             rows.extend(more);
             for (held, column) in nearest.iter_mut().zip(columns) {
                 if column.0 < held.0 {
@@ -37,9 +43,8 @@ pub(super) fn search(
                 }
             }
         }
-        let share = rows.len() as f32 / first.len() as f32;
-        report(monitor, Stage::FeatureMatching, share)?;
     }
+    report(monitor, stage, 1.0)?;
     Ok(Found {
         rows,
         columns: nearest.into_iter().map(|(_, row)| row).collect(),

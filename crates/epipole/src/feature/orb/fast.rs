@@ -1,7 +1,9 @@
 //! FAST corners: nine neighbors in a row on a circle, all brighter or all darker.
 
+use crate::Result;
 use crate::feature::Keypoint;
 use crate::feature::nms::strongest_first;
+use crate::math::monitored::Reporter;
 use crate::math::simd::dispatched;
 use image::GrayImage;
 use std::cmp::Ordering;
@@ -44,13 +46,17 @@ const ARC: usize = 9;
 
 /// The `limit` (≥ 1) strongest corners at least `margin` (≥ 5) pixels inside, in order, each the
 /// best of its 3×3 pixels, with the Harris measure as their response.
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
 pub(super) fn corners(
     image: &GrayImage,
     threshold: u8,
     margin: usize,
     limit: usize,
-) -> Vec<Keypoint> {
-    let mut found = whole_corners(image, threshold, margin);
+    reporter: &mut Reporter,
+) -> Result<Vec<Keypoint>> {
+    let mut found = whole_corners(image, threshold, margin, reporter)?;
     if found.len() > limit {
         // Those as strong as the last stay until their places, which order them, are refined.
         let strength = |a: &Corner, b: &Corner| b.response.total_cmp(&a.response);
@@ -60,7 +66,7 @@ pub(super) fn corners(
     let mut found: Vec<Keypoint> = found.iter().map(|corner| refined(image, corner)).collect();
     strongest_first(&mut found);
     found.truncate(limit);
-    found
+    Ok(found)
 }
 
 /// A corner at a whole pixel.
@@ -83,16 +89,22 @@ fn refined(image: &GrayImage, corner: &Corner) -> Keypoint {
 }
 
 /// The corners in reading order.
-fn whole_corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Corner> {
+fn whole_corners(
+    image: &GrayImage,
+    threshold: u8,
+    margin: usize,
+    reporter: &mut Reporter,
+) -> Result<Vec<Corner>> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width <= 2 * margin || height <= 2 * margin {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let values = image.as_raw();
     // Scores of three rows; 0 is no corner.
     let mut scores = [vec![0u8; width], vec![0u8; width], vec![0u8; width]];
     let mut found = Vec::new();
     for y in margin - 1..height - margin + 1 {
+        reporter.report(y, height)?;
         let seven = &values[(y - 3) * width..(y + 4) * width];
         let inside = margin - 1..width - margin + 1;
         score_row(seven, width, threshold, inside, &mut scores[y % 3]);
@@ -132,7 +144,7 @@ fn whole_corners(image: &GrayImage, threshold: u8, margin: usize) -> Vec<Corner>
             }
         }
     }
-    found
+    Ok(found)
 }
 
 /// Peak of the parabola through three values, within half a sample of the middle one.
@@ -293,6 +305,8 @@ dispatched! {
 mod tests {
     use super::*;
     use crate::imaging::fixture;
+    use crate::progress::Stage;
+    use std::sync::atomic::AtomicBool;
 
     #[test]
     fn corners_equal_those_of_opencv() {
@@ -318,7 +332,10 @@ mod tests {
         }
         assert_eq!(all, list("fast_all.npy"));
         // OpenCV drops both of two equal neighbors, we keep one.
-        let ours: Vec<(usize, usize)> = corners(&image, 15, 5, usize::MAX)
+        let canceled = AtomicBool::new(false);
+        let mut reporter = Reporter::of_other(Stage::FeatureDetection, &canceled);
+        let ours: Vec<(usize, usize)> = corners(&image, 15, 5, usize::MAX, &mut reporter)
+            .unwrap()
             .iter()
             .map(|k| (k.u.round() as usize, k.v.round() as usize))
             .collect();

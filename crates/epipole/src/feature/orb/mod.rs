@@ -6,12 +6,13 @@ mod pattern;
 use super::keypoint::Keypoint;
 use super::{Descriptors, Features};
 use crate::imaging::{Border, GrayImage32, gaussian_blur_u8, gray_to_u8, require_finite, resize};
-use crate::math::parallel;
+use crate::math::monitored::{self, Reporter};
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 use image::GrayImage;
 use pattern::{Pattern, RADIUS};
+use std::sync::{Mutex, PoisonError};
 
 /// Pixels along a level's edge without corners: the descriptor's disc must fit.
 const MARGIN: u32 = RADIUS as u32 + 2;
@@ -37,9 +38,6 @@ pub struct OrbOptions {
     /// Take every direction to be 0: for cameras held upright.
     pub upright: bool,
 }
-
-/// Levels between two reports of progress.
-const LEVELS_AT_ONCE: usize = 2;
 
 impl Default for OrbOptions {
     /// 1000 features, 8 levels a factor 1.2 apart, threshold 20 of 255.
@@ -93,20 +91,32 @@ pub fn detect_orb(
     // Each level gets a share in proportion to its side.
     let shrink = 1.0 / options.scale_factor;
     let total: f64 = levels.iter().map(|&k| power(shrink, k)).sum();
-    let describe = |&k: &usize| {
+    let describe = |k: usize, reporter: &mut Reporter| {
         let share = options.max_features as f64 * power(shrink, k) / total;
         let quota = (share.ceil() as usize).min(options.max_features);
-        describe_level(image, options, &pattern, k, quota)
+        let pattern = &pattern;
+        describe_level(image, options, pattern, (k, quota), reporter)
     };
-    let mut features: Vec<(Keypoint, [u64; 4])> = Vec::new();
-    for (done, group) in levels.chunks(LEVELS_AT_ONCE).enumerate() {
-        let share = (done * LEVELS_AT_ONCE) as f32 / levels.len() as f32;
-        report(monitor, Stage::FeatureDetection, share)?;
-        for level in parallel::map(group, describe) {
-            features.extend(level?);
+    let stage = Stage::FeatureDetection;
+    let found: Vec<_> = levels.iter().map(|_| Mutex::new(Ok(Vec::new()))).collect();
+    monitored::for_each(levels.len(), stage, monitor, &|level, reporter| {
+        let described = describe(level, reporter);
+        let canceled = described == Err(Error::Canceled);
+        // Never waits: each level is locked once.
+        if let Ok(mut found) = found[level].lock() {
+            *found = described;
         }
+        if canceled {
+            Err(Error::Canceled)
+        } else {
+            Ok(())
+        }
+    })?;
+    let mut features: Vec<(Keypoint, [u64; 4])> = Vec::new();
+    for level in found {
+        features.extend(level.into_inner().unwrap_or_else(PoisonError::into_inner)?);
     }
-    report(monitor, Stage::FeatureDetection, 1.0)?;
+    report(monitor, stage, 1.0)?;
     features.sort_by(|a, b| super::nms::stronger(&a.0, &b.0));
     features.truncate(options.max_features);
     let (keypoints, bits) = features.into_iter().unzip();
@@ -124,8 +134,8 @@ fn describe_level(
     image: &GrayImage32,
     options: &OrbOptions,
     pattern: &Pattern,
-    level: usize,
-    quota: usize,
+    (level, quota): (usize, usize),
+    reporter: &mut Reporter,
 ) -> Result<Vec<(Keypoint, [u64; 4])>> {
     let scale = power(options.scale_factor, level);
     let side = |size: u32| (f64::from(size) / scale).round() as u32;
@@ -139,7 +149,7 @@ fn describe_level(
         gray_to_u8(&resize(image, width, height)?)
     };
     let threshold = (options.fast_threshold * 255.0).round() as u8;
-    let corners = fast::corners(&pixels, threshold, MARGIN as usize, quota);
+    let corners = fast::corners(&pixels, threshold, MARGIN as usize, quota, reporter)?;
     let blurred = gaussian_blur_u8(&pixels, Some(7), 2.0, Border::Reflect101)?;
     let (step_u, step_v) = (
         f64::from(image.width()) / f64::from(width),
@@ -242,7 +252,7 @@ mod tests {
                 }
             }
         }
-        crate::imaging::gaussian_blur(&image, 0.7, Border::Reflect101).unwrap()
+        crate::imaging::gaussian_blur(&image, 0.7, Border::Reflect101, &mut ()).unwrap()
     }
 
     #[test]
@@ -254,7 +264,7 @@ mod tests {
             interpolation: Interpolation::Bicubic,
             ..WarpOptions::new(320, 240)
         };
-        let other = warp_affine(&image, &map, &options).unwrap();
+        let other = warp_affine(&image, &map, &options, &mut ()).unwrap();
         let a = detect_orb(&image, &OrbOptions::default(), &mut ()).unwrap();
         let b = detect_orb(&other, &OrbOptions::default(), &mut ()).unwrap();
         let matches = match_descriptors(

@@ -7,6 +7,7 @@ use super::{descriptor, orientation};
 use crate::feature::{Descriptors, Keypoint};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::order_by;
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 
 /// SIFT descriptors at given places, scales and directions, one for each keypoint, as
@@ -16,11 +17,11 @@ use crate::{Error, Result};
 ///   this blur, `octave` selects one; a blur beyond all layers takes the nearest layer.
 ///
 /// There is no gradient outside the image, so a place far outside gives zeros. An image too small
-/// for an octave gives zeros everywhere.
+/// for an octave gives zeros everywhere. The one stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for an option or a scale outside its range, [`Error::NotFinite`] for a bad
-/// pixel or place.
+/// pixel or place, [`Error::Canceled`].
 ///
 /// Source: Lowe 2004, "Distinctive image features from scale-invariant keypoints", §6.
 ///
@@ -31,7 +32,7 @@ use crate::{Error, Result};
 /// // Brighter to the right: all gradients point along the rows, into the first of eight directions.
 /// let ramp = GrayImage32::from_fn(64, 64, |u, _| image::Luma([u as f32 / 64.0]));
 /// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
-/// let descriptor = describe_sift(&ramp, &[middle], &SiftOptions::default())?.get(0).unwrap();
+/// let descriptor = describe_sift(&ramp, &[middle], &SiftOptions::default(), &mut ())?.get(0).unwrap();
 /// assert!(descriptor.iter().enumerate().all(|(k, &v)| (v > 0.0) == (k % 8 == 0)));
 /// # Ok(()) }
 /// ```
@@ -39,12 +40,14 @@ pub fn describe_sift(
     image: &GrayImage32,
     keypoints: &[Keypoint],
     options: &SiftOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Descriptors> {
     let mut bytes = vec![0u8; 128 * keypoints.len()];
     at_layers(
         image,
         keypoints,
         options,
+        monitor,
         |index, layer, center, sigma, scratch| {
             // The histogram takes directions in [−π, π].
             let angle = libm::remainderf(keypoints[index].angle_rad, std::f32::consts::TAU);
@@ -60,7 +63,7 @@ pub fn describe_sift(
 /// [`detect_sift`](super::detect_sift) makes features. At most `options.max_orientations` each.
 ///
 /// Arguments, errors and the border are as for [`describe_sift`]; without any gradient the
-/// direction is 0.
+/// direction is 0. The one stage is [`Stage::FeatureDetection`].
 ///
 /// Source: Lowe 2004, §5.
 ///
@@ -70,7 +73,7 @@ pub fn describe_sift(
 /// use epipole::imaging::GrayImage32;
 /// let ramp = GrayImage32::from_fn(64, 64, |_, v| image::Luma([v as f32 / 64.0]));
 /// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
-/// let directions = sift_directions(&ramp, &[middle], &SiftOptions::default())?;
+/// let directions = sift_directions(&ramp, &[middle], &SiftOptions::default(), &mut ())?;
 /// assert!((directions[0][0] - std::f32::consts::FRAC_PI_2).abs() < 0.01);
 /// # Ok(()) }
 /// ```
@@ -78,12 +81,14 @@ pub fn sift_directions(
     image: &GrayImage32,
     keypoints: &[Keypoint],
     options: &SiftOptions,
+    monitor: &mut dyn Monitor,
 ) -> Result<Vec<Vec<f32>>> {
     let mut found = vec![vec![0.0]; keypoints.len()];
     at_layers(
         image,
         keypoints,
         options,
+        monitor,
         |index, layer, center, sigma, scratch| {
             found[index] = orientation::directions(layer, center, sigma, options, scratch);
         },
@@ -97,6 +102,7 @@ fn at_layers(
     image: &GrayImage32,
     keypoints: &[Keypoint],
     options: &SiftOptions,
+    monitor: &mut dyn Monitor,
     mut visit: impl FnMut(usize, &GrayImage32, (f32, f32), f32, &mut Samples),
 ) -> Result<()> {
     check(options)?;
@@ -126,23 +132,33 @@ fn at_layers(
         .map(|index| (homes[index].0, homes[index].1, index))
         .peekable();
     let (mut memory, mut scratch) = (Default::default(), Samples::default());
-    let mut next = OctaveGrid::first(image, options);
+    let stage = Stage::FeatureDetection;
+    let (mut visited, count) = (0, keypoints.len().max(1) as f32);
+    let first = &mut Part::new(monitor, 0.0, 0.0).of_stage(stage);
+    let mut next = OctaveGrid::first(image, options, first)?;
     while let Some(grid) = next.filter(|_| waiting.peek().is_some()) {
         let mut octave = Octave::new(grid, memory, options);
-        octave.advance_to(1);
-        next = octave.next_grid();
+        // Blurs stand still between the shares of keypoints.
+        let share = visited as f32 / count;
+        let blur = &mut Part::new(monitor, share, share).of_stage(stage);
+        octave.advance_to(1, blur)?;
+        next = octave.next_grid(blur)?;
         let (number, is_last) = (octave.grid().octave, next.is_none());
         let is_here = |home: &(i32, usize, usize)| home.0 == number || is_last;
         while let Some((of, layer, index)) = waiting.next_if(is_here) {
             // Octaves beyond the last have larger blurs than any layer of it.
             let largest = options.layers_per_octave + 1;
             let layer = if of > number { largest } else { layer };
-            octave.advance_to(layer.max(3) - 2);
+            let share = visited as f32 / count;
+            report(monitor, stage, share)?;
+            let blur = &mut Part::new(monitor, share, share).of_stage(stage);
+            octave.advance_to(layer.max(3) - 2, blur)?;
             let (grid, keypoint) = (octave.grid(), &keypoints[index]);
             let x = ((keypoint.u - grid.origin_u) / grid.step) as f32;
             let y = ((keypoint.v - grid.origin_v) / grid.step) as f32;
             let sigma = (f64::from(keypoint.scale_px) / grid.step) as f32;
             visit(index, octave.layer(layer), (x, y), sigma, &mut scratch);
+            visited += 1;
         }
         memory = octave.into_memory();
     }
@@ -181,9 +197,9 @@ mod tests {
             };
             let found = detect_sift(&image, &options, &mut ()).unwrap();
             assert!(found.keypoints.len() > 20, "{}", found.keypoints.len());
-            let again = describe_sift(&image, &found.keypoints, &options).unwrap();
+            let again = describe_sift(&image, &found.keypoints, &options, &mut ()).unwrap();
             assert_eq!(again, found.descriptors);
-            let directions = sift_directions(&image, &found.keypoints, &options).unwrap();
+            let directions = sift_directions(&image, &found.keypoints, &options, &mut ()).unwrap();
             for (keypoint, directions) in found.keypoints.iter().zip(directions) {
                 assert_eq!(directions, [keypoint.angle_rad]);
             }
@@ -210,7 +226,7 @@ mod tests {
             input_blur_px: 0.5,
             ..SiftOptions::default()
         };
-        let ours = describe_sift(&image, &keypoints, &options).unwrap();
+        let ours = describe_sift(&image, &keypoints, &options, &mut ()).unwrap();
         assert_eq!(rows.len(), 24);
         let relative = |ours: &[f32], theirs: &[f32]| -> f32 {
             let apart = ours.iter().zip(theirs).map(|(a, b)| (a - b) * (a - b));
@@ -252,7 +268,7 @@ mod tests {
                 ..keypoint
             },
         ] {
-            assert!(describe_sift(&image, &[bad], &options).is_err());
+            assert!(describe_sift(&image, &[bad], &options, &mut ()).is_err());
         }
         let far = Keypoint::at(-5e4, 7e5, 1.0);
         let huge = Keypoint {
@@ -263,12 +279,12 @@ mod tests {
             scale_px: 1e-3,
             ..keypoint
         };
-        let described = describe_sift(&image, &[far, huge, tiny], &options).unwrap();
+        let described = describe_sift(&image, &[far, huge, tiny], &options, &mut ()).unwrap();
         assert_eq!(described.get(0).unwrap(), vec![0.0; 128]);
         assert_eq!(described.len(), 3);
         let small = GrayImage32::new(3, 3);
         assert_eq!(
-            sift_directions(&small, &[keypoint], &options).unwrap(),
+            sift_directions(&small, &[keypoint], &options, &mut ()).unwrap(),
             [[0.0]]
         );
     }

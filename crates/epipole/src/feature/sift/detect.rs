@@ -12,7 +12,7 @@ use crate::feature::{Descriptors, Features};
 use crate::imaging::{GrayImage32, require_finite};
 use crate::math::order::{at_rank, order_by};
 use crate::math::parallel;
-use crate::progress::{self, Monitor, Stage};
+use crate::progress::{self, Monitor, Part, Stage};
 
 /// The SIFT features of an image, strongest first: extrema of differences of Gaussians in place
 /// and scale, located to a fraction of a pixel, with directions and 4×4×8 histograms of gradients.
@@ -53,38 +53,39 @@ pub fn detect_sift(
 ) -> Result<Features> {
     check(options)?;
     require_finite(image)?;
-    let mut tell =
-        |share: f64| progress::report(monitor, Stage::FeatureDetection, share.min(1.0) as f32);
-    tell(0.0)?;
+    let stage = Stage::FeatureDetection;
+    progress::report(monitor, stage, 0.0)?;
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();
     let mut strongest = Strongest::new(options.max_features);
     // Each octave has a quarter of the previous one's pixels.
     let (mut done, mut share) = (0.0, 0.75 / options.layers_per_octave as f64);
-    let mut next = OctaveGrid::first(image, options);
+    let first = &mut Part::new(monitor, 0.0, 0.0).of_stage(stage);
+    let mut next = OctaveGrid::first(image, options, first)?;
     let mut memory = Default::default();
     while let Some(grid) = next {
         let mut octave = Octave::new(grid, memory, options);
         next = None;
         for layer in 1..=options.layers_per_octave {
-            // A blur of the first octave takes as long as all the rest of a small image, and so do
-            // some hundred descriptors: cancellation is checked after each.
-            while octave.advance_towards(layer) {
-                tell(done)?;
-            }
+            let at = |part: f64| (done + share * part).min(1.0) as f32;
+            let blur = &mut Part::new(monitor, at(0.0), at(0.3)).of_stage(stage);
+            octave.advance_to(layer, blur)?;
             if layer == 1 {
-                next = octave.next_grid();
+                let halve = &mut Part::new(monitor, at(0.3), at(0.3)).of_stage(stage);
+                next = octave.next_grid(halve)?;
             }
-            let mut extrema = extrema::find(&octave, layer, options);
+            let search = &mut Part::new(monitor, at(0.3), at(0.5));
+            let mut extrema = extrema::find(&octave, layer, options, search)?;
             strongest.keep(&mut extrema);
             for (k, piece) in extrema.chunks(DESCRIBED_AT_ONCE).enumerate() {
-                tell(done + share * (k * DESCRIBED_AT_ONCE) as f64 / extrema.len() as f64)?;
+                let described = (k * DESCRIBED_AT_ONCE) as f64 / extrema.len() as f64;
+                progress::report(monitor, stage, at(0.5 + 0.5 * described))?;
                 let described = parallel::map_with(piece, Samples::default, |samples, extremum| {
                     describe(&octave, extremum, options, samples)
                 });
                 found.extend(described.into_iter().flatten());
             }
             done += share;
-            tell(done)?;
+            progress::report(monitor, stage, done.min(1.0) as f32)?;
         }
         share /= 4.0;
         memory = octave.into_memory();

@@ -2,8 +2,10 @@
 
 use super::options::SiftOptions;
 use super::scale_space::{MARGIN, Octave};
-use crate::math::parallel;
+use crate::Result;
 use crate::math::simd::dispatched;
+use crate::math::{monitored, parallel};
+use crate::progress::{Monitor, Stage};
 use nalgebra::{Matrix3, Vector3};
 
 /// Steps after which a search that still moves is given up.
@@ -22,16 +24,24 @@ pub(super) struct Extremum {
 }
 
 /// All extrema of one layer of differences, in reading order.
-pub(super) fn find(octave: &Octave, layer: usize, options: &SiftOptions) -> Vec<Extremum> {
+///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+pub(super) fn find(
+    octave: &Octave,
+    layer: usize,
+    options: &SiftOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Extremum>> {
     let height = octave.layer(layer).height() as usize;
     let rows = parallel::pieces(height.saturating_sub(2 * MARGIN), 32);
-    let found = parallel::map(&rows, |rows| {
+    let found = monitored::map(&rows, Stage::FeatureDetection, monitor, |rows| {
         find_in_rows(octave, layer, options, rows.clone())
-    });
+    })?;
     let mut extrema: Vec<Extremum> = found.into_iter().flatten().collect();
     // Two equal neighbors may both lead to one place.
     extrema.dedup();
-    extrema
+    Ok(extrema)
 }
 
 fn find_in_rows(

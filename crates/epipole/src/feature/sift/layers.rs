@@ -4,6 +4,8 @@ use super::options::{SiftOptions, check};
 use super::scale_space::{Octave, OctaveGrid};
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, from_vec, require_finite, sample_bilinear};
+use crate::math::monitored;
+use crate::progress::{Monitor, Part, Stage};
 
 /// An image blurred more and more, and the differences of neighboring blurs, in which
 /// [`detect_sift`](super::detect_sift) looks for extrema.
@@ -33,7 +35,8 @@ pub struct ScaleOctave {
 /// The scale space of an image.
 ///
 /// Difference k of an octave is `G(σₖ₊₁) ∗ I − G(σₖ) ∗ I`. Its extrema belong to the blur `σₖ`. An
-/// image smaller than about a dozen pixels has no octaves.
+/// image smaller than about a dozen pixels has no octaves. The one stage is
+/// [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// As [`detect_sift`](super::detect_sift).
@@ -44,29 +47,50 @@ pub struct ScaleOctave {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{SiftOptions, scale_space};
 /// use epipole::imaging::GrayImage32;
-/// let space = scale_space(&GrayImage32::new(64, 48), &SiftOptions::default())?;
+/// let space = scale_space(&GrayImage32::new(64, 48), &SiftOptions::default(), &mut ())?;
 /// let first = &space.octaves[0];
 /// assert_eq!((first.step_px, first.blurred.len(), first.differences.len()), (0.5, 6, 5));
 /// assert_eq!(first.blurred[0].dimensions(), (127, 95));
 /// assert!((first.sigmas_px[3] - 1.6).abs() < 1e-12);
 /// # Ok(()) }
 /// ```
-pub fn scale_space(image: &GrayImage32, options: &SiftOptions) -> Result<ScaleSpace> {
+pub fn scale_space(
+    image: &GrayImage32,
+    options: &SiftOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<ScaleSpace> {
     check(options)?;
     require_finite(image)?;
     let last = options.layers_per_octave + 2;
     let mut octaves = Vec::new();
-    let mut next = OctaveGrid::first(image, options);
+    let stage = Stage::FeatureDetection;
+    let mut next = OctaveGrid::first(
+        image,
+        options,
+        &mut Part::new(monitor, 0.0, 0.1).of_stage(stage),
+    )?;
+    // Each octave has a quarter of the previous one's samples.
+    let mut done = 0.1;
     while let Some(grid) = next {
+        let end = 1.0 - 0.25 * (1.0 - done);
         let mut octave = Octave::new(grid, Default::default(), options);
-        octave.advance_to(1);
-        next = octave.next_grid();
-        let mut blurred: Vec<GrayImage32> = (0..=3).map(|k| octave.layer(k).clone()).collect();
-        for k in 4..=last {
-            octave.advance_to(k - 2);
+        let at = |k: f32| done + (end - done) * k / (last + 1) as f32;
+        let part = &mut Part::new(monitor, done, done).of_stage(stage);
+        octave.advance_to(1, part)?;
+        next = octave.next_grid(part)?;
+        let mut blurred: Vec<GrayImage32> = Vec::new();
+        let mut differences = Vec::new();
+        for k in 0..=last {
+            let shares = [0.0, 0.7, 1.0].map(|part| at(k as f32 + part));
+            let blur = &mut Part::new(monitor, shares[0], shares[1]).of_stage(stage);
+            octave.advance_to(k.max(3) - 2, blur)?;
             blurred.push(octave.layer(k).clone());
+            if let [.., less, more] = blurred.as_slice() {
+                let part = &mut Part::new(monitor, shares[1], shares[2]);
+                differences.push(difference(more, less, part)?);
+            }
         }
-        blurred.truncate(last + 1);
+        done = end;
         let grid = octave.grid();
         octaves.push(ScaleOctave {
             octave: grid.octave,
@@ -75,21 +99,28 @@ pub fn scale_space(image: &GrayImage32, options: &SiftOptions) -> Result<ScaleSp
             sigmas_px: (0..=last)
                 .map(|k| octave.sigma_at(k as f64) * grid.step)
                 .collect(),
-            differences: blurred.windows(2).map(difference).collect(),
+            differences,
             blurred,
         });
     }
     Ok(ScaleSpace { octaves })
 }
 
-fn difference(pair: &[GrayImage32]) -> GrayImage32 {
-    let values = pair[1].as_raw().iter().zip(pair[0].as_raw());
-    let (width, height) = pair[0].dimensions();
-    from_vec(
-        width,
-        height,
-        values.map(|(more, less)| more - less).collect(),
-    )
+fn difference(
+    more: &GrayImage32,
+    less: &GrayImage32,
+    monitor: &mut dyn Monitor,
+) -> Result<GrayImage32> {
+    let (width, height) = less.dimensions();
+    let mut values = vec![0.0; less.as_raw().len()];
+    let stage = Stage::FeatureDetection;
+    monitored::for_each_chunk(&mut values, width as usize, stage, monitor, |from, row| {
+        let pairs = more.as_raw()[from..].iter().zip(&less.as_raw()[from..]);
+        for (value, (more, less)) in row.iter_mut().zip(pairs) {
+            *value = more - less;
+        }
+    })?;
+    Ok(from_vec(width, height, values))
 }
 
 impl ScaleSpace {
@@ -105,7 +136,7 @@ impl ScaleSpace {
     ///     let (x, y) = (u as f32 - 64.0, v as f32 - 64.0);
     ///     image::Luma([libm::expf(-(x * x + y * y) / 50.0)])
     /// });
-    /// let answers = scale_space(&blob, &SiftOptions::default())?.answers(64.0, 64.0);
+    /// let answers = scale_space(&blob, &SiftOptions::default(), &mut ())?.answers(64.0, 64.0);
     /// let least = answers.iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     /// assert!(least.0 > 4.0 && least.0 < 5.5 && least.1 < 0.0);
     /// # Ok(()) }
@@ -134,7 +165,7 @@ mod tests {
     fn features_are_extrema_of_the_answers() {
         let image = gray_to_f32(&fixture::gray8("sift_image.npy"));
         let options = SiftOptions::default();
-        let space = scale_space(&image, &options).unwrap();
+        let space = scale_space(&image, &options, &mut ()).unwrap();
         let found = detect_sift(&image, &options, &mut ()).unwrap();
         let mut count = 0;
         for keypoint in &found.keypoints {
@@ -163,7 +194,7 @@ mod tests {
                 layers_per_octave,
                 ..SiftOptions::default()
             };
-            let space = scale_space(&image, &options).unwrap();
+            let space = scale_space(&image, &options, &mut ()).unwrap();
             let sigmas: Vec<f64> = space.answers(3.0, 4.0).iter().map(|a| a.0).collect();
             let factor = libm::exp2(1.0 / layers_per_octave as f64);
             for pair in sigmas.windows(2) {
@@ -173,7 +204,7 @@ mod tests {
             assert_eq!(space.octaves[0].blurred.len(), layers_per_octave + 3);
         }
         assert!(
-            scale_space(&GrayImage32::new(4, 4), &SiftOptions::default())
+            scale_space(&GrayImage32::new(4, 4), &SiftOptions::default(), &mut ())
                 .unwrap()
                 .octaves
                 .is_empty()

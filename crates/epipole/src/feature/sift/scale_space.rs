@@ -8,8 +8,12 @@
 //! shift all keypoints by a quarter.
 
 use super::options::SiftOptions;
-use crate::imaging::separable::{filter_into, in_bands};
+use crate::Result;
+use crate::imaging::separable::{Sink, filter_into, in_bands};
 use crate::imaging::{Border, GrayImage32, from_vec, gaussian_kernel};
+use crate::math::monitored::Reporter;
+use crate::progress::{Monitor, Stage};
+use std::ops::Range;
 
 /// Samples along the edge of an octave in which no extremum is looked for.
 pub(super) const MARGIN: usize = 5;
@@ -31,14 +35,21 @@ pub(super) struct OctaveGrid {
 
 impl OctaveGrid {
     /// The first octave of an image, if it is large enough.
-    pub(super) fn first(image: &GrayImage32, options: &SiftOptions) -> Option<Self> {
+    ///
+    /// # Errors
+    /// [`Error::Canceled`](crate::Error::Canceled).
+    pub(super) fn first(
+        image: &GrayImage32,
+        options: &SiftOptions,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Option<Self>> {
         if image.width().min(image.height()) < 2 {
-            return None;
+            return Ok(None);
         }
         let blur_to = |from: f64| (options.sigma_px * options.sigma_px - from * from).sqrt();
         let (unblurred, blur, step, octave);
         if options.upsample {
-            unblurred = doubled(image);
+            unblurred = doubled(image, monitor)?;
             blur = blur_to(2.0 * options.input_blur_px);
             (step, octave) = (0.5, -1);
         } else {
@@ -49,7 +60,7 @@ impl OctaveGrid {
         let mut base = GrayImage32::default();
         // The assumed blur may be all the blur that is wanted.
         if blur > 0.01 {
-            blurred(&unblurred, blur, &mut base);
+            blurred(&unblurred, blur, &mut base, monitor)?;
         } else {
             base = unblurred;
         }
@@ -60,7 +71,7 @@ impl OctaveGrid {
             origin_v: 0.0,
             octave,
         };
-        grid.large_enough()
+        Ok(grid.large_enough())
     }
 
     fn large_enough(self) -> Option<Self> {
@@ -112,27 +123,20 @@ impl Octave {
     }
 
     /// Makes the layers that extrema of `layer` need: up to `layer + 2`.
-    pub(super) fn advance_to(&mut self, layer: usize) {
-        while self.advance_towards(layer) {}
-    }
-
-    /// Makes one of the layers that extrema of `layer` still need; false where none was left to
-    /// make.
-    pub(super) fn advance_towards(&mut self, layer: usize) -> bool {
-        if self.newest == layer + 2 {
-            return false;
+    ///
+    /// # Errors
+    /// [`Error::Canceled`](crate::Error::Canceled).
+    pub(super) fn advance_to(&mut self, layer: usize, monitor: &mut dyn Monitor) -> Result<()> {
+        while self.newest < layer + 2 {
+            let from = self.newest % 4;
+            let to = (self.newest + 1) % 4;
+            let mut target = std::mem::take(&mut self.layers[to]);
+            let blur = self.increments[self.newest];
+            blurred(&self.layers[from], blur, &mut target, monitor)?;
+            self.layers[to] = target;
+            self.newest += 1;
         }
-        let from = self.newest % 4;
-        let to = (self.newest + 1) % 4;
-        let mut target = std::mem::take(&mut self.layers[to]);
-        blurred(
-            &self.layers[from],
-            self.increments[self.newest],
-            &mut target,
-        );
-        self.layers[to] = target;
-        self.newest += 1;
-        true
+        Ok(())
     }
 
     /// A layer among the last four.
@@ -147,7 +151,10 @@ impl Octave {
     }
 
     /// The next octave, from the layer with twice the first one's blur.
-    pub(super) fn next_grid(&self) -> Option<OctaveGrid> {
+    ///
+    /// # Errors
+    /// [`Error::Canceled`](crate::Error::Canceled).
+    pub(super) fn next_grid(&self, monitor: &mut dyn Monitor) -> Result<Option<OctaveGrid>> {
         let n = self.layers_per_octave;
         // With more layers than the window holds it is made now and once more later.
         let mut further = GrayImage32::default();
@@ -158,7 +165,7 @@ impl Octave {
             } else {
                 &further
             };
-            blurred(from, self.increments[k], &mut target);
+            blurred(from, self.increments[k], &mut target, monitor)?;
             further = target;
         }
         let source = if n <= self.newest {
@@ -167,29 +174,36 @@ impl Octave {
             &further
         };
         let shift = |size: u32| if size % 2 == 1 { 0.0 } else { 0.5 };
-        OctaveGrid {
+        let next = OctaveGrid {
             step: 2.0 * self.grid.step,
             origin_u: self.grid.origin_u + shift(source.width()) * self.grid.step,
             origin_v: self.grid.origin_v + shift(source.height()) * self.grid.step,
             octave: self.grid.octave + 1,
-            base: halved(source),
-        }
-        .large_enough()
+            base: halved(source, monitor)?,
+        };
+        Ok(next.large_enough())
     }
 }
 
 /// Blurs into an image whose memory is used again.
-fn blurred(image: &GrayImage32, sigma: f64, target: &mut GrayImage32) {
+fn blurred(
+    image: &GrayImage32,
+    sigma: f64,
+    target: &mut GrayImage32,
+    monitor: &mut dyn Monitor,
+) -> Result<()> {
     let radius = (4.0 * sigma).ceil() as usize;
     let kernel = gaussian_kernel(sigma, 2 * radius + 1).expect("the blur is positive and small");
-    filter_into(image, [(&kernel, &kernel)], Border::Reflect101, [target]);
+    let kernels = [(&*kernel, &*kernel)];
+    filter_into(image, kernels, Border::Reflect101, [target], monitor)
 }
 
 /// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.
-fn doubled(image: &GrayImage32) -> GrayImage32 {
+fn doubled(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
     let source = |v: usize| &image.as_raw()[v * w..(v + 1) * w];
-    row_by_row(2 * w - 1, 2 * h - 1, w, |y, between, out| {
+    let size = [2 * w - 1, 2 * h - 1];
+    row_by_row(size, w, monitor, |y, between, out| {
         let from = if y % 2 == 0 {
             source(y / 2)
         } else {
@@ -207,12 +221,13 @@ fn doubled(image: &GrayImage32) -> GrayImage32 {
 }
 
 /// Half as many samples along each axis, symmetrically.
-fn halved(image: &GrayImage32) -> GrayImage32 {
+fn halved(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
     // The cubic through four samples, half way between the middle two.
     let middle = |a: f32, b: f32, c: f32, d: f32| 0.5625 * (b + c) - 0.0625 * (a + d);
     let at = |k: isize, size: usize| k.clamp(0, size as isize - 1) as usize;
-    row_by_row(w.div_ceil(2), h.div_ceil(2), w, |y, row, out| {
+    let size = [w.div_ceil(2), h.div_ceil(2)];
+    row_by_row(size, w, monitor, |y, row, out| {
         let source = |k: isize| {
             let v = at(2 * y as isize + k, h);
             &image.as_raw()[v * w..(v + 1) * w]
@@ -239,16 +254,20 @@ fn halved(image: &GrayImage32) -> GrayImage32 {
 /// An image whose rows are made by `fill(y, memory, row)`, each from its number alone; `memory`
 /// holds `memory_len` numbers that other rows left.
 fn row_by_row(
-    width: usize,
-    height: usize,
+    [width, height]: [usize; 2],
     memory_len: usize,
+    monitor: &mut dyn Monitor,
     fill: impl Fn(usize, &mut [f32], &mut [f32]) + Sync,
-) -> GrayImage32 {
-    let [values] = in_bands([Vec::new()], width, height, |rows, sink| {
+) -> Result<GrayImage32> {
+    let work = |rows: Range<usize>, sink: Sink<1>, reporter: &mut Reporter| {
         let mut memory = vec![0.0; memory_len];
-        for y in rows {
+        for y in rows.clone() {
+            reporter.report(y - rows.start, rows.len())?;
             sink(&mut |[mut row]| fill(y, &mut memory, row.columns(0..width)));
         }
-    });
-    from_vec(width as u32, height as u32, values)
+        Ok(())
+    };
+    let stage = Stage::FeatureDetection;
+    let [values] = in_bands([Vec::new()], width, height, stage, monitor, work)?;
+    Ok(from_vec(width as u32, height as u32, values))
 }

@@ -346,7 +346,7 @@ fn keypoints_and_descriptors_survive_rotation() {
             interpolation: Interpolation::Bicubic,
             ..WarpOptions::new(image.width(), image.height())
         };
-        let there = detect(&warp_affine(&image, &map, &warp).unwrap());
+        let there = detect(&warp_affine(&image, &map, &warp, &mut ()).unwrap());
         let moved: Vec<Keypoint> = here
             .keypoints
             .iter()

@@ -4,6 +4,7 @@ use super::checks::checked_index;
 use super::rect::PixelRect;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics};
+use crate::progress::Monitor;
 use crate::stereo::PixelMap;
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3};
 
@@ -68,15 +69,18 @@ impl Rectification {
         Ok(camera.project(&ray.into()).ok())
     }
 
-    /// The map that redraws photograph 0 or 1.
+    /// The map that redraws photograph 0 or 1. The one stage is
+    /// [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
-    pub fn map(&self, index: usize) -> Result<PixelMap> {
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1,
+    /// [`Error::Canceled`](crate::Error::Canceled).
+    pub fn map(&self, index: usize, monitor: &mut dyn Monitor) -> Result<PixelMap> {
         checked_index(index)?;
-        Ok(PixelMap::from_fn(self.width, self.height, |u, v| {
+        let source = |u, v| {
             let rectified = Point2::new(f64::from(u), f64::from(v));
             self.source_pixel(index, &rectified).ok().flatten()
-        }))
+        };
+        PixelMap::from_fn(self.width, self.height, source, monitor)
     }
 }

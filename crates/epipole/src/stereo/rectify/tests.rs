@@ -324,7 +324,7 @@ fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
     let mut options = RectifyOptions::default();
     let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, &options).unwrap();
     for i in 0..2 {
-        let mask = tight.map(i).unwrap().mask(752, 480);
+        let mask = tight.map(i, &mut ()).unwrap().mask(752, 480);
         assert!(mask.as_raw().iter().all(|&m| m == 255));
         let valid = tight.valid[i];
         assert_eq!((valid.u_min, valid.v_min), (0.0, 0.0));
@@ -343,7 +343,13 @@ fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
             let p = wide.rectify_pixel(i, &Point2::new(u, v)).unwrap();
             assert!(p.x > -1e-6 && p.y > -1e-6 && p.x < 751.000001 && p.y < 479.000001);
         }
-        assert!(wide.map(i).unwrap().mask(752, 480).as_raw().contains(&0));
+        assert!(
+            wide.map(i, &mut ())
+                .unwrap()
+                .mask(752, 480)
+                .as_raw()
+                .contains(&0)
+        );
     }
     assert!(wide.intrinsics[0].fu_px() < tight.intrinsics[0].fu_px());
 }
@@ -378,7 +384,7 @@ fn hopeless_rigs_are_refused() {
         assert!(rig(side, 752, 480, &RectifyOptions { alpha, ..options }).is_err());
     }
     let good = rig(side, 752, 480, &options).unwrap();
-    assert!(good.map(2).is_err());
+    assert!(good.map(2, &mut ()).is_err());
     assert!(good.rectify_pixel(2, &Point2::new(0.0, 0.0)).is_err());
     assert!(q_from_rig(0.0, 1.0, 0.0, 0.0).is_err());
     assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
