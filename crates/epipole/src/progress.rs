@@ -29,8 +29,6 @@ pub enum Stage {
     Refinement,
     /// Photos are blended into one picture.
     Blending,
-    /// Distortion is removed from photos.
-    Undistortion,
     /// Depths and normals of pixels are found by comparing many views.
     DepthEstimation,
     /// Depth maps are joined to one cloud.
@@ -65,7 +63,6 @@ impl Stage {
             Self::Calibration => "fitting the lens",
             Self::Refinement => "refining",
             Self::Blending => "blending",
-            Self::Undistortion => "removing distortion",
             Self::DepthEstimation => "estimating depths",
             Self::Fusion => "fusing depth maps",
             Self::Filtering => "filtering",

@@ -4,14 +4,11 @@ use super::consistency::{Agreement, agreements, num_needed};
 use super::depth_map::DepthMap;
 use super::options::MvsOptions;
 use super::views::{MvsView, check_views};
-use crate::math::parallel;
-use crate::progress::{Monitor, Stage, report};
+use crate::math::monitored;
+use crate::progress::{Monitor, Part, Stage};
 use crate::stereo::PointCloud;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
-
-/// Number of rows between two reports.
-const ROWS: usize = 64;
 
 /// Joins depth maps to one cloud with normals, colors, and confidences, which are numbers of
 /// photos.
@@ -50,23 +47,22 @@ pub fn fuse_depth_maps(
             agreements: agreements(views, maps, photo, options),
             needed: num_needed(options, views[photo].neighbors.len()),
         };
-        let height = maps[photo].depth.height() as usize;
-        for first in (0..height).step_by(ROWS) {
-            let share = (photo as f32 + first as f32 / height as f32) / views.len() as f32;
-            report(monitor, Stage::Fusion, share)?;
-            let rows: Vec<usize> = (first..(first + ROWS).min(height)).collect();
-            // Only other photos use pixels of this one, so that rows are independent.
-            let used = &is_used[photo];
-            let found = parallel::map(&rows, |&row| fusion.row(row, used));
-            for fused in found.into_iter().flatten() {
-                for (neighbor, pixel) in fused.members {
-                    is_used[neighbor][pixel] = true;
-                }
-                cloud.points.push(fused.point);
-                cloud.normals.push(fused.normal);
-                cloud.colors.push(fused.color);
-                cloud.confidences.push(fused.confidence);
+        let rows: Vec<usize> = (0..maps[photo].depth.height() as usize).collect();
+        let [from, to] = [photo, photo + 1].map(|photo| photo as f32 / views.len() as f32);
+        let mut part = Part::new(monitor, from, to);
+        // Only other photos use pixels of this one, so that rows are independent.
+        let used = &is_used[photo];
+        let found = monitored::map(&rows, Stage::Fusion, &mut part, |&row| {
+            fusion.row(row, used)
+        })?;
+        for fused in found.into_iter().flatten() {
+            for (neighbor, pixel) in fused.members {
+                is_used[neighbor][pixel] = true;
             }
+            cloud.points.push(fused.point);
+            cloud.normals.push(fused.normal);
+            cloud.colors.push(fused.color);
+            cloud.confidences.push(fused.confidence);
         }
     }
     Ok(cloud)

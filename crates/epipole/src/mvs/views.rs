@@ -5,7 +5,7 @@ use super::neighbors::{choose_neighbors, depth_range};
 use super::options::MvsOptions;
 use crate::calibration::{Keep, Undistortion};
 use crate::camera::{Camera, PosedCamera};
-use crate::progress::{Monitor, Stage, report};
+use crate::progress::{Monitor, Part, Stage, report};
 use crate::sfm::Reconstruction;
 use crate::{Error, Result};
 use image::RgbImage;
@@ -31,7 +31,7 @@ pub struct MvsView {
 ///
 /// * `photos`: one for each image of the reconstruction, of the size of its camera; those of images
 ///   without a camera are not used
-/// * `monitor`: the one stage is [`Stage::Undistortion`]
+/// * `monitor`: the one stage is [`Stage::Warping`]
 ///
 /// Photos that share no points with another under a sufficient angle are left out.
 ///
@@ -62,15 +62,18 @@ pub fn prepare_views(
     let mut undistortion = None;
     let mut views = Vec::new();
     for (index, &(photo, depth_range)) in chosen.iter().enumerate() {
-        report(
-            monitor,
-            Stage::Undistortion,
-            index as f32 / chosen.len() as f32,
-        )?;
+        let [from, to] = [index, index + 1].map(|index| index as f32 / chosen.len() as f32);
+        let mut part = Part::new(monitor, from, to).of_stage(Stage::Warping);
         let Some(posed) = &reconstruction.cameras[photo] else {
             continue;
         };
-        let (camera, image) = prepare(&posed.camera, &photos[photo], options, &mut undistortion)?;
+        let (camera, image) = prepare(
+            &posed.camera,
+            &photos[photo],
+            options,
+            &mut undistortion,
+            &mut part,
+        )?;
         views.push(MvsView {
             photo,
             camera: PosedCamera {
@@ -149,9 +152,11 @@ fn prepare(
     photo: &RgbImage,
     options: &MvsOptions,
     last: &mut Option<(Camera, Undistortion)>,
+    monitor: &mut dyn Monitor,
 ) -> Result<(Camera, RgbImage)> {
     let size = (camera.width, camera.height);
     let longer = size.0.max(size.1);
+    report(monitor, Stage::Warping, 0.0)?;
     let scaled = |side: u32| {
         let scaled = u64::from(side) * u64::from(options.max_size_px) / u64::from(longer.max(1));
         (scaled as u32).max(1)
@@ -177,9 +182,9 @@ fn prepare(
     }
     let flat = match last.take() {
         Some((of, flat)) if of == camera => flat,
-        _ => Undistortion::new(&camera, Keep::Valid)?,
+        _ => Undistortion::new(&camera, Keep::Valid, &mut Part::new(monitor, 0.0, 0.5))?,
     };
-    let undistorted = flat.map.warp(&image);
+    let undistorted = (flat.map).warp(&image, &mut Part::new(monitor, 0.5, 1.0))?;
     let pinhole = Camera::pinhole(flat.intrinsics, camera.width, camera.height);
     *last = Some((camera, flat));
     Ok((pinhole, undistorted))

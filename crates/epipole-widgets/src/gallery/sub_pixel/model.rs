@@ -75,7 +75,7 @@ impl SubPixel {
                 .with_half_window(self.half())
                 .with_max_iterations(step)
                 .with_tolerance_px(STAYS_PX);
-            let found = refine_corners(&image, &[start], &options);
+            let found = refine_corners(&image, &[start], &options, &mut ());
             let Some(corner) = found
                 .ok()
                 .and_then(|found| found.first().copied().flatten())
