@@ -39,8 +39,8 @@ pub struct ReadGraph {
 /// # Errors
 /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus values,
 /// values that are not finite, vertices that are there twice or not at all or of the other kind,
-/// offsets that are not there, and information matrices that are not positive semi-definite; [`Error::Invalid`] without
-/// vertices.
+/// offsets that are not there, and information matrices that are not positive semi-definite;
+/// [`Error::Invalid`] without vertices.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {

@@ -103,8 +103,8 @@ pub(super) fn read(
 
 impl Model {
     /// COLMAP's binary model: `cameras.bin`, `images.bin`, `points3D.bin`, and `rigs.bin` with
-    /// `frames.bin`, with the cameras and IDs of [`to_colmap_text`](Self::to_colmap_text). Names may hold blanks; a byte 0 in them
-    /// becomes `_`.
+    /// `frames.bin`, with the cameras and IDs of [`to_colmap_text`](Self::to_colmap_text). Names
+    /// may hold blanks; a byte 0 in them becomes `_`.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.

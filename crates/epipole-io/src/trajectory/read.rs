@@ -18,9 +18,9 @@ const W_FIRST: &str = "no line names the columns: quaternions are taken to be w,
 /// Columns are those that a first line or a comment names. Without names, twelve numbers a line are
 /// KITTI's; eight values and more are EuRoC's if commas separate them and times are nanoseconds,
 /// else eight are TUM's: the order of the quaternion follows from that. Eight values between commas
-/// with nanoseconds may be either: [`Trajectory::notes`] say what was taken. Times are nanoseconds where
-/// seconds were 30,000 years, or a day apart. Quaternions are normalized, matrices replaced by the
-/// nearest rotation.
+/// with nanoseconds may be either: [`Trajectory::notes`] say what was taken. Times are nanoseconds
+/// where seconds were 30,000 years, or a day apart. Quaternions are normalized, matrices replaced
+/// by the nearest rotation.
 ///
 /// # Errors
 /// [`Error::Malformed`] for another file, and with the line for wrong numbers, zero quaternions,

@@ -472,7 +472,7 @@ class Rig:
         """Index of each camera and its ``cam_from_rig``, a list of tuple."""
     @property
     def frames(self) -> list[tuple[int, RigidTransform, list[int]]]:
-        """Number of each frame, its ``rig_from_world``, and the indices of its images, a list of tuple."""
+        """Number of each frame, its ``rig_from_world``, the indices of its images, a list of tuple."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 

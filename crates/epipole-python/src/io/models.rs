@@ -161,7 +161,7 @@ impl Rig {
             .collect()
     }
 
-    /// Number of each frame, its ``rig_from_world``, and the indices of its images, a list of tuple.
+    /// Number of each frame, its ``rig_from_world``, the indices of its images, a list of tuple.
     #[getter]
     fn frames(&self) -> Vec<(u32, RigidTransform, Vec<usize>)> {
         let frames = self.0.frames.iter();
