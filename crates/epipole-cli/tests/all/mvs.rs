@@ -64,6 +64,7 @@ fn model(photos: &[Photograph]) -> Model {
             }
         }
         model.points.push(ModelPoint {
+            id: model.points.len() as u64 + 1,
             position,
             color: [128; 3],
             error_px: None,
@@ -97,10 +98,10 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     assert_eq!(result["num_depth_maps"], COUNT);
     assert!(result["density"].as_f64().unwrap() > 0.4, "{result}");
     assert!(result["mean_views"].as_f64().unwrap() >= 3.0);
-    let (cloud, num_lost) = read_ply(&std::fs::read(out.join("fused.ply")).unwrap()).unwrap();
+    let (cloud, notes) = read_ply(&std::fs::read(out.join("fused.ply")).unwrap()).unwrap();
     assert_eq!(
-        (cloud.points.len() as u64, num_lost),
-        (result["num_points"].as_u64().unwrap(), 0)
+        (cloud.points.len() as u64, notes),
+        (result["num_points"].as_u64().unwrap(), vec![])
     );
     assert_eq!(cloud.normals.len(), cloud.points.len());
     assert_eq!(cloud.confidences.len(), cloud.points.len());
