@@ -460,11 +460,15 @@ class Undistortion:
     camera : Camera
     keep : {"valid", "all"}, optional
         Only the area that was photographed everywhere, or all with black borders.
+    progress : callable, optional
+        Called with the stage and the completed share.
     """
     def __new__(
         cls,
         camera: Camera,
         keep: Literal["valid", "all"] | None = None,
+        *,
+        progress: Callable[[str, float], object] | None = None,
     ) -> Undistortion: ...
     @property
     def camera(self) -> Camera:
@@ -552,6 +556,8 @@ def photograph_of_board(
     cam_from_board: RigidTransform,
     noise: float = 0.0,
     seed: int = 0,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
     """Photo of a board, with exact truth.
 
@@ -564,6 +570,8 @@ def photograph_of_board(
     noise : float, optional
         Standard deviation of the gray values.
     seed : int, optional
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------

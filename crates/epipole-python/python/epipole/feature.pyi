@@ -557,6 +557,8 @@ def detect_orb(
 def describe_sift(
     image: ArrayLike,
     keypoints: Keypoints | ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> NDArray[np.float32]:
     """SIFT descriptors at given places, scales and directions.
@@ -567,6 +569,8 @@ def describe_sift(
         Gray, uint8 or float in [0, 1].
     keypoints : Keypoints or array_like, shape (N, 2)
         Points alone have a scale of 1 pixel and the direction 0.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : SiftOptions
         Those of `detect_sift`.
 
@@ -577,6 +581,8 @@ def describe_sift(
 def sift_directions(
     image: ArrayLike,
     keypoints: Keypoints | ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> list[NDArray[np.float32]]:
     """Dominant gradient directions around given places.
@@ -587,6 +593,8 @@ def sift_directions(
         Gray, uint8 or float in [0, 1].
     keypoints : Keypoints or array_like, shape (N, 2)
         Points alone have a scale of 1 pixel.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : SiftOptions
         Those of `detect_sift`.
 
@@ -600,6 +608,8 @@ def describe_patches(
     keypoints: Keypoints | ArrayLike,
     size: int,
     spacing_px: float = 1.0,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
     """Gray values in a square around each keypoint, less their mean, scaled to unit length.
 
@@ -612,19 +622,28 @@ def describe_patches(
         Samples along a side, 2 to 64.
     spacing_px : float, optional
         Distance between samples, pixels, > 0.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
     ndarray of float32, shape (N, size**2)
         Inner products are normalized cross-correlations.
     """
-def scale_space(image: ArrayLike, **options: Unpack[option_types.SiftOptions]) -> ScaleSpace:
+def scale_space(
+    image: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.SiftOptions],
+) -> ScaleSpace:
     """Scale space of an image.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : SiftOptions
         Those of `detect_sift`.
 
@@ -636,6 +655,8 @@ def scale_space(image: ArrayLike, **options: Unpack[option_types.SiftOptions]) -
 def harris_response(
     image: ArrayLike,
     k: float,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> NDArray[np.float32]:
     """Harris response at each pixel: ``det M - k * trace(M)**2`` of the structure tensor M.
@@ -646,6 +667,8 @@ def harris_response(
         Gray; uint8 counts as value / 255.
     k : float
         In [0, 0.25), usually 0.04 to 0.06.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : StructureTensorOptions
         Those of `structure_tensor`.
 
@@ -656,6 +679,8 @@ def harris_response(
     """
 def min_eigenvalue_response(
     image: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> NDArray[np.float32]:
     """Smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
@@ -664,6 +689,8 @@ def min_eigenvalue_response(
     ----------
     image : array_like, shape (H, W)
         Gray; uint8 counts as value / 255.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : StructureTensorOptions
         Those of `structure_tensor`.
 
@@ -693,7 +720,13 @@ def good_features_to_track(
     -------
     Keypoints
     """
-def non_maximum_suppression(response: ArrayLike, radius: int, threshold: float) -> Keypoints:
+def non_maximum_suppression(
+    response: ArrayLike,
+    radius: int,
+    threshold: float,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+) -> Keypoints:
     """Local maxima of a response, strongest first.
 
     Parameters
@@ -703,6 +736,8 @@ def non_maximum_suppression(response: ArrayLike, radius: int, threshold: float) 
         Pixels, >= 1: the window is ``2 * radius + 1`` wide.
     threshold : float
         Smaller responses are left out.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -711,6 +746,8 @@ def non_maximum_suppression(response: ArrayLike, radius: int, threshold: float) 
 def refine_corners(
     image: ArrayLike,
     corners: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RefineOptions],
 ) -> NDArray[np.float64]:
     """Corners located between pixels: gradients around are perpendicular to the directions there.
@@ -721,6 +758,8 @@ def refine_corners(
         Gray.
     corners : array_like, shape (N, 2)
         Pixels.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : RefineOptions
         ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
 
@@ -731,6 +770,8 @@ def refine_corners(
     """
 def structure_tensor(
     image: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> StructureTensor:
     """Structure tensor of an image.
@@ -739,6 +780,8 @@ def structure_tensor(
     ----------
     image : array_like, shape (H, W)
         Gray; uint8 counts as value / 255.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : StructureTensorOptions
         ``derivative``: ``"sobel3"``, ``"sobel5"`` or ``"scharr"``; ``window``: ``{"box": 3}`` or
         ``{"gaussian": 1.5}``, pixels; ``scaling``: ``"textbook"`` or ``"open_cv"``; ``border``.
@@ -846,6 +889,8 @@ def track_lucas_kanade(
     first: ArrayLike,
     second: ArrayLike,
     points: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.TrackOptions],
 ) -> Tracks:
     """Points tracked from one image to the next (Lucas and Kanade, on a pyramid).
@@ -856,6 +901,8 @@ def track_lucas_kanade(
         Gray, uint8 or float in [0, 1].
     points : array_like, shape (N, 2)
         Pixels of the first image.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : TrackOptions
         ``half_window``, pixels; ``num_levels``; ``max_iterations``; ``tolerance_px``;
         ``min_eigenvalue``; ``max_forward_backward_px``, or None for no check.

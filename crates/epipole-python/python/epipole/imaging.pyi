@@ -1,6 +1,6 @@
 # Written by stubs.py. Do not edit.
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar, final
 
 import numpy as np
@@ -151,6 +151,8 @@ def correlate(
     image: ArrayLike,
     kernel: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
     """Image correlated with a kernel, which is not flipped.
 
@@ -162,6 +164,8 @@ def correlate(
         Weights, with odd sides.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -172,6 +176,8 @@ def separable_filter(
     kernel_u: ArrayLike,
     kernel_v: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
     """Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
 
@@ -183,6 +189,8 @@ def separable_filter(
         Weights along the rows and along the columns, odd numbers of them.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -237,6 +245,8 @@ def gaussian_blur(
     image: ArrayLike,
     sigma_px: float,
     border: str | Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[Any]:
     """Image blurred by a Gaussian, cut off at about 4 sigma.
 
@@ -248,6 +258,8 @@ def gaussian_blur(
         Standard deviation, pixels, in (0, 1000].
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -258,6 +270,8 @@ def box_filter(
     image: ArrayLike,
     size: int,
     border: str | Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[Any]:
     """Mean of the ``size x size`` window around each pixel.
 
@@ -269,6 +283,8 @@ def box_filter(
         Odd number of pixels, at most 1001.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -330,6 +346,8 @@ def gaussian_derivative(
     image: ArrayLike,
     sigma_px: float,
     border: str | Mapping[str, Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> Gradient:
     """Gradient of the image blurred by a Gaussian, slopes per pixel.
 
@@ -341,6 +359,8 @@ def gaussian_derivative(
         Standard deviation of the Gaussian, pixels, in (0, 1000].
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
@@ -506,6 +526,8 @@ def sample_bicubic(
 def warp_affine(
     image: ArrayLike,
     out_from_image: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.WarpOptions],
 ) -> NDArray[Any]:
     """Image moved by an affine map, as OpenCV's `warpAffine`.
@@ -515,6 +537,8 @@ def warp_affine(
     image : array_like, shape (H, W) or (H, W, 3)
     out_from_image : array_like, shape (2, 3)
         Pixels of the image to pixels of the result.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : WarpOptions
         ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
         ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
@@ -527,6 +551,8 @@ def warp_affine(
 def warp_perspective(
     image: ArrayLike,
     out_from_image: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.WarpOptions],
 ) -> NDArray[Any]:
     """Image moved by a homography, as OpenCV's `warpPerspective`.
@@ -536,6 +562,8 @@ def warp_perspective(
     image : array_like, shape (H, W) or (H, W, 3)
     out_from_image : array_like, shape (3, 3)
         Pixels of the image to pixels of the result, up to scale.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : WarpOptions
         ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
         ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.

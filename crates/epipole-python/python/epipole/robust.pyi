@@ -613,6 +613,8 @@ def least_median(
     fit: Callable[..., Any],
     errors: Callable[..., Any],
     refine: Callable[..., Any] | None = None,
+    *,
+    progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.LeastMedianOptions],
 ) -> LeastMedian[Any]:
     """Model of your own with the least median of squared errors; needs no threshold.
@@ -629,6 +631,8 @@ def least_median(
         ``errors(model)`` returns the errors of all data, shape (num_data,).
     refine : callable, optional
         ``refine(model, indices)`` returns a better model from the inliers, or None.
+    progress : callable, optional
+        Called with the stage and the completed share.
     **options : LeastMedianOptions
         ``num_samples=500``, ``seed=0``.
 

@@ -187,7 +187,13 @@ class PixelMap:
         """Places in the source, float32 of shape (H, W, 2); NaN for none."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
-    def from_homography(width: int, height: int, out_from_source: ArrayLike) -> PixelMap:
+    def from_homography(
+        width: int,
+        height: int,
+        out_from_source: ArrayLike,
+        *,
+        progress: Callable[[str, float], object] | None = None,
+    ) -> PixelMap:
         """Map of a homography.
 
         Parameters
@@ -196,6 +202,8 @@ class PixelMap:
             Size of the result, pixels.
         out_from_source : array_like, shape (3, 3)
             Pixels of the source to pixels of the result, up to scale.
+        progress : callable, optional
+            Called with the stage and the completed share.
         """
     def source(self, u: int, v: int) -> NDArray[np.float64] | None:
         """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
@@ -205,12 +213,19 @@ class PixelMap:
         u, v : int
             Column and row of the result.
         """
-    def warp(self, source: ArrayLike) -> NDArray[Any]:
+    def warp(
+        self,
+        source: ArrayLike,
+        *,
+        progress: Callable[[str, float], object] | None = None,
+    ) -> NDArray[Any]:
         """Redrawn image, bilinear, 0 where nothing is read.
 
         Parameters
         ----------
         source : array_like, shape (h, w) or (h, w, 3)
+        progress : callable, optional
+            Called with the stage and the completed share.
 
         Returns
         -------
@@ -360,13 +375,20 @@ class Rectification:
             Rows of NaN for pixels that the camera cannot see; a single one raises
             `DegenerateError`.
         """
-    def map(self, index: int) -> PixelMap:
+    def map(
+        self,
+        index: int,
+        *,
+        progress: Callable[[str, float], object] | None = None,
+    ) -> PixelMap:
         """Map that redraws photo 0 or 1.
 
         Parameters
         ----------
         index : int
             0 for the first camera, 1 for the second.
+        progress : callable, optional
+            Called with the stage and the completed share.
         """
     def disparity_of(self, place: ArrayLike) -> NDArray[np.float64]:
         """Pixels of the first rectified image that show points, and their disparities.
@@ -407,12 +429,16 @@ class RectifiedPair:
     rig : Rectification
     photograph1, photograph2 : array_like, shape (H, W, 3)
         uint8, of the sizes of the rig's cameras.
+    progress : callable, optional
+        Called with the stage and the completed share.
     """
     def __new__(
         cls,
         rig: Rectification,
         photograph1: ArrayLike,
         photograph2: ArrayLike,
+        *,
+        progress: Callable[[str, float], object] | None = None,
     ) -> RectifiedPair: ...
     @property
     def rig(self) -> Rectification:
@@ -456,13 +482,20 @@ class RectifiedPair:
         ndarray of float32, shape (h, w)
             Pixels; NaN where unknown.
         """
-    def filled(self, disparity: ArrayLike) -> NDArray[np.float32]:
+    def filled(
+        self,
+        disparity: ArrayLike,
+        *,
+        progress: Callable[[str, float], object] | None = None,
+    ) -> NDArray[np.float32]:
         """Disparities of every pixel that the first photo fills, as `fill_gaps`.
 
         Parameters
         ----------
         disparity : array_like of float, shape (h, w)
             Pixels; NaN where unknown.
+        progress : callable, optional
+            Called with the stage and the completed share.
 
         Returns
         -------
@@ -586,6 +619,8 @@ def remove_speckles(
     disparity: ArrayLike,
     min_size: int,
     range_px: float,
+    *,
+    progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
     """Disparities without small connected sets.
 
@@ -597,12 +632,19 @@ def remove_speckles(
         Sets of fewer pixels are removed.
     range_px : float
         Neighbors are connected if they differ by at most this, pixels, >= 0.
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------
     ndarray of float32, shape (H, W)
     """
-def fill_gaps(disparity: ArrayLike, left: ArrayLike) -> NDArray[np.float32]:
+def fill_gaps(
+    disparity: ArrayLike,
+    left: ArrayLike,
+    *,
+    progress: Callable[[str, float], object] | None = None,
+) -> NDArray[np.float32]:
     """Disparities of every pixel: gaps take those of the background beside them.
 
     Parameters
@@ -611,6 +653,8 @@ def fill_gaps(disparity: ArrayLike, left: ArrayLike) -> NDArray[np.float32]:
         Pixels; NaN where unknown.
     left : array_like, shape (H, W)
         Gray image that the disparities belong to, uint8 or float in [0, 1].
+    progress : callable, optional
+        Called with the stage and the completed share.
 
     Returns
     -------

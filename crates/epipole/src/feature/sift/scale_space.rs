@@ -12,7 +12,7 @@ use crate::Result;
 use crate::imaging::separable::{Sink, filter_into, in_bands};
 use crate::imaging::{Border, GrayImage32, from_vec, gaussian_kernel};
 use crate::math::monitored::Reporter;
-use crate::progress::{Monitor, Stage};
+use crate::progress::{Monitor, Part, Stage};
 use std::ops::Range;
 
 /// Samples along the edge of an octave in which no extremum is looked for.
@@ -49,7 +49,7 @@ impl OctaveGrid {
         let blur_to = |from: f64| (options.sigma_px * options.sigma_px - from * from).sqrt();
         let (unblurred, blur, step, octave);
         if options.upsample {
-            unblurred = doubled(image, monitor)?;
+            unblurred = doubled(image, &mut Part::new(monitor, 0.0, 0.5))?;
             blur = blur_to(2.0 * options.input_blur_px);
             (step, octave) = (0.5, -1);
         } else {
@@ -60,7 +60,8 @@ impl OctaveGrid {
         let mut base = GrayImage32::default();
         // The assumed blur may be all the blur that is wanted.
         if blur > 0.01 {
-            blurred(&unblurred, blur, &mut base, monitor)?;
+            let part = &mut Part::new(monitor, 0.5, 1.0);
+            blurred(&unblurred, blur, &mut base, part)?;
         } else {
             base = unblurred;
         }
@@ -127,12 +128,15 @@ impl Octave {
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
     pub(super) fn advance_to(&mut self, layer: usize, monitor: &mut dyn Monitor) -> Result<()> {
-        while self.newest < layer + 2 {
+        let count = (layer + 2).saturating_sub(self.newest);
+        for k in 0..count {
+            let [start, end] = [k, k + 1].map(|k| k as f32 / count as f32);
+            let part = &mut Part::new(monitor, start, end);
             let from = self.newest % 4;
             let to = (self.newest + 1) % 4;
             let mut target = std::mem::take(&mut self.layers[to]);
             let blur = self.increments[self.newest];
-            blurred(&self.layers[from], blur, &mut target, monitor)?;
+            blurred(&self.layers[from], blur, &mut target, part)?;
             self.layers[to] = target;
             self.newest += 1;
         }
@@ -165,7 +169,9 @@ impl Octave {
             } else {
                 &further
             };
-            blurred(from, self.increments[k], &mut target, monitor)?;
+            let [start, end] = [k, k + 1].map(|k| (k - self.newest) as f32 / (n + 1) as f32);
+            let part = &mut Part::new(monitor, start, end);
+            blurred(from, self.increments[k], &mut target, part)?;
             further = target;
         }
         let source = if n <= self.newest {
@@ -179,7 +185,10 @@ impl Octave {
             origin_u: self.grid.origin_u + shift(source.width()) * self.grid.step,
             origin_v: self.grid.origin_v + shift(source.height()) * self.grid.step,
             octave: self.grid.octave + 1,
-            base: halved(source, monitor)?,
+            base: halved(
+                source,
+                &mut Part::new(monitor, n as f32 / (n + 1) as f32, 1.0),
+            )?,
         };
         Ok(next.large_enough())
     }
