@@ -410,7 +410,7 @@ mod tests {
         let mut whole = cloud.clone();
         whole.normals.push(Vector3::new(0.0, 0.5, -1.0));
         whole.confidences.push(3.0);
-        assert_eq!(read_ply(&write_ply(&whole)).unwrap(), (whole, 0));
+        assert_eq!(read_ply(&write_ply(&whole)).unwrap(), (whole, vec![]));
         cloud.colors.clear();
         assert!(write_ply(&cloud).ends_with(&ply[header..header + 12]));
         assert_eq!(read_ply(&write_ply(&cloud)).unwrap(), (cloud, Vec::new()));
