@@ -163,7 +163,7 @@ impl DepthMap {
 /// ----------
 /// reconstruction : epipole.sfm.Reconstruction
 /// photos : list of array_like
-///     One for each image of the reconstruction, uint8 of shape (H, W, 3), of the size of its camera.
+///     uint8 of shape (H, W, 3), one for each image of the reconstruction, of its camera's size.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
 /// **options : MvsOptions

@@ -17,6 +17,8 @@ use crate::progress::{Monitor, Part, Stage, report};
 use image::{ImageBuffer, Luma};
 use nalgebra::{Point2, Vector3};
 
+/// Number of rows between two reports of the filter.
+const ROWS: usize = 64;
 /// Number of rounds from random planes at the coarsest resolution.
 const FIRST_ROUNDS: usize = 6;
 /// Share of the work after which only the filter is left.
@@ -236,12 +238,9 @@ fn keep_confirmed(
 ) -> Result<()> {
     let mut counts = Vec::new();
     for photo in 0..views.len() {
-        report(
-            monitor,
-            Stage::DepthEstimation,
-            photo as f32 / views.len() as f32,
-        )?;
-        counts.push(confirmations(views, maps, photo, options));
+        let share = |photo: usize| photo as f32 / views.len() as f32;
+        let mut part = Part::new(monitor, share(photo), share(photo + 1));
+        counts.push(confirmations(views, maps, (photo, options), &mut part)?);
     }
     for ((map, counts), view) in maps.iter_mut().zip(counts).zip(views) {
         let needed = num_needed(options, view.neighbors.len());
@@ -259,27 +258,36 @@ fn keep_confirmed(
 fn confirmations(
     views: &[MvsView],
     maps: &[DepthMap],
-    photo: usize,
-    options: &MvsOptions,
-) -> Vec<u8> {
+    (photo, options): (usize, &MvsOptions),
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<u8>> {
     let map = &maps[photo];
     let agreements = agreements(views, maps, photo, options);
     let width = map.depth.width() as usize;
     let mut counts = vec![0u8; map.normals.len()];
-    parallel::for_each_chunk(&mut counts, width.max(1), |first, row| {
-        let v = (first / width) as f64;
-        for (u, count) in row.iter_mut().enumerate() {
-            let depth = map.depth.as_raw()[first + u];
-            if depth.is_nan() {
-                continue;
+    let num_pixels = counts.len();
+    for (band, part) in counts.chunks_mut(ROWS * width).enumerate() {
+        let start = band * ROWS * width;
+        report(
+            monitor,
+            Stage::DepthEstimation,
+            start as f32 / num_pixels as f32,
+        )?;
+        parallel::for_each_chunk(part, width, |first, row| {
+            let v = ((start + first) / width) as f64;
+            for (u, count) in row.iter_mut().enumerate() {
+                let place = start + first + u;
+                let depth = f64::from(map.depth.as_raw()[place]);
+                if depth.is_nan() {
+                    continue;
+                }
+                let agrees = |agreement: &&Agreement<'_>| {
+                    let normal = &map.normals[place];
+                    agreement.pixel([u as f64, v], depth, normal).is_some()
+                };
+                *count = 1 + agreements.iter().filter(agrees).count() as u8;
             }
-            let pixel = [u as f64, v];
-            let agrees = |agreement: &&Agreement<'_>| {
-                let normal = &map.normals[first + u];
-                agreement.pixel(pixel, f64::from(depth), normal).is_some()
-            };
-            *count = 1 + agreements.iter().filter(agrees).count() as u8;
-        }
-    });
-    counts
+        });
+    }
+    Ok(counts)
 }
