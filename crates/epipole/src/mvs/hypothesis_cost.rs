@@ -2,13 +2,11 @@
 
 use super::field::Surface;
 use super::level::Level;
+use super::options::MAX_NEIGHBORS;
 use super::pair::Pair;
 use super::patch::{GrayWeights, Patch, dissimilarity};
 use super::plane::{MIN_COSINE, Plane};
 use nalgebra::Point2;
-
-/// Maximum number of neighbors.
-pub(super) const MAX_NEIGHBORS: usize = 16;
 
 /// Cost in a neighbor that does not see the point; a little more than that of no correlation.
 const UNSEEN: f32 = 1.2;
