@@ -73,11 +73,11 @@ impl Agreement<'_> {
         let nearest = Point2::new(f64::from(column), f64::from(row));
         let rays = [Point2::new(x, y), nearest].map(|pixel| self.intrinsics.ray(&pixel));
         let found = other.dot(&rays[0]) / (other.dot(&rays[1]) * there);
-        if !((found / expected - 1.0).abs() <= self.max_difference) {
-            return None;
-        }
+        // Comparisons with NaN are false.
+        let is_near = (found / expected - 1.0).abs() <= self.max_difference;
         let cosine = (self.rotation * normal.cast::<f64>()).dot(&other);
-        if !(cosine >= self.min_cosine) {
+        let is_parallel = cosine >= self.min_cosine;
+        if !(is_near && is_parallel) {
             return None;
         }
         let [u2, v2, _] = self.from.transfer(&self.from.of_pixel(x, y), found)?;

@@ -2,17 +2,15 @@
 
 use super::field::Surface;
 use super::level::Level;
+use super::options::MAX_NEIGHBORS;
 use super::pair::Pair;
 use super::patch::{GrayWeights, Patch, dissimilarity};
 use super::plane::{MIN_COSINE, Plane};
 use nalgebra::Point2;
 
-/// Maximum number of neighbors.
-pub(super) const MAX_NEIGHBORS: usize = 16;
-
 /// Cost in a neighbor that does not see the point; a little more than that of no correlation.
 const UNSEEN: f32 = 1.2;
-/// Cost of a pixel of reprojection error. Schönberger et al. 2016, §4.6, take 0.5.
+/// Cost of a pixel of reprojection error.
 const PER_PX: f32 = 0.2;
 /// Reprojection error beyond which the cost does not grow, pixels.
 const MAX_ERROR_PX: f32 = 3.0;

@@ -1,8 +1,10 @@
 //! Options of multi-view stereo.
 
-use super::hypothesis_cost::MAX_NEIGHBORS;
 use crate::{Error, Result};
 use derive_setters::Setters;
+
+/// Maximum number of neighbors of a photo.
+pub(super) const MAX_NEIGHBORS: usize = 16;
 
 /// Options of multi-view stereo.
 #[derive(Debug, Clone, PartialEq, Setters)]

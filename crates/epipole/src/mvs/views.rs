@@ -1,8 +1,7 @@
 //! Photos without distortion, with neighbors and depth ranges.
 
-use super::hypothesis_cost::MAX_NEIGHBORS;
 use super::neighbors::{choose_neighbors, depth_range};
-use super::options::MvsOptions;
+use super::options::{MAX_NEIGHBORS, MvsOptions};
 use crate::calibration::{Keep, Undistortion};
 use crate::camera::{Camera, PosedCamera};
 use crate::progress::{Monitor, Part, Stage, report};
