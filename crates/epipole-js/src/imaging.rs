@@ -98,7 +98,9 @@ functions! {
     }
 
     /// Mean of the `size` x `size` window around each pixel; `size` is odd.
-    fn box_filter(image: Field, size: u32, border: Option<Setting<Border>>; monitor) -> GrayImage32 {
+    fn box_filter(
+        image: Field, size: u32, border: Option<Setting<Border>>; monitor
+    ) -> GrayImage32 {
         imaging::box_filter(&image.0, size as usize, self::border(border), monitor)?
     }
 

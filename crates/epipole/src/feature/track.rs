@@ -66,8 +66,8 @@ pub struct Track {
 ///
 /// At each level of the pyramid the displacement d minimizes `Σ (I₁(p) − I₂(p + d))²` over the
 /// window by Gauss–Newton steps with the gradient of the first image. A point is lost if its window
-/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere. The one stage is
-/// [`Stage::Tracking`].
+/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere. The
+/// one stage is [`Stage::Tracking`].
 ///
 /// * `points`: pixels in the first image
 ///

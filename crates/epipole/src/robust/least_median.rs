@@ -80,7 +80,8 @@ pub struct LeastMedian<M> {
 /// // Nine points of the row v = 2, and six that are elsewhere; nobody says how far is far.
 /// let mut points: Vec<_> = (0..9).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
 /// points.extend((0..6).map(|i| Point2::new(f64::from(i) * 3.0, 40.0 + f64::from(i * i))));
-/// let found = least_median(LineEstimator::new(&points)?, &LeastMedianOptions::default(), &mut ())?;
+/// let options = LeastMedianOptions::default();
+/// let found = least_median(LineEstimator::new(&points)?, &options, &mut ())?;
 /// assert!(found.model.signed_distance(&Point2::new(100.0, 2.0)).abs() < 1e-9);
 /// assert_eq!(found.num_inliers, 9);
 /// # Ok(()) }

@@ -32,7 +32,8 @@ use crate::{Error, Result};
 /// // Brighter to the right: all gradients point along the rows, into the first of eight directions.
 /// let ramp = GrayImage32::from_fn(64, 64, |u, _| image::Luma([u as f32 / 64.0]));
 /// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
-/// let descriptor = describe_sift(&ramp, &[middle], &SiftOptions::default(), &mut ())?.get(0).unwrap();
+/// let options = SiftOptions::default();
+/// let descriptor = describe_sift(&ramp, &[middle], &options, &mut ())?.get(0).unwrap();
 /// assert!(descriptor.iter().enumerate().all(|(k, &v)| (v > 0.0) == (k % 8 == 0)));
 /// # Ok(()) }
 /// ```
