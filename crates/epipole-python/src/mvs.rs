@@ -94,6 +94,12 @@ impl MvsView {
 ///     Unit normals in the camera's frame, towards the camera; zero where unknown.
 /// num_views : array_like of uint8, shape (H, W)
 ///     Number of photos that agree on the depth, this one among them; 0 where unknown.
+///
+/// Examples
+/// --------
+/// >>> normals = np.array([[[0, 0, -1.0], [0, 0, 0]]])
+/// >>> DepthMap(np.array([[2.0, np.nan]]), normals, np.array([[3, 0]], np.uint8)).density
+/// 0.5
 #[pyclass(frozen, from_py_object, module = "epipole.mvs")]
 #[derive(Clone)]
 struct DepthMap(mvs::DepthMap);

@@ -56,8 +56,8 @@ def test_cloud_lies_on_the_plane(result, tmp_path):
     assert cloud.normals.shape == cloud.points.shape
     assert cloud.confidences.min() >= 3
     io.write_ply(tmp_path / "fused.ply", cloud)
-    read, num_left_out = io.read_ply(tmp_path / "fused.ply")
-    assert num_left_out == 0
+    read, notes = io.read_ply(tmp_path / "fused.ply")
+    assert notes == []
     assert np.allclose(read.normals, cloud.normals, atol=1e-6)
     assert np.array_equal(read.confidences, cloud.confidences)
 

@@ -188,8 +188,7 @@ fn read_cameras(
 ///
 /// Returns
 /// -------
-/// numpy.ndarray
-///     Shape (4, 4).
+/// ndarray, shape (4, 4)
 #[pyfunction]
 fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let py = source.py();

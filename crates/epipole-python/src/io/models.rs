@@ -112,9 +112,9 @@ impl ModelImage {
 /// ----------
 /// id : int
 ///     Number of the rig in files that number them; no two are equal.
-/// cameras : list of tuple
+/// cameras : list of tuple of Any
 ///     Index of each camera and its ``cam_from_rig``, the identity of the first one.
-/// frames : list of tuple
+/// frames : list of tuple of Any
 ///     Number of each frame, its ``rig_from_world``, and the indices of its images.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]
@@ -218,7 +218,7 @@ impl Model {
         rigs: Option<Vec<Rig>>,
     ) -> PyResult<Self> {
         let positions = points3("points", points)?;
-        let count = positions.len();
+        let (count, num_cameras) = (positions.len(), cameras.len());
         let colors = match colors {
             Some(_) => self::colors("colors", colors)?,
             None => vec![[128; 3]; count],
@@ -250,7 +250,10 @@ impl Model {
             cameras: cameras.into_iter().map(|camera| camera.0).collect(),
             images: images.into_iter().map(|image| image.0).collect(),
             points,
-            camera_ids: camera_ids.unwrap_or_default(),
+            // Numbers that count from 1 are those of a model without any.
+            camera_ids: camera_ids
+                .filter(|ids| !ids.iter().copied().eq(1..=num_cameras as u32))
+                .unwrap_or_default(),
             rigs: rigs
                 .unwrap_or_default()
                 .into_iter()

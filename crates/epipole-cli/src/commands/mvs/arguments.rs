@@ -13,7 +13,7 @@ fn default() -> MvsOptions {
     MvsOptions::default()
 }
 
-/// Compute depth maps and a dense point cloud from a model and its photos.
+/// Compute depth maps and a dense cloud of a model and its photos.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLE,
@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
-    /// Longer side of the images at most, pixels.
+    /// Limit the longer side of the images, pixels.
     #[arg(long, value_name = "PX", default_value_t = default().max_size_px, value_parser = clap::value_parser!(u32).range(32..=16384))]
     pub(super) max_size: u32,
     /// Number of neighbors of each photo.
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// Number of these that count at a pixel, those that fit best.
     #[arg(long, value_name = "N", default_value_t = default().num_best_neighbors)]
     num_best_neighbors: usize,
-    /// Fewest photos that agree on a depth that is kept.
+    /// Photos that must agree on a depth.
     #[arg(long, value_name = "N", default_value_t = default().min_views)]
     min_views: usize,
     /// Smallest angle between the rays of photos that are compared, degrees.

@@ -1,5 +1,5 @@
-//! The job of `incremental-sfm`: photographs on an arc, their features and matches, and the steps of
-//! a reconstruction.
+//! The job of `incremental-sfm`: photographs on an arc, their matches, and the steps of a
+//! reconstruction.
 
 use super::steps::{self, Step};
 use crate::contract::{Problem, Progress};

@@ -29,7 +29,7 @@ pub(super) struct Step {
     pub(super) num_points: usize,
     /// Mean reprojection error, pixels.
     pub(super) error_px: f64,
-    /// Number of points that each photograph sees; of one that is not registered, through its matches.
+    /// Number of points that each photograph sees; those of an unregistered one by its matches.
     pub(super) num_seen: Vec<usize>,
     /// Features of the newest photograph that had a point before it was registered, and whether
     /// they agree with its pose.

@@ -149,8 +149,8 @@ fn draw_bars(model: &IncrementalSfm, step: &Step, panel: &Panel, canvas: &mut Ca
     }
 }
 
-/// Draws the cameras with their photographs, the points, rays of the newest camera, and rings at the
-/// true places.
+/// Draws the cameras with their photographs, the points, rays of the newest camera, and rings at
+/// the true places.
 fn draw_space(
     model: &IncrementalSfm,
     (answer, step): (&Answer, &Step),

@@ -16,8 +16,8 @@ pub(super) struct Pencil {
 }
 
 impl Pencil {
-    /// Returns the planes through the baseline; that of angle 0 contains the ray of `pixel1`. `None`
-    /// if the cameras are in the same place, or the ray runs along the baseline.
+    /// Returns the planes through the baseline; that of angle 0 contains the ray of `pixel1`.
+    /// `None` if the cameras are in the same place, or the ray runs along the baseline.
     pub(super) fn new([first, second]: &[PosedCamera; 2], pixel1: &Point2<f64>) -> Option<Self> {
         let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
         let center2 = motion.inverse().translation.vector;

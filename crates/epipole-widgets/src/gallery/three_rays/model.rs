@@ -1,4 +1,5 @@
-//! The columns in which three cameras side by side see one point, and the place nearest to the rays.
+//! The columns in which three cameras side by side see one point, and the place nearest to the
+//! rays.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Toggle, knobs,

@@ -123,8 +123,8 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Adds a point of a surface, without a rim, so that neighbors merge, also where it is enlarged;
-    /// `side` is that of its square at the center of the scene without zoom, CSS pixels.
+    /// Adds a point of a surface, without a rim, so that neighbors merge, also where it is
+    /// enlarged; `side` is that of its square at the scene's center without zoom, CSS pixels.
     pub(crate) fn speck(&mut self, point: &Point3<f64>, side: f64, color: Rgb) {
         let in_eye = self.in_eye(point);
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
