@@ -168,8 +168,7 @@ def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
 
     Returns
     -------
-    numpy.ndarray
-        Shape (4, 4).
+    ndarray, shape (4, 4)
     """
 def write_cameras(
     path: str | os.PathLike[str],
@@ -453,9 +452,9 @@ class Rig:
     ----------
     id : int
         Number of the rig in files that number them; no two are equal.
-    cameras : list of tuple
+    cameras : list of tuple of int or epipole.RigidTransform
         Index of each camera and its ``cam_from_rig``, the identity of the first one.
-    frames : list of tuple
+    frames : list of tuple of int, epipole.RigidTransform or list of int
         Number of each frame, its ``rig_from_world``, and the indices of its images.
     """
     def __new__(

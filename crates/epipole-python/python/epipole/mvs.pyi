@@ -75,6 +75,12 @@ class DepthMap:
         Unit normals in the camera's frame, towards the camera; zero where unknown.
     num_views : array_like of uint8, shape (H, W)
         Number of photos that agree on the depth, this one among them; 0 where unknown.
+
+    Examples
+    --------
+    >>> normals = np.array([[[0, 0, -1.0], [0, 0, 0]]])
+    >>> DepthMap(np.array([[2.0, np.nan]]), normals, np.array([[3, 0]], np.uint8)).density
+    0.5
     """
     def __new__(cls, depth: ArrayLike, normals: ArrayLike, num_views: ArrayLike) -> DepthMap: ...
     @property
