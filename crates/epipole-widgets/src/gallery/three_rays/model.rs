@@ -2,14 +2,15 @@
 //! rays.
 
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Toggle, knobs,
+    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
+    knobs,
 };
 use crate::kit::probe::Probe;
 use nalgebra::{Matrix3, Point2, RowVector3, Vector2, Vector3};
 
 pub(super) const NUM_CAMERAS: usize = 3;
-/// Centers of the cameras along the baseline, meters.
-pub(super) const CENTERS_M: [f64; NUM_CAMERAS] = [0.0, 0.4, 0.8];
+/// Centers of the first two cameras along the baseline, meters.
+const CENTERS_M: [f64; 2] = [0.0, 0.4];
 /// Columns of a photograph, its middle and the focal length, pixels.
 pub(super) const WIDTH_PX: f64 = 640.0;
 pub(super) const MIDDLE_PX: f64 = 320.0;
@@ -25,7 +26,12 @@ const COLUMNS: [Probe; NUM_CAMERAS] = [
 ];
 
 const THIRD: Toggle = Toggle::new("third", "Camera 3").on();
-const KNOBS: &[Knob] = knobs![THIRD];
+const PLACE: Slider = Slider::new("place", "Camera 3 at")
+    .range(0.5, 1.4, 0.05)
+    .at(0.8)
+    .digits(2)
+    .unit("m");
+const KNOBS: &[Knob] = knobs![PLACE, THIRD];
 
 const fn column(id: &'static str, panel: &'static str, label: &'static str, at: f64) -> Probe {
     Probe::new(id, panel, label)
@@ -62,6 +68,12 @@ impl ThreeRays {
         NUM_CAMERAS - usize::from(!self.settings.flag(&THIRD))
     }
 
+    /// Returns the centers of the cameras along the baseline, meters.
+    pub(super) fn centers_m(&self) -> [f64; NUM_CAMERAS] {
+        let [first, second] = CENTERS_M;
+        [first, second, self.settings.number(&PLACE)]
+    }
+
     /// Returns the columns, pixels.
     pub(super) fn columns(&self) -> [f64; NUM_CAMERAS] {
         self.columns.map(|column| column.place().0)
@@ -74,15 +86,15 @@ impl ThreeRays {
     }
 
     /// Returns the column in which a camera sees the point, pixels.
-    pub(super) fn true_column(camera: usize) -> f64 {
-        MIDDLE_PX + FOCAL_PX * (POINT_M.x - CENTERS_M[camera]) / POINT_M.y
+    pub(super) fn true_column(&self, camera: usize) -> f64 {
+        MIDDLE_PX + FOCAL_PX * (POINT_M.x - self.centers_m()[camera]) / POINT_M.y
     }
 
     /// Returns the equations X − m Z − B = 0 of the rays, one a row; 0 = 0 for an unused camera.
     fn rows(&self) -> Matrix3<f64> {
-        let directions = self.directions();
+        let (directions, centers_m) = (self.directions(), self.centers_m());
         let row = |camera: usize| match camera < self.num_used() {
-            true => RowVector3::new(1.0, -directions[camera].x, -CENTERS_M[camera]),
+            true => RowVector3::new(1.0, -directions[camera].x, -centers_m[camera]),
             false => RowVector3::zeros(),
         };
         Matrix3::from_rows(&[row(0), row(1), row(2)])
@@ -143,7 +155,7 @@ const CHALLENGES: &[Challenge<ThreeRays>] = &[
         solution: || {
             vec![Event::moved(
                 COLUMNS[2].id(),
-                ThreeRays::true_column(2),
+                ThreeRays::new().true_column(2),
                 0.0,
             )]
         },
@@ -179,7 +191,7 @@ mod tests {
 
     #[test]
     fn true_columns_meet_in_the_point() {
-        let columns = [0, 1, 2].map(ThreeRays::true_column);
+        let columns = [0, 1, 2].map(|camera| ThreeRays::new().true_column(camera));
         assert_eq!(columns, [395.0, 295.0, 195.0]);
         let found = with_columns(columns).meeting().unwrap();
         assert!(found.sigma[2] < 1e-12);

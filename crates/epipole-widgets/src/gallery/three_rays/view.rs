@@ -1,9 +1,7 @@
 //! The cameras and their rays from above; beside it the rows of their photographs, and the singular
 //! values.
 
-use super::model::{
-    CENTERS_M, FOCAL_PX, MIDDLE_PX, NUM_CAMERAS, POINT_M, ROWS, ThreeRays, WIDTH_PX,
-};
+use super::model::{FOCAL_PX, MIDDLE_PX, NUM_CAMERAS, POINT_M, ROWS, ThreeRays, WIDTH_PX};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View};
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
@@ -102,7 +100,12 @@ fn draw_top(model: &ThreeRays, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let mut labels = Labels::new(panel.rect.inset(3.0));
     let directions = model.directions();
-    for (camera, center) in CENTERS_M.into_iter().enumerate().take(model.num_used()) {
+    for (camera, center) in model
+        .centers_m()
+        .into_iter()
+        .enumerate()
+        .take(model.num_used())
+    {
         let sight = PlanCamera {
             center: Point2::new(center, 0.0),
             heading_rad: 0.0,
@@ -155,7 +158,7 @@ fn draw_row(model: &ThreeRays, camera: usize, panel: &Panel, canvas: &mut Canvas
     };
     tick(MIDDLE_PX, 4.0, Stroke::solid(Role::Muted, 1.0), canvas);
     tick(
-        ThreeRays::true_column(camera),
+        model.true_column(camera),
         8.0,
         Stroke::solid(Role::Truth, 2.0).dotted(),
         canvas,
