@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     /// The folder for the result.
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
-    /// Limit the longer side of the images, pixels.
+    /// Limit the longer side of the images.
     #[arg(long, value_name = "PX", default_value_t = default().max_size_px, value_parser = clap::value_parser!(u32).range(32..=16384))]
     pub(super) max_size: u32,
     /// Number of neighbors of each photo.
