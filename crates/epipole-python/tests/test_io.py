@@ -259,8 +259,9 @@ def test_g2o_has_priors_and_landmarks(tmp_path):
             b"EDGE_SE2_XY 0 2 4 5 1 0 1\nEDGE_BEARING_SE2_XY 0 2 1 1\nEDGE_PRIOR_SE2 0 5 6 0 1 0 0 1 0 1\n")
     with pytest.warns(UserWarning, match="left out: 1 measurement"):
         graph = io.read_g2o(text)
-    assert list(graph.landmarks) == [2]
-    assert list(pickle.loads(pickle.dumps(graph)).landmarks) == [2]
+    assert list(graph.landmarks) == [2] and list(graph.prior_vertices) == [0]
+    np.testing.assert_array_equal(graph.priors, [[5, 6, 0]])
+    assert pickle.loads(pickle.dumps(graph)) == graph
     graph, _ = graph.optimize()
     np.testing.assert_allclose(graph.vertices, [[5, 6, 0], [6, 6, 0], [9, 11, 0]], atol=1e-6)
     io.write_g2o(tmp_path / "graph.g2o", graph)

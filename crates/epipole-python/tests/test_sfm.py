@@ -373,7 +373,7 @@ def test_wrong_arguments_are_named(problem, input):
         Similarity3(epipole.RigidTransform(), 0.0)
     with pytest.raises(ValueError, match='kind must be "se2"'):
         sfm.PoseGraph("se4", np.zeros((1, 3)), [], [])
-    with pytest.raises(ValueError, match="edges, fixed and landmarks"):
+    with pytest.raises(ValueError, match="edges, fixed, landmarks and prior_vertices"):
         sfm.PoseGraph("se2", np.zeros((1, 3)), [(0, 1)], np.zeros((1, 3)))
     with pytest.raises(TypeError, match="unknown option refine_focus"):
         sfm.reconstruct(input, refine_focus=True)

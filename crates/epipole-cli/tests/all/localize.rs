@@ -1,10 +1,11 @@
 //! `epipole localize`: new photos in a model of rendered ones.
 
-use crate::common::{Folder, command, epipole, fails, json, k, motion, moved, parse, path};
+use crate::common::{
+    Folder, command, epipole, fails, json, k, motion, moved, parse, path, write_model,
+};
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole_io::model::{Model, ModelFormat, read_model_folder};
 use nalgebra::Vector3;
-use std::path::Path;
 
 const SIZE: (u32, u32) = (400, 300);
 
@@ -31,13 +32,6 @@ fn without(model: &Model, left_out: usize) -> Model {
     model
 }
 
-fn write(model: &Model, format: ModelFormat, folder: &Path) {
-    std::fs::create_dir_all(folder).unwrap();
-    for file in model.to_files(format).unwrap() {
-        std::fs::write(folder.join(&file.name), &file.bytes).unwrap();
-    }
-}
-
 #[test]
 fn a_photo_is_localized_where_it_was_reconstructed() {
     let folder = Folder::new("localize");
@@ -62,7 +56,7 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
         .unwrap();
     let truth = model.images[place].cam_from_world;
     let less = folder.file("reconstruction");
-    write(&without(&model, place), ModelFormat::ColmapBinary, &less);
+    write_model(&without(&model, place), ModelFormat::ColmapBinary, &less);
 
     // As the help shows it.
     let new = folder.file("new.jpg");
@@ -145,7 +139,7 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
         1,
         "none of the model's 4 images is there",
     );
-    write(
+    write_model(
         &without(&model, place),
         ModelFormat::Transforms,
         &folder.file("nerf"),

@@ -1,6 +1,6 @@
 //! `epipole mvs`: depth maps and a cloud of rendered photos against their depths.
 
-use crate::common::{Folder, epipole, fails, json, moved, path};
+use crate::common::{Folder, epipole, fails, json, moved, path, write_model};
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::math::random::Random;
 use epipole_io::cloud::read_ply;
@@ -74,13 +74,6 @@ fn model(photos: &[Photograph]) -> Model {
     model
 }
 
-fn write(model: &Model, format: ModelFormat, folder: &Path) {
-    std::fs::create_dir_all(folder).unwrap();
-    for file in model.to_files(format).unwrap() {
-        std::fs::write(folder.join(&file.name), &file.bytes).unwrap();
-    }
-}
-
 #[test]
 fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     let folder = Folder::new("mvs");
@@ -91,7 +84,7 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
         .collect();
     let model = model(&photos);
     let known = folder.file("reconstruction");
-    write(&model, ModelFormat::ColmapBinary, &known);
+    write_model(&model, ModelFormat::ColmapBinary, &known);
     let [images, out] = ["photos", "dense"].map(|name| folder.file(name));
     let base = ["mvs", path(&known), path(&images), "-o", path(&out)];
     let result = json(&base);
@@ -165,7 +158,7 @@ fn input_without_depth_is_refused() {
     let out = folder.file("dense");
     let refuse = |name: &str, model: &Model, images: &Path, expected: &str| {
         let known = folder.file(name);
-        write(model, ModelFormat::ColmapBinary, &known);
+        write_model(model, ModelFormat::ColmapBinary, &known);
         let arguments = ["mvs", path(&known), path(images), "-o", path(&out)];
         fails(&folder, &arguments, 1, expected);
     };

@@ -7,6 +7,7 @@ mod clouds;
 mod matches;
 mod models;
 mod photos;
+mod rig;
 mod source;
 mod trajectories;
 

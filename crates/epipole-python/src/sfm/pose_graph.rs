@@ -8,7 +8,7 @@ use crate::optim::termination;
 use crate::record::record;
 use crate::{options, progress};
 use epipole::nalgebra::{SMatrix, SVector};
-use epipole::sfm::{self, Edge, Graph};
+use epipole::sfm::{self, Edge, Graph, PosePrior};
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyValueError;
@@ -39,10 +39,19 @@ use pyo3::types::PyDict;
 /// landmarks : array_like of int, optional
 ///     Vertices that are points, which have no rotation: edges to them have an information of 0
 ///     for it.
+/// prior_vertices : array_like of int, shape (P,), optional
+///     Vertices whose poses are measured, such as by a GPS receiver.
+/// priors : array_like, shape (P, 3), (P, 7) or (P, 8), optional
+///     ``world_from_vertex`` as measured.
+/// prior_information : array_like, shape (P, D, D), optional
+///     Inverse covariances of these. Identities if not given.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
 
-wrapper!(PoseGraph: kind, vertices, edges, measurements, information, fixed, ids, landmarks);
+wrapper!(
+    PoseGraph: kind, vertices, edges, measurements, information, fixed, ids, landmarks,
+    prior_vertices, priors, prior_information
+);
 
 /// Arguments of the constructor.
 struct Parts<'a, 'py> {
@@ -53,6 +62,9 @@ struct Parts<'a, 'py> {
     fixed: Vec<usize>,
     ids: Option<Vec<usize>>,
     landmarks: Vec<usize>,
+    prior_vertices: Vec<usize>,
+    priors: Option<&'a Bound<'py, PyAny>>,
+    prior_information: Option<&'a Bound<'py, PyAny>>,
 }
 
 impl Parts<'_, '_> {
@@ -67,20 +79,28 @@ impl Parts<'_, '_> {
         let measurements = poses("measurements", self.measurements)?;
         let count = self.edges.len();
         require_equal(("edges", count), ("measurements", measurements.len()))?;
-        let information = match self.information {
-            Some(information) => matrices::<D>("information", information)?,
-            None => vec![SMatrix::identity(); count],
-        };
+        let information = information_of::<D>("information", self.information, count)?;
         require_equal(("edges", count), ("information", information.len()))?;
+        let prior_count = self.prior_vertices.len();
+        let measured =
+            (self.priors).map_or_else(|| Ok(Vec::new()), |rows| poses("priors", rows))?;
+        require_equal(("prior_vertices", prior_count), ("priors", measured.len()))?;
+        let name = "prior_information";
+        let prior_information = information_of::<D>(name, self.prior_information, prior_count)?;
+        require_equal(
+            ("prior_vertices", prior_count),
+            (name, prior_information.len()),
+        )?;
         let used = self.edges.iter().flatten().chain(&self.fixed);
-        let mut used = used.chain(&self.landmarks);
+        let mut used = used.chain(&self.landmarks).chain(&self.prior_vertices);
         if let Some(index) = used.find(|&&index| index >= vertices.len()) {
             return Err(PyValueError::new_err(format!(
-                "edges, fixed and landmarks must have indices of vertices, but there is {index} for \
-                 {} vertices",
+                "edges, fixed, landmarks and prior_vertices must have indices of vertices, but there is \
+                 {index} for {} vertices",
                 vertices.len()
             )));
         }
+        let priors = (self.prior_vertices.into_iter().zip(measured)).zip(prior_information);
         let ids = match self.ids {
             Some(ids) => ids.into_iter().map(|id| id as u64).collect(),
             None => (0..vertices.len() as u64).collect::<Vec<_>>(),
@@ -98,11 +118,29 @@ impl Parts<'_, '_> {
                     information,
                 })
                 .collect(),
+            priors: priors
+                .map(|((vertex, world_from_vertex), information)| PosePrior {
+                    vertex,
+                    world_from_vertex,
+                    information,
+                })
+                .collect(),
             fixed: self.fixed,
             landmarks: self.landmarks,
-            ..Graph::default()
         })
     }
+}
+
+/// Reads inverse covariances; `count` identities if none are given.
+fn information_of<const D: usize>(
+    name: &str,
+    given: Option<&Bound<'_, PyAny>>,
+    count: usize,
+) -> PyResult<Vec<SMatrix<f64, D, D>>> {
+    given.map_or_else(
+        || Ok(vec![SMatrix::identity(); count]),
+        |given| matrices::<D>(name, given),
+    )
 }
 
 fn matrices<const D: usize>(
@@ -133,14 +171,13 @@ fn table<'py, T: Row>(
     PyArray1::from_vec(py, numbers).reshape([count, columns])
 }
 
-fn give_information<'py, T, const D: usize>(
+fn give_information<'py, const D: usize>(
     py: Python<'py>,
-    edges: &[Edge<T, D>],
+    matrices: impl ExactSizeIterator<Item = SMatrix<f64, D, D>>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let rows = edges
-        .iter()
-        .flat_map(|edge| edge.information.transpose().as_slice().to_vec());
-    PyArray1::from_vec(py, rows.collect()).reshape([edges.len(), D, D])
+    let count = matrices.len();
+    let numbers = matrices.flat_map(|matrix| matrix.transpose().as_slice().to_vec());
+    PyArray1::from_vec(py, numbers.collect()).reshape([count, D, D])
 }
 
 /// Evaluates an expression for the graph of each kind.
@@ -168,7 +205,7 @@ impl PoseGraph {
     #[new]
     #[pyo3(signature = (
         kind, vertices, edges, measurements, information=None, fixed=None, ids=None,
-        landmarks=None
+        landmarks=None, prior_vertices=None, priors=None, prior_information=None
     ))]
     #[allow(clippy::too_many_arguments, reason = "the parts of a graph")]
     fn new(
@@ -180,6 +217,9 @@ impl PoseGraph {
         fixed: Option<&Bound<'_, PyAny>>,
         ids: Option<&Bound<'_, PyAny>>,
         landmarks: Option<&Bound<'_, PyAny>>,
+        prior_vertices: Option<&Bound<'_, PyAny>>,
+        priors: Option<&Bound<'_, PyAny>>,
+        prior_information: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let of_vertices = |name: &str, given: Option<&Bound<'_, PyAny>>| {
             given.map_or_else(|| Ok(Vec::new()), |given| indices(name, given))
@@ -191,6 +231,9 @@ impl PoseGraph {
             information,
             fixed: of_vertices("fixed", fixed)?,
             landmarks: of_vertices("landmarks", landmarks)?,
+            prior_vertices: of_vertices("prior_vertices", prior_vertices)?,
+            priors,
+            prior_information,
             ids: ids.map(|ids| indices("ids", ids)).transpose()?,
         };
         Ok(Self(match kind {
@@ -248,10 +291,34 @@ impl PoseGraph {
     /// Inverse covariances of the measurements, shape (E, D, D).
     #[getter]
     fn information<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        each!(&self.0, |graph, _columns| give_information(
-            py,
-            &graph.edges
-        ))
+        each!(&self.0, |graph, _columns| {
+            give_information(py, graph.edges.iter().map(|edge| edge.information))
+        })
+    }
+
+    /// Vertices whose poses are measured, int64 of shape (P,).
+    #[getter]
+    fn prior_vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        each!(&self.0, |graph, _columns| {
+            PyArray1::from_iter(py, graph.priors.iter().map(|prior| prior.vertex as i64))
+        })
+    }
+
+    /// Measured ``world_from_vertex`` of these, shape (P, 3), (P, 7) or (P, 8).
+    #[getter]
+    fn priors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        each!(&self.0, |graph, columns| {
+            let poses = graph.priors.iter().map(|prior| prior.world_from_vertex);
+            table(py, poses, columns)
+        })
+    }
+
+    /// Inverse covariances of these measurements, shape (P, D, D).
+    #[getter]
+    fn prior_information<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        each!(&self.0, |graph, _columns| {
+            give_information(py, graph.priors.iter().map(|prior| prior.information))
+        })
     }
 
     /// Vertices that stay, int64 array.

@@ -138,7 +138,7 @@ fn split(x: f32, last: f32) -> (f32, u32) {
 
 dispatched! {
     /// One minus the weighted correlation of a patch with its affine image in `other`, 0 to 2.
-    /// What lies outside of the image is its border.
+    /// Pixels outside of the image have the values of its border.
     pub(super) fn dissimilarity(patch: &Patch, other: &Level, at: &Affine) -> f32 {
         let [us, vs] = &OFFSETS;
         let (last_x, last_y) = (other.width as f32 - 1.0, other.height as f32 - 1.0);

@@ -4,6 +4,7 @@ pub(crate) mod exif;
 pub(crate) mod lens;
 
 use epipole::camera::{PosedCamera, RigidTransform};
+use epipole_io::model::{Model, ModelFormat};
 use epipole_scenes::{Photograph, Sampling, Scene, still_life_camera};
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -17,6 +18,14 @@ static NUM_FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
 /// A folder for one test's files, removed with it.
 pub(crate) struct Folder(pub(crate) PathBuf);
+
+/// Writes the files of a model into a folder of its own.
+pub(crate) fn write_model(model: &Model, format: ModelFormat, folder: &Path) {
+    std::fs::create_dir_all(folder).unwrap();
+    for file in model.to_files(format).unwrap() {
+        std::fs::write(folder.join(&file.name), &file.bytes).unwrap();
+    }
+}
 
 impl Folder {
     pub(crate) fn new(name: &str) -> Self {
