@@ -923,6 +923,12 @@ class PoseGraph:
     landmarks : array_like of int, optional
         Vertices that are points, which have no rotation: edges to them have an information of 0
         for it.
+    prior_vertices : array_like of int, shape (P,), optional
+        Vertices whose poses are measured, such as by a GPS receiver.
+    priors : array_like, shape (P, 3), (P, 7) or (P, 8), optional
+        ``world_from_vertex`` as measured.
+    prior_information : array_like, shape (P, D, D), optional
+        Inverse covariances of these. Identities if not given.
     """
     def __new__(
         cls,
@@ -934,6 +940,9 @@ class PoseGraph:
         fixed: ArrayLike | None = None,
         ids: ArrayLike | None = None,
         landmarks: ArrayLike | None = None,
+        prior_vertices: ArrayLike | None = None,
+        priors: ArrayLike | None = None,
+        prior_information: ArrayLike | None = None,
     ) -> PoseGraph: ...
     @property
     def kind(self) -> str:
@@ -950,6 +959,15 @@ class PoseGraph:
     @property
     def information(self) -> NDArray[np.float64]:
         """Inverse covariances of the measurements, shape (E, D, D)."""
+    @property
+    def prior_vertices(self) -> NDArray[np.int64]:
+        """Vertices whose poses are measured, int64 of shape (P,)."""
+    @property
+    def priors(self) -> NDArray[np.float64]:
+        """Measured ``world_from_vertex`` of these, shape (P, 3), (P, 7) or (P, 8)."""
+    @property
+    def prior_information(self) -> NDArray[np.float64]:
+        """Inverse covariances of these measurements, shape (P, D, D)."""
     @property
     def fixed(self) -> NDArray[np.int64]:
         """Vertices that stay, int64 array."""
