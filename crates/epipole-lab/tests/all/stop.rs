@@ -2,6 +2,7 @@
 
 #![cfg(feature = "compute")]
 
+use crate::common::computed;
 use epipole_lab::project::{Blob, Project, Sample, Step};
 use epipole_lab::session::Event;
 use epipole_lab::tasks::{AnyQuery, Calibrated, Request, VerifyPair, compute};
@@ -39,8 +40,7 @@ fn every_long_task_stops_when_it_is_told_to() {
             assert_eq!(stopped(&request), Err("stopped".to_owned()), "{pending:?}");
             kinds[kind] = true;
         }
-        let result = compute(&request.to_bytes(), &mut |_| ControlFlow::Continue(()));
-        project.done(&pending, result);
+        project.done(&pending, computed(&request.to_bytes()));
     }
     assert_eq!(kinds, [true; 6], "each of them was asked for");
     // An archive for which photographs must be read once more.

@@ -1,6 +1,6 @@
 //! Results that are not sound are said to be so, and files hold what was measured.
 
-use crate::common::{exported, finish, png, solved};
+use crate::common::{computed, exported, finish, png, solved};
 use epipole_lab::project::{Measure, Project, Sample, Step};
 use epipole_lab::session::{Event, Pending};
 use epipole_lab::tasks::{
@@ -66,9 +66,7 @@ fn pairs_are_counted_while_they_are_matched() {
             labels.push(MatchesOf::label(query, &project));
         }
         let request = pending.request(&project).unwrap();
-        let go_on = &mut |_: epipole_lab::tasks::Progress<'_>| std::ops::ControlFlow::Continue(());
-        let result = epipole_lab::tasks::compute(&request.to_bytes(), go_on);
-        project.done(&pending, result);
+        project.done(&pending, computed(&request.to_bytes()));
         if labels.len() == 3 {
             break;
         }
