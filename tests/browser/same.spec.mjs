@@ -7,9 +7,9 @@ import { modulesAt, playInPage, playNatively, write } from "./scripts.mjs";
 const { Figure } = await loadBindings();
 
 const LOOKS = [
-  { width: 760, scale: 1, theme: "light", seed: 1 },
-  { width: 360, scale: 2, theme: "dark", seed: 2 },
-  { width: 511, scale: 1.5, theme: "high-contrast", seed: 3, rounds: 4 },
+  { width: 760, scale: 1, theme: "light", seed: 1, rounds: 2 },
+  { width: 360, scale: 2, theme: "dark", seed: 2, rounds: 2 },
+  { width: 511, scale: 1.5, theme: "high-contrast", seed: 3, rounds: 3 },
 ];
 
 test.describe.configure({ timeout: 600_000 });

@@ -12,6 +12,7 @@ use epipole_web::Figure;
 use epipole_widgets::gallery;
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::io::Read;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -34,17 +35,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let times = scripts.iter().map(time).collect::<Result<Vec<_>, _>>()?;
         println!("{}", serde_json::to_string(&times)?);
     } else {
-        let answers = scripts.iter().map(play).collect::<Result<Vec<_>, _>>()?;
+        let mut known = Known::new();
+        let answers = (scripts.iter().map(|script| play(script, &mut known)))
+            .collect::<Result<Vec<_>, _>>()?;
         println!("{}", serde_json::to_string(&answers)?);
     }
     Ok(())
 }
 
-fn play(script: &Script) -> Result<Vec<String>, String> {
+/// Results of jobs by figure and key: scripts of one figure begin alike.
+type Known = HashMap<(String, String), Result<Vec<u8>, String>>;
+
+fn play(script: &Script, known: &mut Known) -> Result<Vec<String>, String> {
     let mut figure = Figure::new(&script.figure)?;
     let mut answers = Vec::new();
     for words in &script.calls {
-        let said = call(&mut figure, script, words)?;
+        let said = call(&mut figure, script, words, known)?;
         answers.push(answer(&mut figure, script, words, said));
     }
     Ok(answers)
@@ -54,7 +60,7 @@ fn time(script: &Script) -> Result<f64, String> {
     let mut figure = Figure::new(&script.figure)?;
     let start = Instant::now();
     for words in &script.calls {
-        call(&mut figure, script, words)?;
+        call(&mut figure, script, words, &mut Known::new())?;
     }
     Ok(start.elapsed().as_secs_f64() * 1e3)
 }
@@ -74,7 +80,12 @@ fn answer(figure: &mut Figure, script: &Script, words: &[Value], said: Option<St
     }
 }
 
-fn call(figure: &mut Figure, script: &Script, words: &[Value]) -> Result<Option<String>, String> {
+fn call(
+    figure: &mut Figure,
+    script: &Script,
+    words: &[Value],
+    known: &mut Known,
+) -> Result<Option<String>, String> {
     let text = |index: usize| {
         let word = words.get(index).and_then(Value::as_str);
         word.map(str::to_owned)
@@ -102,7 +113,7 @@ fn call(figure: &mut Figure, script: &Script, words: &[Value]) -> Result<Option<
         "click" => figure.click(width, number(2)?, number(3)?),
         "draw" => figure.draw(width, script.scale, &script.theme),
         "draw_settled" => {
-            settle(figure, &script.figure);
+            settle(figure, &script.figure, known);
             figure.draw_sharp(width, script.scale, &script.theme)
         }
         other => return Err(format!("there is no method {other}")),
@@ -110,14 +121,20 @@ fn call(figure: &mut Figure, script: &Script, words: &[Value]) -> Result<Option<
 }
 
 /// Carries out what the figure waits for, as its worker would.
-fn settle(figure: &mut Figure, name: &str) {
+fn settle(figure: &mut Figure, name: &str, known: &mut Known) {
     // A figure may go through several stages, but not through endlessly many.
     for _ in 0..16 {
         let Some(key) = figure.job_key() else { return };
-        let go_on = &mut |_| ControlFlow::Continue(());
-        match gallery::compute(name, &figure.job_request(), go_on) {
-            Ok(result) => figure.job_done(&key, result),
-            Err(problem) => figure.job_failed(&key, problem.to_string()),
+        let result = known
+            .entry((name.to_owned(), key.clone()))
+            .or_insert_with(|| {
+                let go_on = &mut |_| ControlFlow::Continue(());
+                gallery::compute(name, &figure.job_request(), go_on)
+                    .map_err(|problem| problem.to_string())
+            });
+        match result.clone() {
+            Ok(bytes) => figure.job_done(&key, bytes),
+            Err(problem) => figure.job_failed(&key, problem),
         };
     }
 }
