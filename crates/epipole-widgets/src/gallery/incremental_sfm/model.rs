@@ -101,7 +101,7 @@ impl Declared for IncrementalSfm {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             timeline: Timeline::new("now", "Step", PACE),
-            orbit: Orbit::new(-20.0, 34.0),
+            orbit: Orbit::new(-4.0, 38.0),
             asked: Asked::default(),
         };
         model.asked.ask(model.question());

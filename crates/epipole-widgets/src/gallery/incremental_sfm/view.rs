@@ -24,8 +24,8 @@ const BAR: f64 = 0.72;
 /// Maximum number of rays from the newest camera.
 const MOST_RAYS: usize = 24;
 /// Radius of the space shown, and its middle relative to the target, meters.
-const RADIUS_M: f64 = 0.78;
-const MIDDLE_M: [f64; 3] = [0.0, 0.12, -0.35];
+const RADIUS_M: f64 = 0.9;
+const MIDDLE_M: [f64; 3] = [0.0, 0.02, -0.08];
 
 /// Draws [`IncrementalSfm`].
 #[derive(Default)]
@@ -184,7 +184,7 @@ fn draw_space(
         .iter()
         .map(|(index, camera)| (camera, answer.pictures[*index].image()));
     space.stand(photographs, CAMERA_M);
-    let side = (panel.rect.height / 110.0).clamp(1.6, 3.6);
+    let side = (panel.rect.height / 90.0).clamp(1.8, 4.2);
     let place = |place: &[f32; 3]| Point3::from(*place).cast::<f64>();
     for (point, color) in &step.points {
         space.speck(&place(point), side, *color);
