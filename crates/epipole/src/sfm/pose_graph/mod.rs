@@ -2,6 +2,7 @@
 
 mod any;
 mod chordal;
+mod information;
 mod poses;
 mod prior;
 
@@ -151,9 +152,9 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     ///
     /// # Errors
     /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins what is
-    /// not there or a vertex with itself, or for a loss that [`RobustLoss::check`] refuses,
-    /// [`Error::NotFinite`] for NaN and infinities, [`Error::Canceled`]; the graph is then the best
-    /// found so far.
+    /// not there or a vertex with itself, for an information matrix that is asymmetric or has a
+    /// negative eigenvalue, or for a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`]
+    /// for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
     pub fn optimize(
@@ -162,12 +163,12 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         loss: RobustLoss,
         monitor: &mut dyn Monitor,
     ) -> Result<PoseGraphReport> {
+        self.check(loss)?;
         if let Some(mut joined) = self.with_world() {
             let report = joined.optimize(options, loss, monitor);
             self.take_vertices(joined);
             return report;
         }
-        self.check(loss)?;
         let pairs: Vec<(u32, u32)> = self
             .edges
             .iter()
@@ -205,7 +206,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
     fn check(&self, loss: RobustLoss) -> Result<()> {
         loss.check()?;
-        if self.edges.is_empty() {
+        if self.edges.is_empty() && self.priors.is_empty() {
             return Err(Error::TooFew {
                 what: "the optimization of a pose graph from edges",
                 needed: 1,
@@ -221,15 +222,26 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
                     value: edge.to.max(edge.from) as f64,
                 });
             }
-            if !edge.from_from_to.is_finite() || !edge.information.iter().all(|x| x.is_finite()) {
+            if !edge.from_from_to.is_finite() {
                 return Err(Error::NotFinite {
                     what: "a measurement of a pose graph",
                 });
             }
+            information::check(&edge.information, &information::OF_EDGE)?;
         }
+        for prior in &self.priors {
+            if !prior.world_from_vertex.is_finite() {
+                return Err(Error::NotFinite {
+                    what: "a prior of a pose graph",
+                });
+            }
+            information::check(&prior.information, &information::OF_PRIOR)?;
+        }
+        let of_priors: Vec<usize> = self.priors.iter().map(|prior| prior.vertex).collect();
         for (what, vertices) in [
             ("a fixed vertex", &self.fixed),
             ("a landmark", &self.landmarks),
+            ("the vertex of a prior", &of_priors),
         ] {
             if let Some(&vertex) = vertices.iter().find(|&&vertex| vertex >= count) {
                 return Err(Error::OutOfRange {

@@ -130,12 +130,12 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// # Ok(()) }
     /// ```
     pub fn initialize(&mut self, monitor: &mut dyn Monitor) -> Result<()> {
+        self.check(RobustLoss::Trivial)?;
         if let Some(mut joined) = self.with_world() {
             let result = joined.initialize(monitor);
             self.take_vertices(joined);
             return result;
         }
-        self.check(RobustLoss::Trivial)?;
         let (held, _) = self.held();
         let mut poses: Vec<Similarity3<f64>> = self.vertices.iter().map(T::to_similarity).collect();
         let measured: Vec<Similarity3<f64>> = (self.edges.iter())
