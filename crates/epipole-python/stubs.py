@@ -30,6 +30,7 @@ NAMED = {
     "os.PathLike": ("os.PathLike[str]", "os.PathLike[str]"),
     "object": ("object", "Any"),
     "Any": ("Any", "Any"),
+    "tuple": ("tuple[Any, ...]", "tuple[Any, ...]"),
     "uint8": ("ArrayLike", "NDArray[np.uint8]"),
 } | {name: (name, name) for name in ("None", "bool", "bytes", "float", "int", "slice", "str")}
 DTYPES = {"": "float64", "float": "float64", "int": "int64", "bool": "bool_"}

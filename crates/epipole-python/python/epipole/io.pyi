@@ -452,9 +452,9 @@ class Rig:
     ----------
     id : int
         Number of the rig in files that number them; no two are equal.
-    cameras : list of tuple of Any
+    cameras : list of tuple
         Index of each camera and its ``cam_from_rig``, the identity of the first one.
-    frames : list of tuple of Any
+    frames : list of tuple
         Number of each frame, its ``rig_from_world``, and the indices of its images.
     """
     def __new__(

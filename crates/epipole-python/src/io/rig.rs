@@ -11,9 +11,9 @@ use pyo3::prelude::*;
 /// ----------
 /// id : int
 ///     Number of the rig in files that number them; no two are equal.
-/// cameras : list of tuple of Any
+/// cameras : list of tuple
 ///     Index of each camera and its ``cam_from_rig``, the identity of the first one.
-/// frames : list of tuple of Any
+/// frames : list of tuple
 ///     Number of each frame, its ``rig_from_world``, and the indices of its images.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]

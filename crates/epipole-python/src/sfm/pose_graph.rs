@@ -79,14 +79,15 @@ impl Parts<'_, '_> {
         let measurements = poses("measurements", self.measurements)?;
         let count = self.edges.len();
         require_equal(("edges", count), ("measurements", measurements.len()))?;
-        let information = information_of::<D>("information", self.information, count)?;
+        let information = information_of::<D>("information", "E", self.information, count)?;
         require_equal(("edges", count), ("information", information.len()))?;
         let prior_count = self.prior_vertices.len();
         let measured =
             (self.priors).map_or_else(|| Ok(Vec::new()), |rows| poses("priors", rows))?;
         require_equal(("prior_vertices", prior_count), ("priors", measured.len()))?;
         let name = "prior_information";
-        let prior_information = information_of::<D>(name, self.prior_information, prior_count)?;
+        let prior_information =
+            information_of::<D>(name, "P", self.prior_information, prior_count)?;
         require_equal(
             ("prior_vertices", prior_count),
             (name, prior_information.len()),
@@ -134,20 +135,22 @@ impl Parts<'_, '_> {
 /// Reads inverse covariances; `count` identities if none are given.
 fn information_of<const D: usize>(
     name: &str,
+    count_letter: &str,
     given: Option<&Bound<'_, PyAny>>,
     count: usize,
 ) -> PyResult<Vec<SMatrix<f64, D, D>>> {
     given.map_or_else(
         || Ok(vec![SMatrix::identity(); count]),
-        |given| matrices::<D>(name, given),
+        |given| matrices::<D>(name, count_letter, given),
     )
 }
 
 fn matrices<const D: usize>(
     name: &str,
+    count_letter: &str,
     value: &Bound<'_, PyAny>,
 ) -> PyResult<Vec<SMatrix<f64, D, D>>> {
-    let expected = format!("(E, {D}, {D})");
+    let expected = format!("({count_letter}, {D}, {D})");
     let array = as_array(name, value, &expected)?;
     match *array.shape() {
         [_, rows, columns] if rows == D && columns == D => {}
