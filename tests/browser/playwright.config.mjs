@@ -12,5 +12,6 @@ export default defineConfig({
   timeout: 120_000,
   expect: { timeout: 15_000 },
   reporter: [["list", { printSteps: false }]],
-  use: { browserName: "chromium", launchOptions, viewport: { width: 1000, height: 900 } },
+  // The worker of the book would answer for the tests' servers; its own tests allow it.
+  use: { serviceWorkers: "block", browserName: "chromium", launchOptions, viewport: { width: 1000, height: 900 } },
 });

@@ -14,6 +14,7 @@ export const TYPES = {
   ".webp": "image/webp",
   ".svg": "image/svg+xml",
   ".json": "application/json",
+  ".webmanifest": "application/manifest+json",
 };
 
 /** Content security policy of pages with figures. */
@@ -22,7 +23,7 @@ export const POLICY =
   "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
 
 /** Policy of the book, whose chapters run code in workers made from blobs. */
-export const BOOK_POLICY = `${POLICY}; worker-src 'self' blob:`;
+export const BOOK_POLICY = `${POLICY}; worker-src 'self' blob:; manifest-src 'self'`;
 
 /**
  * Policy of the Lab: also the reader's videos, and the blob URLs that workers poll for

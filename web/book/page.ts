@@ -51,6 +51,16 @@ if (document.querySelector(".gallery")) {
   void import("./gallery").then((gallery) => gallery.start(), sayMissing);
 }
 
+// Only the published book has a manifest. In frames, it belongs to another page.
+const manifest = document.querySelector<HTMLLinkElement>("link[rel=manifest]");
+if (manifest && "serviceWorker" in navigator && window === top) {
+  // After everything that this page shows.
+  const begin = () => void import("./offline").then((offline) => offline.start(manifest.href), () => undefined);
+  const idle = () => ("requestIdleCallback" in window ? requestIdleCallback(begin) : setTimeout(begin, 1000));
+  if (document.readyState === "complete") idle();
+  else addEventListener("load", idle, { once: true });
+}
+
 const button = document.querySelector<HTMLButtonElement>(".search-button");
 if (button) {
   button.hidden = false;

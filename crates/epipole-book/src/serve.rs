@@ -40,6 +40,7 @@ const WATCHED: &[&str] = &[
     "web/src",
     "web/theme",
     "web/book",
+    "web/offline",
     "web/run",
     "web/vision/src",
     "crates/epipole/src",

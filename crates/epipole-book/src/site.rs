@@ -20,6 +20,7 @@ use crate::write::compress;
 use crate::write::disk::{STAND_IN, write};
 use crate::write::frames::{self, Frame};
 use crate::write::gathered;
+use crate::write::manifest::{MANIFEST, manifest};
 use crate::write::manual::{Manual, read_reference};
 use crate::write::template::{Nav, Template};
 use anyhow::{Context, Result, bail};
@@ -275,6 +276,15 @@ impl Bound<'_> {
         ];
         files.extend(others.map(|(path, text)| (path, text.into_bytes())));
         files.extend(manual.files);
+        if !options.live {
+            let manifest = serde_json::to_vec(&manifest(config, assets))?;
+            files.insert(MANIFEST.to_owned(), manifest);
+        }
+        if options.assets {
+            let paths = pages.iter().map(|page| page.path.as_str());
+            let paths: Vec<&str> = paths.chain(["index.html"]).collect();
+            assets::add_offline(&options.project, options.live, &paths, files)?;
+        }
         Ok(())
     }
 }

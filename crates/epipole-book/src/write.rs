@@ -5,6 +5,7 @@ pub mod compress;
 pub(crate) mod disk;
 pub(crate) mod frames;
 pub(crate) mod gathered;
+pub(crate) mod manifest;
 pub mod manual;
 pub mod policy;
 pub mod stills;

@@ -8,13 +8,15 @@ mod fonts;
 mod lab;
 mod letters;
 mod likeness;
+mod offline;
 mod programs;
 mod scripts;
 mod wasm;
 
-pub use files::{Assets, add_hashed};
+pub use files::{AppIcon, Assets, add_hashed};
 pub use lab::make as make_lab;
 pub use letters::{Letters, used_letters};
+pub use offline::add_offline;
 pub(crate) use wasm::Modules;
 pub use wasm::make_parts as make_vision;
 
@@ -56,6 +58,24 @@ pub(crate) fn make(
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);
+    assets.app_icons.push(AppIcon {
+        path: assets.icon.clone(),
+        sizes: "any",
+        kind: "image/svg+xml",
+        purpose: "any",
+    });
+    for (name, sizes, purpose) in [
+        ("icon-192", "192x192", "any"),
+        ("icon-512", "512x512", "maskable"),
+    ] {
+        let png = read(&tools.project.join(format!("web/theme/{name}.png")))?;
+        assets.app_icons.push(AppIcon {
+            path: add_hashed(&mut assets.files, name, "png", png),
+            sizes,
+            kind: "image/png",
+            purpose,
+        });
+    }
     let licenses = [
         (
             "OFL-STIX-Two.txt",

@@ -229,3 +229,19 @@ fn a_second_build_replaces_the_first() {
     assert!(book.article("one.html").contains("New."));
     assert!(!book.out().with_extension("next").exists());
 }
+
+#[test]
+fn a_published_book_can_be_installed() {
+    let book = Book::of_chapter("# One\n\nWords.\n");
+    book.must_build();
+    let link = "<link rel=\"manifest\" href=\"manifest.webmanifest\">";
+    assert!(book.page("one.html").contains(link));
+    let manifest = book.page("manifest.webmanifest");
+    for part in [
+        "\"name\":\"Tiny\"",
+        "\"start_url\":\"index.html\"",
+        "\"lang\":\"en\"",
+    ] {
+        assert!(manifest.contains(part), "{part}: {manifest}");
+    }
+}

@@ -27,9 +27,25 @@ pub struct Assets {
     pub italic: Option<String>,
     /// The icon.
     pub icon: String,
+    /// Icons of the installed book.
+    #[serde(skip)]
+    pub app_icons: Vec<AppIcon>,
     /// Path → content.
     #[serde(skip)]
     pub files: BTreeMap<String, Vec<u8>>,
+}
+
+/// An icon of the installed book, as its manifest describes it.
+#[derive(Debug, Clone)]
+pub struct AppIcon {
+    /// From the root of the site.
+    pub path: String,
+    /// Sizes, CSS pixels.
+    pub sizes: &'static str,
+    /// MIME type.
+    pub kind: &'static str,
+    /// `maskable` if any shape may be cut from it, else `any`.
+    pub purpose: &'static str,
 }
 
 /// Adds a file under `assets/` whose name carries a hash of its content. Returns its path.

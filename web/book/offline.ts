@@ -1,0 +1,65 @@
+// The book without a network: registers its service worker, says when the whole book is kept, and
+// offers a new edition. A page that may not do so works as without.
+
+import { COMPLETE, TAKE_OVER, type Keep } from "../offline/protocol";
+
+/** Time that a worker without a predecessor takes to become active, milliseconds. */
+const PASSING_MS = 1000;
+
+export async function start(manifest: string): Promise<void> {
+  try {
+    const root = new URL(".", manifest);
+    const workers = navigator.serviceWorker;
+    workers.addEventListener("message", ({ data }) => data === COMPLETE && sayComplete());
+    const registration = await workers.register(new URL("sw.js", root), { updateViaCache: "none" });
+    await watch(registration);
+    const { active } = await workers.ready;
+    const page = location.pathname.slice(root.pathname.length).replace(/(^|\/)$/, "$1index.html");
+    const saves = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
+    active?.postMessage({ keep: page, all: !saves } satisfies Keep);
+  } catch {
+    // Forbidden by the browser or its settings.
+  }
+}
+
+function sayComplete(): void {
+  if (document.querySelector(".offline-sign")) return;
+  const sign = document.createElement("p");
+  sign.className = "offline-sign";
+  sign.textContent = "Available offline";
+  document.querySelector("main")?.append(sign);
+}
+
+/** Offers each edition that waits. */
+async function watch(registration: ServiceWorkerRegistration): Promise<void> {
+  const offerWaiting = () => {
+    if (registration.waiting && navigator.serviceWorker.controller) offer(registration.waiting);
+  };
+  offerWaiting();
+  registration.addEventListener("updatefound", () => {
+    registration.installing?.addEventListener("statechange", () => setTimeout(offerWaiting, PASSING_MS));
+  });
+  document.addEventListener("visibilitychange", () => {
+    if (!document.hidden) registration.update().catch(() => undefined);
+  });
+}
+
+function offer(edition: ServiceWorker): void {
+  document.querySelector(".edition-notice")?.remove();
+  const notice = document.createElement("p");
+  notice.className = "edition-notice";
+  notice.setAttribute("role", "status");
+  const button = (label: string, press: () => void) => {
+    const made = document.createElement("button");
+    made.type = "button";
+    made.textContent = label;
+    made.addEventListener("click", press);
+    return made;
+  };
+  const reload = button("Reload", () => {
+    navigator.serviceWorker.addEventListener("controllerchange", () => location.reload(), { once: true });
+    edition.postMessage(TAKE_OVER);
+  });
+  notice.append("A new edition is available. ", reload, " ", button("Later", () => notice.remove()));
+  document.body.append(notice);
+}

@@ -1,0 +1,100 @@
+// The files of one edition of the book in the browser's cache.
+
+/** Path of the list of files. Its hash names the edition. */
+declare const EPIPOLE_LIST: string;
+
+/** List of the files of the edition. */
+interface List {
+  /** Files that every page needs. */
+  core: string[];
+  /** Files of each page besides. */
+  pages: Record<string, string[]>;
+  /** All other files. */
+  rest: string[];
+  /** Hashes of the files whose names carry none. */
+  integrity: Record<string, string>;
+}
+
+const { scope } = (self as unknown as ServiceWorkerGlobalScope).registration;
+/** Prefix of the caches of this book; other books may share the origin. */
+const OURS = `epipole-book ${scope} `;
+const NAME = OURS + EPIPOLE_LIST;
+/** Entry of a cache that holds its whole edition. */
+const WHOLE = "offline-complete";
+/** Number of simultaneous downloads. */
+const LANES = 4;
+
+/** Whether the name of a file carries a hash of its content. */
+export const isHashed = (path: string) => /^(lab\/)?assets\//.test(path);
+
+const open = () => caches.open(NAME);
+
+export const addressOf = (path: string) => new URL(path, scope).href;
+
+/** Response for the path, if it is kept. */
+export async function kept(path: string): Promise<Response | undefined> {
+  return (await open()).match(addressOf(path));
+}
+
+export async function keep(path: string, response: Response): Promise<void> {
+  await (await open()).put(addressOf(path), response);
+}
+
+export async function isComplete(): Promise<boolean> {
+  return (await kept(WHOLE)) !== undefined;
+}
+
+/** Names of the caches with other editions. */
+async function others(): Promise<string[]> {
+  return (await caches.keys()).filter((name) => name.startsWith(OURS) && name !== NAME);
+}
+
+export async function forgetOthers(): Promise<void> {
+  await Promise.all((await others()).map((name) => caches.delete(name)));
+}
+
+/** Whether another edition is complete. */
+export async function hasPredecessor(): Promise<boolean> {
+  const held = await Promise.all((await others()).map((cacheName) => caches.match(addressOf(WHOLE), { cacheName })));
+  return held.some(Boolean);
+}
+
+/** A file of the server, as the edition has it. Throws if the server has another one. */
+async function download(path: string, integrity: string | undefined): Promise<Response> {
+  const response = await fetch(addressOf(path), {
+    ...(integrity ? { integrity, cache: "no-cache" } : {}),
+    priority: "low",
+  } as RequestInit);
+  if (!response.ok) throw new Error(`${response.status} for ${path}`);
+  // Navigations refuse a response that was redirected, as by hosts that hide `.html`.
+  const { status, headers } = response;
+  return response.redirected ? new Response(response.body, { status, headers }) : response;
+}
+
+/** Keeps one file: from an older edition if its name is the same, else from the server. */
+async function add(cache: Cache, path: string, integrity: string | undefined): Promise<void> {
+  const address = addressOf(path);
+  if (await cache.match(address)) return;
+  const old = integrity ? undefined : await caches.match(address);
+  await cache.put(address, old ?? (await download(path, integrity)));
+}
+
+/**
+ * Keeps a page with what it needs, then, with `all`, every other file. Continues where an earlier
+ * attempt ended. Throws if the server or the storage fails.
+ */
+export async function fill(page: string | undefined, all: boolean): Promise<void> {
+  if (await isComplete()) return;
+  const cache = await open();
+  await add(cache, EPIPOLE_LIST, undefined);
+  const list = (await (await cache.match(addressOf(EPIPOLE_LIST)))!.json()) as List;
+  const own = page === undefined ? undefined : list.pages[page];
+  const wanted = own ? [page!, ...list.core, ...own] : [];
+  if (all) wanted.push(...list.core, ...Object.entries(list.pages).flat(2), ...list.rest);
+  const queue = new Set(wanted).values();
+  const lane = async () => {
+    for (const path of queue) await add(cache, path, list.integrity[path]);
+  };
+  await Promise.all(Array.from({ length: LANES }, lane));
+  if (all) await cache.put(addressOf(WHOLE), new Response());
+}

@@ -1,0 +1,84 @@
+// Service worker of the published book. It keeps one edition for reading without a network. While
+// that is incomplete, pages come from the server, so that they fit the files there.
+
+import { fill, forgetOthers, hasPredecessor, isComplete, isHashed, keep, kept } from "./edition";
+import { COMPLETE, TAKE_OVER, type Keep } from "./protocol";
+
+const worker = self as unknown as ServiceWorkerGlobalScope;
+
+/** Parts of the site that are not kept: frames for other sites, manuals, notebooks. */
+const ELSEWHERE = /^(embed|python|js|notebooks|licenses)\/|\.(br|gz)$/;
+
+worker.addEventListener("install", (event) => event.waitUntil(install()));
+worker.addEventListener("activate", (event) => event.waitUntil(activate()));
+
+/** Waits for the reader only if a complete older edition is in use, until this one is, too. */
+async function install(): Promise<void> {
+  try {
+    if (await hasPredecessor()) return await fill(undefined, true);
+  } catch (error) {
+    // Without a network the older edition stays. Otherwise it must not stay forever.
+    if (!(error instanceof DOMException)) throw error;
+    await forgetOthers().catch(() => undefined);
+  }
+  await worker.skipWaiting();
+}
+
+async function activate(): Promise<void> {
+  await forgetOthers().catch(() => undefined);
+  await worker.clients.claim();
+}
+
+worker.addEventListener("message", (event) => {
+  if (event.data === TAKE_OVER) event.waitUntil(worker.skipWaiting());
+  else event.waitUntil(answer(event.data as Keep, event.source));
+});
+
+/** Work of the earlier messages: two pages must not download the same. */
+let busy = Promise.resolve();
+
+async function answer(request: Keep, source: ExtendableMessageEvent["source"]): Promise<void> {
+  busy = busy.then(async () => {
+    try {
+      await fill(request.keep, request.all);
+      if (await isComplete()) source?.postMessage(COMPLETE);
+    } catch {
+      // No network or no room: the next page tries again.
+    }
+  });
+  await busy;
+}
+
+worker.addEventListener("fetch", (event) => {
+  const { request } = event;
+  const { scope } = worker.registration;
+  const address = request.url.replace(/[?#].*$/, "");
+  if (request.method !== "GET" || !address.startsWith(scope)) return;
+  const path = address.slice(scope.length).replace(/(^|\/)$/, "$1index.html");
+  if (!ELSEWHERE.test(path)) event.respondWith(respond(event, path));
+});
+
+/** Never fails where the network alone would not. */
+async function respond(event: FetchEvent, path: string): Promise<Response> {
+  const isOfLab = path.startsWith("lab/");
+  let held: Response | undefined;
+  let first = isHashed(path);
+  try {
+    held = (await kept(path)) ?? (/\.\w+$/.test(path) ? undefined : await kept(`${path}.html`));
+    if (held && !first && !isOfLab) first = await isComplete();
+  } catch {
+    // Storage is forbidden.
+  }
+  if (held && first) return held;
+  try {
+    const response = await fetch(event.request);
+    // The Lab is kept once it is opened.
+    if (isOfLab && response.ok && !response.redirected) {
+      event.waitUntil(keep(path, response.clone()).catch(() => undefined));
+    }
+    return held && response.status >= 500 ? held : response;
+  } catch (error) {
+    if (held) return held;
+    throw error;
+  }
+}
