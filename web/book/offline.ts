@@ -27,7 +27,7 @@ function sayComplete(): void {
   const sign = document.createElement("p");
   sign.className = "offline-sign";
   sign.textContent = "Available offline";
-  document.querySelector("main")?.append(sign);
+  document.querySelector(".turn")?.append(sign);
 }
 
 /** Offers each edition that waits. */
