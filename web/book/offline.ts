@@ -1,6 +1,7 @@
 // The book without a network: registers its service worker, says when the whole book is kept, and
 // offers a new edition. A page that may not do so works as without.
 
+import { variantOf, type Variant } from "../offline/pictures";
 import { COMPLETE, TAKE_OVER, type Keep } from "../offline/protocol";
 
 /** Time that a worker without a predecessor takes to become active, milliseconds. */
@@ -16,10 +17,17 @@ export async function start(manifest: string): Promise<void> {
     const { active } = await workers.ready;
     const page = location.pathname.slice(root.pathname.length).replace(/(^|\/)$/, "$1index.html");
     const saves = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
-    active?.postMessage({ keep: page, all: !saves } satisfies Keep);
+    const variant = variantHere();
+    if (variant) active?.postMessage({ page, all: !saves, variant } satisfies Keep);
   } catch {
     // Forbidden by the browser or its settings.
   }
+}
+
+/** The pictures that this page shows; undefined without a figure. */
+function variantHere(): Variant | undefined {
+  const pictures = [...document.querySelectorAll<HTMLImageElement>("epipole-figure picture img")];
+  return pictures.map(({ currentSrc }) => variantOf(currentSrc)).find(Boolean);
 }
 
 function sayComplete(): void {

@@ -1,5 +1,8 @@
 // The files of one edition of the book in the browser's cache.
 
+import { inVariant, type Variant } from "./pictures";
+import type { Keep } from "./protocol";
+
 /** Path of the list of files. Its hash names the edition. */
 declare const EPIPOLE_LIST: string;
 
@@ -7,8 +10,8 @@ declare const EPIPOLE_LIST: string;
 interface List {
   /** Files that every page needs. */
   core: string[];
-  /** Files of each page besides. */
-  pages: Record<string, string[]>;
+  /** Files of each page besides; those of a group show the same in several widths and themes. */
+  pages: Record<string, string[][]>;
   /** All other files. */
   rest: string[];
   /** Hashes of the files whose names carry none. */
@@ -19,7 +22,7 @@ const { scope } = (self as unknown as ServiceWorkerGlobalScope).registration;
 /** Prefix of the caches of this book; other books may share the origin. */
 const OURS = `epipole-book ${scope} `;
 const NAME = OURS + EPIPOLE_LIST;
-/** Entry of a cache that holds its whole edition. */
+/** Entry of a cache that holds its whole edition: the variant of its pictures. */
 const WHOLE = "offline-complete";
 /** Number of simultaneous downloads. */
 const LANES = 4;
@@ -36,8 +39,21 @@ export async function kept(path: string): Promise<Response | undefined> {
   return (await open()).match(addressOf(path));
 }
 
+/** The picture in the variant that is kept instead, if there is one. */
+export async function keptLike(path: string): Promise<Response | undefined> {
+  const groups = Object.values((await list()).pages).flat();
+  const like = groups.find((paths) => paths.includes(path)) ?? [];
+  const held = await Promise.all(like.map(kept));
+  return held.find(Boolean);
+}
+
 export async function keep(path: string, response: Response): Promise<void> {
   await (await open()).put(addressOf(path), response);
+}
+
+/** The list, which is kept first of all. */
+async function list(): Promise<List> {
+  return (await kept(EPIPOLE_LIST))!.json();
 }
 
 export async function isComplete(): Promise<boolean> {
@@ -53,10 +69,10 @@ export async function forgetOthers(): Promise<void> {
   await Promise.all((await others()).map((name) => caches.delete(name)));
 }
 
-/** Whether another edition is complete. */
-export async function hasPredecessor(): Promise<boolean> {
+/** The variant of the pictures of another edition, if that is complete. */
+export async function variantBefore(): Promise<Variant | undefined> {
   const held = await Promise.all((await others()).map((cacheName) => caches.match(addressOf(WHOLE), { cacheName })));
-  return held.some(Boolean);
+  return held.find(Boolean)?.json();
 }
 
 /** A file of the server, as the edition has it. Throws if the server has another one. */
@@ -80,21 +96,21 @@ async function add(cache: Cache, path: string, integrity: string | undefined): P
 }
 
 /**
- * Keeps a page with what it needs, then, with `all`, every other file. Continues where an earlier
- * attempt ended. Throws if the server or the storage fails.
+ * Keeps a page with what it needs, then, with `all`, every other file, with pictures of one variant.
+ * Continues where an earlier attempt ended. Throws if the server or the storage fails.
  */
-export async function fill(page: string | undefined, all: boolean): Promise<void> {
+export async function fill({ page, all, variant }: Keep): Promise<void> {
   if (await isComplete()) return;
   const cache = await open();
   await add(cache, EPIPOLE_LIST, undefined);
-  const list = (await (await cache.match(addressOf(EPIPOLE_LIST)))!.json()) as List;
-  const own = page === undefined ? undefined : list.pages[page];
-  const wanted = own ? [page!, ...list.core, ...own] : [];
-  if (all) wanted.push(...list.core, ...Object.entries(list.pages).flat(2), ...list.rest);
+  const { core, pages, rest, integrity } = await list();
+  const ofPage = (name: string) => [name, ...core, ...inVariant(pages[name] ?? [], variant)];
+  const wanted = page !== undefined && page in pages ? ofPage(page) : [];
+  if (all) wanted.push(...Object.keys(pages).flatMap(ofPage), ...rest);
   const queue = new Set(wanted).values();
   const lane = async () => {
-    for (const path of queue) await add(cache, path, list.integrity[path]);
+    for (const path of queue) await add(cache, path, integrity[path]);
   };
   await Promise.all(Array.from({ length: LANES }, lane));
-  if (all) await cache.put(addressOf(WHOLE), new Response());
+  if (all) await cache.put(addressOf(WHOLE), Response.json(variant));
 }

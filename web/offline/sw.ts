@@ -1,7 +1,7 @@
 // Service worker of the published book. It keeps one edition for reading without a network. While
 // that is incomplete, pages come from the server, so that they fit the files there.
 
-import { fill, forgetOthers, hasPredecessor, isComplete, isHashed, keep, kept } from "./edition";
+import { fill, forgetOthers, isComplete, isHashed, keep, kept, keptLike, variantBefore } from "./edition";
 import { COMPLETE, TAKE_OVER, type Keep } from "./protocol";
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
@@ -15,7 +15,8 @@ worker.addEventListener("activate", (event) => event.waitUntil(activate()));
 /** Waits for the reader only if a complete older edition is in use, until this one is, too. */
 async function install(): Promise<void> {
   try {
-    if (await hasPredecessor()) return await fill(undefined, true);
+    const variant = await variantBefore();
+    if (variant) return await fill({ page: undefined, all: true, variant });
   } catch (error) {
     // Without a network the older edition stays. Otherwise it must not stay forever.
     if (!(error instanceof DOMException)) throw error;
@@ -40,7 +41,7 @@ let busy = Promise.resolve();
 async function answer(request: Keep, source: ExtendableMessageEvent["source"]): Promise<void> {
   busy = busy.then(async () => {
     try {
-      await fill(request.keep, request.all);
+      await fill(request);
       if (await isComplete()) source?.postMessage(COMPLETE);
     } catch {
       // No network or no room: the next page tries again.
@@ -78,6 +79,7 @@ async function respond(event: FetchEvent, path: string): Promise<Response> {
     }
     return held && response.status >= 500 ? held : response;
   } catch (error) {
+    held ??= await keptLike(path).catch(() => undefined);
     if (held) return held;
     throw error;
   }

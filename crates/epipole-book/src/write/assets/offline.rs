@@ -24,7 +24,8 @@ type Files = BTreeMap<String, Vec<u8>>;
 #[derive(Debug, Serialize)]
 struct List<'a> {
     core: Vec<&'a str>,
-    pages: BTreeMap<&'a str, Vec<&'a str>>,
+    /// Files of a group show the same in several widths and themes.
+    pages: BTreeMap<&'a str, Vec<Vec<&'a str>>>,
     rest: Vec<&'a str>,
     integrity: BTreeMap<&'a str, String>,
 }
@@ -41,19 +42,18 @@ impl<'a> List<'a> {
         let others = files.keys().map(String::as_str);
         let others = others.filter(|path| path.starts_with("assets/") && !core.contains(path));
         let others: Vec<&str> = others.collect();
-        let pages: BTreeMap<&str, Vec<&str>> = pages
+        let pages: BTreeMap<&str, Vec<Vec<&str>>> = pages
             .iter()
             .filter_map(|page| {
                 let html = std::str::from_utf8(files.get(*page)?).ok()?;
-                let own = others.iter().filter(|path| html.contains(**path));
-                Some((*page, own.copied().collect()))
+                Some((*page, groups(html, &others)))
             })
             .collect();
         // Other pictures of figures are for the frames of other sites.
         let rest = others
             .iter()
             .filter(|path| !path.starts_with("assets/figures/"))
-            .filter(|path| !pages.values().any(|own| own.contains(path)))
+            .filter(|path| !pages.values().flatten().any(|own| own.contains(path)))
             .copied()
             .collect();
         let integrity = pages.keys().map(|page| {
@@ -68,6 +68,22 @@ impl<'a> List<'a> {
             integrity,
         }
     }
+}
+
+/// The files of a page that are not in another group: those of each `<picture>`, others alone.
+fn groups<'a>(html: &str, files: &[&'a str]) -> Vec<Vec<&'a str>> {
+    let mut left: Vec<&str> = (files.iter().copied())
+        .filter(|path| html.contains(path))
+        .collect();
+    let mut groups: Vec<Vec<&str>> = html
+        .split("<picture")
+        .skip(1)
+        .filter_map(|rest| rest.split_once("</picture>"))
+        .map(|(picture, _)| left.extract_if(.., |path| picture.contains(*path)).collect())
+        .collect();
+    groups.extend(left.into_iter().map(|path| vec![path]));
+    groups.retain(|group| !group.is_empty());
+    groups
 }
 
 /// Adds the worker for these pages, after all other files.
@@ -103,7 +119,8 @@ mod tests {
 
     #[test]
     fn a_page_has_its_pictures_and_frames_have_none() {
-        let html = "<source srcset=\"assets/figures/dot-1.webp\">";
+        let html = "<picture><source srcset=\"assets/figures/dot-1.webp\"><img src=\"assets/figures/dot-2.webp\">\
+                    </picture><img src=\"assets/figures/dot-3.webp\">";
         let files = [
             ("a.html", html),
             ("404.html", ""),
@@ -113,6 +130,8 @@ mod tests {
             ("assets/epipole-figures-1.wasm", ""),
             ("assets/figures/dot-1.webp", ""),
             ("assets/figures/dot-2.webp", ""),
+            ("assets/figures/dot-3.webp", ""),
+            ("assets/figures/dot-4.webp", ""),
             ("assets/search-1.json", ""),
         ];
         let files: Files = files
@@ -125,7 +144,13 @@ mod tests {
         );
         assert_eq!(
             list.pages,
-            BTreeMap::from([("a.html", vec!["assets/figures/dot-1.webp"])])
+            BTreeMap::from([(
+                "a.html",
+                vec![
+                    vec!["assets/figures/dot-1.webp", "assets/figures/dot-2.webp"],
+                    vec!["assets/figures/dot-3.webp"],
+                ]
+            )])
         );
         assert_eq!(
             list.rest,
