@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { expect, ready, test } from "./fixtures.mjs";
+import { expect, expectAccessible, ready, test } from "./fixtures.mjs";
 import { book, root } from "./places.mjs";
 import { BOOK_POLICY, serve, TYPES } from "./server.mjs";
 
@@ -118,6 +118,7 @@ test("a new edition is offered, and comes when the reader wants it", async ({ pa
   await page.reload();
   await expect(notice(page)).toBeVisible({ timeout: WHOLE_MS });
   await expect(title(page)).not.toContainText("Second edition");
+  await expectAccessible(page);
   const shift = page.evaluate(
     () =>
       new Promise((done) => {
