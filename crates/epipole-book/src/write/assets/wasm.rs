@@ -29,7 +29,7 @@ pub(crate) struct Modules {
     pub(super) parts: PathBuf,
 }
 
-/// Features of `epipole-web`: the figures, and their computations.
+/// Features of `epipole-web`: the figures for the page, and their computations for its worker.
 const FIGURES: [&str; 2] = ["figures", "jobs"];
 /// Features of `epipole-js`: the parts of the npm package of the core, a module each.
 const PARTS: [&str; 4] = ["homography", "geometry", "images", "all"];
@@ -54,12 +54,19 @@ const OF_PARTS: [&str; 2] = ["crates/epipole-js", "crates/epipole-schema"];
 
 /// Builds the modules of the book.
 pub(super) fn make(tools: &Tools) -> Result<Modules> {
-    make_all(tools, "epipole-web", &FIGURES, &OF_FIGURES)?;
-    let [figures, jobs] = FIGURES.map(|feature| load(tools, "epipole-web", feature));
+    let [page, worker] = FIGURES;
+    // The page's profile has a folder of its own: cargo builds in both at once.
+    let (figures, parts) = std::thread::scope(|scope| {
+        let figures = scope.spawn(|| make_all(tools, "epipole-web", &[page], &OF_FIGURES));
+        let parts = make_all(tools, "epipole-web", &[worker], &OF_FIGURES)
+            .and_then(|()| make_parts(&tools.project));
+        (figures.join(), parts)
+    });
+    figures.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
     Ok(Modules {
-        figures: figures?,
-        jobs: jobs?,
-        parts: make_parts(&tools.project)?,
+        figures: load(tools, "epipole-web", page)?,
+        jobs: load(tools, "epipole-web", worker)?,
+        parts: parts?,
     })
 }
 
