@@ -111,14 +111,13 @@ test("a reader who saves data keeps the visited chapter only", async ({ page, co
   complaints.length = 0;
 });
 
-test("a new edition is offered, and comes when the reader wants it", async ({ page }) => {
+test("a new edition is offered, and comes when the reader wants it", async ({ page, complaints }) => {
   const site = await library();
   await visit(page, site);
   site.other = nextEdition();
   await page.reload();
   await expect(notice(page)).toBeVisible({ timeout: WHOLE_MS });
   await expect(title(page)).not.toContainText("Second edition");
-  await expectAccessible(page);
   const shift = page.evaluate(
     () =>
       new Promise((done) => {
@@ -129,6 +128,10 @@ test("a new edition is offered, and comes when the reader wants it", async ({ pa
       }),
   );
   expect(await shift).toBeLessThanOrEqual(0.01);
+  expect(complaints).toEqual([]);
+  await expectAccessible(page, { within: ".edition-notice" });
+  // axe measures by inline styles, which the policy forbids.
+  complaints.length = 0;
   await page.getByRole("button", { name: "Later" }).click();
   await expect(notice(page)).toHaveCount(0);
   // The next page offers it again.
