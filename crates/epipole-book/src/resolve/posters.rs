@@ -161,7 +161,13 @@ mod tests {
                 .collect(),
         };
         let kind = |poster: &Poster| encode(poster).unwrap().webp[12..16].to_vec();
-        let drawing = poster(|n| if n % 256 < 100 { 0x30_60_c0 } else { 0xff_ff_ff });
+        let drawing = poster(|n| {
+            if n % 256 < 100 {
+                0x30_60_c0
+            } else {
+                0xff_ff_ff
+            }
+        });
         assert_eq!(kind(&drawing), b"VP8L");
         assert!(!has_many_colors(&drawing.rgba));
         let photograph = poster(|n| n.wrapping_mul(2_654_435_761) >> 8);

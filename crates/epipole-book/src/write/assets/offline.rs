@@ -79,7 +79,10 @@ fn groups<'a>(html: &str, files: &[&'a str]) -> Vec<Vec<&'a str>> {
         .split("<picture")
         .skip(1)
         .filter_map(|rest| rest.split_once("</picture>"))
-        .map(|(picture, _)| left.extract_if(.., |path| picture.contains(*path)).collect())
+        .map(|(picture, _)| {
+            left.extract_if(.., |path| picture.contains(*path))
+                .collect()
+        })
         .collect();
     groups.extend(left.into_iter().map(|path| vec![path]));
     groups.retain(|group| !group.is_empty());
