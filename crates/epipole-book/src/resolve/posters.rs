@@ -10,7 +10,7 @@ const SCALE: u32 = 2;
 /// Quality of lossy posters, of 100. At two device pixels to a CSS pixel text stays crisp.
 const QUALITY: f32 = 76.0;
 
-/// Colors above which a lossless poster is never the smaller one, and takes most of the time to make.
+/// Colors above which no lossless poster is tried: it takes long and was never the smaller one.
 /// Of 514 posters, the ten that are smaller without loss have at most 2731.
 const MOST_COLORS: usize = 4096;
 
