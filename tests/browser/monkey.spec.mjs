@@ -142,7 +142,7 @@ for (const [index, { name }] of figures.entries()) {
     const end = Date.now() + 1000 * SECONDS;
     let middle;
     const tasks = await tasksOf(browser, page);
-    while (Date.now() < end || done.length < 12) {
+    while (Date.now() < end || done.length < 25) {
       const [, what, act] = next();
       done.push(what);
       await act();
