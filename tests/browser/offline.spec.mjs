@@ -93,6 +93,9 @@ test("the whole book is read without a network after one visit", async ({ page }
     await expect(title(page)).toBeVisible();
     await ready(page.locator("epipole-figure").first());
   }
+  // Also on a page without figures.
+  await page.goto(`${site.address}/references.html`);
+  await expect(sign(page)).toBeVisible();
   await page.goto(`${site.address}/`);
   await expect(title(page)).toBeVisible();
   await page.locator(".search-button").click();

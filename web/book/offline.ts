@@ -2,7 +2,7 @@
 // offers a new edition. A page that may not do so works as without.
 
 import { variantOf, type Variant } from "../offline/pictures";
-import { COMPLETE, TAKE_OVER, type Keep } from "../offline/protocol";
+import { COMPLETE, TAKE_OVER, type CacheRequest } from "../offline/protocol";
 
 /** Time that a worker without a predecessor takes to become active, milliseconds. */
 const PASSING_MS = 1000;
@@ -11,14 +11,17 @@ export async function start(manifest: string): Promise<void> {
   try {
     const root = new URL(".", manifest);
     const workers = navigator.serviceWorker;
-    workers.addEventListener("message", ({ data }) => data === COMPLETE && sayComplete());
+    workers.addEventListener("message", ({ data }) => data === COMPLETE && showSign());
     const registration = await workers.register(new URL("sw.js", root), { updateViaCache: "none" });
     await watch(registration);
     const { active } = await workers.ready;
     const page = location.pathname.slice(root.pathname.length).replace(/(^|\/)$/, "$1index.html");
     const saves = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
-    const variant = variantHere();
-    if (variant) active?.postMessage({ page, all: !saves, variant } satisfies Keep);
+    const seen = variantHere();
+    // A page without figures does not show which pictures of the others its reader would see.
+    const all = !saves && seen !== undefined;
+    const variant = seen ?? { width: 360, theme: "light" };
+    active?.postMessage({ page, all, variant } satisfies CacheRequest);
   } catch {
     // Forbidden by the browser or its settings.
   }
@@ -30,7 +33,7 @@ function variantHere(): Variant | undefined {
   return pictures.map(({ currentSrc }) => variantOf(currentSrc)).find(Boolean);
 }
 
-function sayComplete(): void {
+function showSign(): void {
   if (document.querySelector(".offline-sign")) return;
   const sign = document.createElement("p");
   sign.className = "offline-sign";

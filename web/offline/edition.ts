@@ -1,7 +1,7 @@
 // The files of one edition of the book in the browser's cache.
 
 import { inVariant, type Variant } from "./pictures";
-import type { Keep } from "./protocol";
+import type { CacheRequest } from "./protocol";
 
 /** Path of the list of files. Its hash names the edition. */
 declare const EPIPOLE_LIST: string;
@@ -34,30 +34,30 @@ const open = () => caches.open(NAME);
 
 export const addressOf = (path: string) => new URL(path, scope).href;
 
-/** Response for the path, if it is kept. */
-export async function kept(path: string): Promise<Response | undefined> {
+/** Response from the cache; undefined for a path that it lacks. */
+export async function cached(path: string): Promise<Response | undefined> {
   return (await open()).match(addressOf(path));
 }
 
-/** The picture in the variant that is kept instead, if there is one. */
-export async function keptLike(path: string): Promise<Response | undefined> {
+/** The same picture in the width and theme that the cache has. */
+export async function cachedAlternative(path: string): Promise<Response | undefined> {
   const groups = Object.values((await list()).pages).flat();
   const like = groups.find((paths) => paths.includes(path)) ?? [];
-  const held = await Promise.all(like.map(kept));
+  const held = await Promise.all(like.map(cached));
   return held.find(Boolean);
 }
 
-export async function keep(path: string, response: Response): Promise<void> {
+export async function store(path: string, response: Response): Promise<void> {
   await (await open()).put(addressOf(path), response);
 }
 
 /** The list, which is kept first of all. */
 async function list(): Promise<List> {
-  return (await kept(EPIPOLE_LIST))!.json();
+  return (await cached(EPIPOLE_LIST))!.json();
 }
 
 export async function isComplete(): Promise<boolean> {
-  return (await kept(WHOLE)) !== undefined;
+  return (await cached(WHOLE)) !== undefined;
 }
 
 /** Names of the caches with other editions. */
@@ -99,7 +99,7 @@ async function add(cache: Cache, path: string, integrity: string | undefined): P
  * Keeps a page with what it needs, then, with `all`, every other file, with pictures of one variant.
  * Continues where an earlier attempt ended. Throws if the server or the storage fails.
  */
-export async function fill({ page, all, variant }: Keep): Promise<void> {
+export async function fill({ page, all, variant }: CacheRequest): Promise<void> {
   if (await isComplete()) return;
   const cache = await open();
   await add(cache, EPIPOLE_LIST, undefined);

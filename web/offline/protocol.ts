@@ -2,11 +2,11 @@
 
 import type { Variant } from "./pictures";
 
-/** Page to worker: keep this page with what it needs; with `all`, the rest of the book, too. */
-export interface Keep {
+/** Page to worker: cache this page with its files; with `all`, the whole book. */
+export interface CacheRequest {
   page: string | undefined;
   all: boolean;
-  /** The pictures to keep. */
+  /** Width and theme of the pictures. */
   variant: Variant;
 }
 

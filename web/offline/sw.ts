@@ -1,8 +1,8 @@
 // Service worker of the published book. It keeps one edition for reading without a network. While
 // that is incomplete, pages come from the server, so that they fit the files there.
 
-import { fill, forgetOthers, isComplete, isHashed, keep, kept, keptLike, variantBefore } from "./edition";
-import { COMPLETE, TAKE_OVER, type Keep } from "./protocol";
+import { fill, forgetOthers, isComplete, isHashed, store, cached, cachedAlternative, variantBefore } from "./edition";
+import { COMPLETE, TAKE_OVER, type CacheRequest } from "./protocol";
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
 
@@ -32,13 +32,13 @@ async function activate(): Promise<void> {
 
 worker.addEventListener("message", (event) => {
   if (event.data === TAKE_OVER) event.waitUntil(worker.skipWaiting());
-  else event.waitUntil(answer(event.data as Keep, event.source));
+  else event.waitUntil(answer(event.data as CacheRequest, event.source));
 });
 
 /** Work of the earlier messages: two pages must not download the same. */
 let busy = Promise.resolve();
 
-async function answer(request: Keep, source: ExtendableMessageEvent["source"]): Promise<void> {
+async function answer(request: CacheRequest, source: ExtendableMessageEvent["source"]): Promise<void> {
   busy = busy.then(async () => {
     try {
       await fill(request);
@@ -65,7 +65,7 @@ async function respond(event: FetchEvent, path: string): Promise<Response> {
   let held: Response | undefined;
   let first = isHashed(path);
   try {
-    held = (await kept(path)) ?? (/\.\w+$/.test(path) ? undefined : await kept(`${path}.html`));
+    held = (await cached(path)) ?? (/\.\w+$/.test(path) ? undefined : await cached(`${path}.html`));
     if (held && !first && !isOfLab) first = await isComplete();
   } catch {
     // Storage is forbidden.
@@ -75,11 +75,11 @@ async function respond(event: FetchEvent, path: string): Promise<Response> {
     const response = await fetch(event.request);
     // The Lab is kept once it is opened.
     if (isOfLab && response.ok && !response.redirected) {
-      event.waitUntil(keep(path, response.clone()).catch(() => undefined));
+      event.waitUntil(store(path, response.clone()).catch(() => undefined));
     }
     return held && response.status >= 500 ? held : response;
   } catch (error) {
-    held ??= await keptLike(path).catch(() => undefined);
+    held ??= await cachedAlternative(path).catch(() => undefined);
     if (held) return held;
     throw error;
   }
