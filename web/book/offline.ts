@@ -46,13 +46,16 @@ async function watch(registration: ServiceWorkerRegistration): Promise<void> {
   const offerWaiting = () => {
     if (registration.waiting && navigator.serviceWorker.controller) offer(registration.waiting);
   };
-  offerWaiting();
-  registration.addEventListener("updatefound", () => {
+  const follow = () =>
     registration.installing?.addEventListener("statechange", () => setTimeout(offerWaiting, PASSING_MS));
-  });
-  document.addEventListener("visibilitychange", () => {
-    if (!document.hidden) registration.update().catch(() => undefined);
-  });
+  offerWaiting();
+  // The browser may have found the edition before this page listened.
+  follow();
+  registration.addEventListener("updatefound", follow);
+  const ask = () => void registration.update().catch(() => undefined);
+  document.addEventListener("visibilitychange", () => document.hidden || ask());
+  // By itself, a browser asks once its worker has been idle for a while.
+  if (navigator.serviceWorker.controller) ask();
 }
 
 function offer(edition: ServiceWorker): void {
