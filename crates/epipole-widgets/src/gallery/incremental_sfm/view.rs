@@ -24,8 +24,8 @@ const BAR: f64 = 0.72;
 /// Maximum number of rays from the newest camera.
 const MOST_RAYS: usize = 24;
 /// Radius of the space shown, and its middle relative to the target, meters.
-const RADIUS_M: f64 = 0.9;
-const MIDDLE_M: [f64; 3] = [0.0, 0.02, -0.08];
+const RADIUS_M: f64 = 0.97;
+const MIDDLE_M: [f64; 3] = [-0.04, 0.02, -0.08];
 
 /// Draws [`IncrementalSfm`].
 #[derive(Default)]
