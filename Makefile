@@ -15,7 +15,7 @@ HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision vision-docs test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-bindings python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision vision-docs test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -31,7 +31,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-python test-web test-vision test-listings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
+test: setup check test-rust test-bindings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -59,6 +59,11 @@ test-python: setup-test python-module ## the Python package; files through pycol
 	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
 	cargo build --locked --quiet --bin epipole
 	$(PYTHON) -m pytest --quiet -rs tests/files
+
+# Each of them keeps one processor busy.
+test-bindings: setup ## test-python, test-web, test-vision and test-listings, two at a time
+	@$(MAKE) --no-print-directory --jobs 2 $(if $(filter output-sync,$(.FEATURES)),--output-sync=target) \
+		test-python test-web test-vision test-listings
 
 test-web: setup-build ## unit tests of the elements, without a browser
 	cd web && npm test --silent
