@@ -1,6 +1,8 @@
-//! One pair, rectified: rows under a ruler, and the depth of every pixel.
+//! Depth of every pixel: of one pair, rectified, under a ruler; or of all views, as one cloud.
 
+use super::all_views;
 use super::depth_controls::{disparities, legend, pixel};
+use super::reconstruction::space;
 use super::screen::{Panel, Screen};
 use super::widgets::controls::{self, Change};
 use super::widgets::strips::Strips;
@@ -15,6 +17,8 @@ use std::ops::Range;
 /// Panel of the step "Depth".
 #[derive(Default)]
 pub(super) struct Depth {
+    /// Whether all views are shown, not a pair.
+    all_views: bool,
     lens: photo::Lens,
     /// The row of the ruler; the column, where matches share one.
     row: u32,
@@ -59,6 +63,9 @@ impl Depth {
 
 impl Panel for Depth {
     fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        if self.all_views {
+            return space(screen, ui);
+        }
         let project = screen.project;
         let document = project.document();
         let pair = document.pair(project.view().pair);
@@ -120,6 +127,13 @@ impl Panel for Depth {
     }
 
     fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            ui.selectable_value(&mut self.all_views, false, "One pair");
+            ui.selectable_value(&mut self.all_views, true, "All views");
+        });
+        if self.all_views {
+            return all_views::controls(screen, ui);
+        }
         let project = screen.project;
         let (a, b) = project.view().pair;
         controls::choose_pair(screen, ui);

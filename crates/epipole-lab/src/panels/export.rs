@@ -27,7 +27,8 @@ impl Panel for Export {
         ui.label(
         "Inside are images/ and sparse/0/ in COLMAP's text format, which other programs open; points.ply with colors; \
          reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. Measures are \
-         in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/.",
+         in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/; the depth of all views \
+         adds fused.ply with normals.",
     );
         ui.weak(match project.scale() {
             Some(_) => "Lengths are in meters, by the length you measured.",

@@ -1,5 +1,6 @@
 //! Panels: one per step, in egui. A panel reads the project and sends actions to the app.
 
+mod all_views;
 mod calibrate;
 mod depth;
 mod depth_controls;

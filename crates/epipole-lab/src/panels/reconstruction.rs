@@ -3,7 +3,7 @@
 use super::screen::{Panel, Screen};
 use super::widgets::cloud::{CloudView, Coloring};
 use super::widgets::controls::{self, Change};
-use super::widgets::{look, observations};
+use super::widgets::{has_dense, look, observations};
 use crate::project::{Project, RefineFocal, Step};
 use crate::session::Event;
 use crate::tasks::ReconstructionOfAll;
@@ -96,6 +96,9 @@ fn view(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
         }
     });
     ui.checkbox(&mut cloud.photographs, "Show photographs");
+    if has_dense(project) {
+        ui.checkbox(&mut cloud.sparse, "Show sparse points");
+    }
     match cloud.coloring {
         Coloring::Photographs => {}
         Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),

@@ -43,17 +43,20 @@ impl Given {
     }
 }
 
-/// Place that a measure holds on to: a keypoint that is part of a point, or a pixel with dense
-/// depth.
+/// Place that a measure holds on to: a keypoint that is part of a point, a pixel with dense depth,
+/// or a point of the cloud of all views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
-    /// The photograph, or the first of a pair.
+    /// The photograph, or the first of a pair, or the first registered one.
     pub photo: PhotoId,
-    /// Its keypoint; 0 for a pixel.
+    /// Its keypoint; 0 for a pixel and a point of the cloud.
     pub keypoint: u32,
     /// The pixel, if it is none of the sparse points.
     #[serde(default)]
     pub pixel: Option<DensePixel>,
+    /// The point of the cloud of all views, if it is one.
+    #[serde(default)]
+    pub cloud: Option<CloudPoint>,
 }
 
 impl Anchor {
@@ -72,6 +75,15 @@ pub struct DensePixel {
     pub second: PhotoId,
     /// Column and row.
     pub at: [u32; 2],
+}
+
+/// Point of the cloud of all views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CloudPoint {
+    /// Key of the cloud: a point of another cloud is gone.
+    pub cloud: u64,
+    /// Its index.
+    pub index: u32,
 }
 
 /// Two points, and their distance if known.
@@ -96,6 +108,8 @@ pub struct Document {
     pub floor: Option<[Anchor; 3]>,
     /// Pairs whose depth is part of the cloud.
     pub dense: Vec<(PhotoId, PhotoId)>,
+    /// Whether the depth of all views is part of the cloud.
+    pub all_views: bool,
     /// Photographs of a board, in order.
     pub boards: Vec<Given>,
     /// The calibrated camera of those photographs that have its size.

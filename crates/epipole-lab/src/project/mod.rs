@@ -19,13 +19,18 @@ pub use bytes::Blob;
 pub(crate) use bytes::to_bytes;
 pub use computed::{COMPUTED_BY, Computed};
 pub(crate) use document::content_of;
-pub use document::{Anchor, DensePixel, Document, Given, Measure, PhotoId, Source, pairs};
+pub use document::{
+    Anchor, CloudPoint, DensePixel, Document, Given, Measure, PhotoId, Source, pairs,
+};
 pub use key::Key;
 pub use options::{
-    DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions, PairOptions, SfmOptions,
+    AllViewsOptions, DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions,
+    PairOptions, SfmOptions,
 };
 pub use sample::Sample;
 pub use saved::{Saved, SavedPhoto, VERSION};
-pub use settings::{MAX_DISPARITY_PX, MAX_FRAMES, MAX_MARKS, RefineFocal, SQUARES_M, Settings};
+pub use settings::{
+    ALL_VIEWS_MEGAPIXELS, MAX_DISPARITY_PX, MAX_FRAMES, MAX_MARKS, RefineFocal, SQUARES_M, Settings,
+};
 pub use state::{Outcome, Project, View};
 pub use step::{Explanation, Step};

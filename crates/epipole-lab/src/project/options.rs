@@ -129,3 +129,19 @@ impl Default for DepthOptions {
         }
     }
 }
+
+/// Settings of the depth of all views.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct AllViewsOptions {
+    /// Maximum size of a photograph, megapixels; larger ones are downscaled.
+    pub max_megapixels: f64,
+}
+
+impl Default for AllViewsOptions {
+    /// A minute or two for the photographs of a small scene in a browser.
+    fn default() -> Self {
+        Self {
+            max_megapixels: 0.3,
+        }
+    }
+}

@@ -26,6 +26,9 @@ pub struct Saved {
     /// Pairs whose depth is part of the cloud, likewise.
     #[serde(default)]
     pub dense: Vec<(PhotoId, PhotoId)>,
+    /// Whether the depth of all views is part of the cloud.
+    #[serde(default)]
+    pub all_views: bool,
     /// Photographs of a board, in order. Their files are in a folder of their own.
     #[serde(default)]
     pub boards: Vec<SavedPhoto>,

@@ -1,7 +1,9 @@
 //! Settings of all steps.
 
 use super::board_options::{BoardPattern, CalibrationOptions};
-use super::options::{DepthOptions, FeatureOptions, MatchOptions, PairOptions, SfmOptions};
+use super::options::{
+    AllViewsOptions, DepthOptions, FeatureOptions, MatchOptions, PairOptions, SfmOptions,
+};
 use serde::{Deserialize, Serialize};
 
 /// When focal lengths are refined.
@@ -33,6 +35,9 @@ pub struct Settings {
     /// Dense depth of pairs.
     #[serde(default)]
     pub depth: DepthOptions,
+    /// Depth of all views.
+    #[serde(default)]
+    pub all_views: AllViewsOptions,
     /// Calibration.
     #[serde(default)]
     pub calibration: CalibrationOptions,
@@ -55,6 +60,7 @@ impl Default for Settings {
             sfm: SfmOptions::default(),
             refine_focal: RefineFocal::WhenGuessed,
             depth: DepthOptions::default(),
+            all_views: AllViewsOptions::default(),
             calibration: CalibrationOptions::default(),
             num_frames: usual_num_frames(),
         }
@@ -63,6 +69,8 @@ impl Default for Settings {
 
 /// Maximum disparity, pixels.
 pub const MAX_DISPARITY_PX: i32 = 8192;
+/// The least and the greatest size of photographs for the depth of all views, megapixels.
+pub const ALL_VIEWS_MEGAPIXELS: [f64; 2] = [0.05, 3.0];
 /// Maximum number of frames from a video.
 pub const MAX_FRAMES: u32 = 60;
 /// Maximum number of columns and rows of a board.
@@ -89,6 +97,8 @@ impl Settings {
             *low = (*low).clamp(0, MAX_DISPARITY_PX - 1);
             *high = (*high).clamp(*low + 1, MAX_DISPARITY_PX.min(*low + 4095));
         }
+        let [least, most] = ALL_VIEWS_MEGAPIXELS;
+        self.all_views.max_megapixels = within(self.all_views.max_megapixels, least, most);
         self.num_frames = self.num_frames.clamp(2, MAX_FRAMES);
         let board = &mut self.calibration.board;
         let fewest = match board.pattern {

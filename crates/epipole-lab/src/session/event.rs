@@ -44,6 +44,8 @@ pub enum Event {
     Floor(Option<[Anchor; 3]>),
     /// Added the depth of a pair to the cloud, or removed it.
     Dense(PhotoId, PhotoId, bool),
+    /// Added the depth of all views to the cloud, or removed it.
+    AllViews(bool),
     /// Took back the last change.
     Undo,
     /// Restored it.

@@ -72,7 +72,7 @@ const KINDS: [(&str, FeatureKind); 2] = [
     ("sift", FeatureKind::Sift),
 ];
 
-const PARAMETERS: [Parameter; 20] = [
+const PARAMETERS: [Parameter; 21] = [
     number!("megapixels", max_megapixels),
     number!("frames", num_frames),
     choice!("descriptor", features.kind, KINDS),
@@ -88,6 +88,7 @@ const PARAMETERS: [Parameter; 20] = [
     number!("seed", sfm.seed),
     choice!("depth-method", depth.method, METHODS),
     toggle!("fill", depth.fill),
+    number!("all-views-megapixels", all_views.max_megapixels),
     Parameter {
         name: "disparities",
         write: |settings| match settings.depth.range_px {

@@ -2,7 +2,7 @@
 //! others keep a thumbnail, and are read again from their files for display or computation.
 
 use crate::project::{Given, Key, PhotoId, Project};
-use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query};
+use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query, ReducedOf};
 
 /// Maximum size of the pixels in memory, bytes, except for visible photographs.
 const MAX_BYTES: usize = 64_000_000;
@@ -22,12 +22,15 @@ impl Project {
         ids
     }
 
-    /// The keys of photographs without features, in the order of the list.
+    /// The keys of photographs without features, or to be reduced, in the order of the list.
     fn awaited(&self) -> Vec<Key> {
         let to_describe = self.to_describe();
+        let to_reduce = ReducedOf::all(self);
         let is_awaited = |photo: &&&Given| {
             let features = FeaturesOf(photo.id);
+            let reduced = ReducedOf(photo.id);
             to_describe.contains(&photo.id)
+                || (to_reduce.contains(&reduced) && !reduced.is_settled(self))
                 || !(features.is_settled(self) || self.is_imported(features))
         };
         let photos = self.taking_part();

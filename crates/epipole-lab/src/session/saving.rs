@@ -60,6 +60,7 @@ impl Project {
             dense: (self.document.dense.iter())
                 .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
                 .collect(),
+            all_views: self.document.all_views,
             boards: self.document.boards.iter().map(saved_photo).collect(),
             camera: self.document.camera.clone(),
         }
@@ -117,6 +118,7 @@ impl Project {
     pub(super) fn restored(&mut self, saved: Saved, files: Vec<(String, Blob)>) -> Document {
         let mut document = Document {
             settings: saved.settings.checked(),
+            all_views: saved.all_views,
             ..Document::default()
         };
         let mut numbers = Vec::new();

@@ -112,6 +112,7 @@ impl Project {
                     self.document.dense.push((a, b));
                 }
             }
+            Event::AllViews(is_part) => self.document.all_views = is_part,
         }
         if self.document != before {
             self.remember(before);
@@ -180,6 +181,7 @@ impl Project {
         self.document.measures.clear();
         self.document.floor = None;
         self.document.dense.clear();
+        self.document.all_views = false;
     }
 
     /// Clears the undo history.

@@ -2,9 +2,10 @@
 
 use super::task::{Destination, Query, Task};
 use super::{
-    BoardOf, Calibrate, CalibrationOfBoards, ChooseFrame, DepthOf, Export, FeaturesOf, FindBoard,
-    FindDepth, FindFeatures, MatchFeatures, MatchesOf, OpenProject, PhotographOf, ReadPhotograph,
-    Reconstruct, ReconstructionOfAll, SaveProject, TwoViewsOf, VerifyPair, WritePicture,
+    AllViews, BoardOf, Calibrate, CalibrationOfBoards, ChooseFrame, DepthOf, Export, FeaturesOf,
+    FindBoard, FindDepth, FindFeatures, FuseViews, MatchFeatures, MatchesOf, OpenProject,
+    PhotographOf, ReadPhotograph, Reconstruct, ReconstructionOfAll, ReducePhotograph, ReducedOf,
+    SaveProject, TwoViewsOf, VerifyPair, WritePicture,
 };
 use crate::project::{Key, Project, to_bytes};
 use serde::{Deserialize, Serialize};
@@ -152,6 +153,8 @@ tasks! {
         TwoViews: TwoViewsOf => VerifyPair in Vision "vision";
         Reconstruction: ReconstructionOfAll => Reconstruct in Vision "vision";
         Depth: DepthOf => FindDepth in Vision "vision";
+        Reduced: ReducedOf => ReducePhotograph in Vision "vision";
+        Cloud: AllViews => FuseViews in Vision "vision";
         Board: BoardOf => FindBoard in Files "files";
         Calibration: CalibrationOfBoards => Calibrate in Vision "vision";
     }

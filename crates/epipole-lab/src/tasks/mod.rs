@@ -4,6 +4,9 @@
 //! Each has a file with its inputs (a [`Task`]), its output, its code and, if the project keeps the
 //! output, the [`Query`] that asks for it. `list.rs` has a line for each.
 
+mod all_views;
+#[cfg(feature = "vision")]
+mod all_views_run;
 #[cfg(feature = "files")]
 mod archive;
 mod board;
@@ -14,6 +17,7 @@ mod camera_found;
 #[cfg(any(feature = "vision", feature = "files"))]
 mod convert;
 mod dense;
+mod dense_cloud;
 mod depth;
 #[cfg(feature = "vision")]
 mod depth_run;
@@ -31,6 +35,7 @@ mod radial_lens;
 mod reconstruction;
 #[cfg(feature = "vision")]
 mod reconstruction_run;
+mod reduced;
 mod refined;
 #[cfg(feature = "files")]
 mod rendered;
@@ -38,10 +43,12 @@ mod task;
 mod thumbnail;
 mod two_views;
 
+pub use all_views::{AllViews, FuseViews};
 pub use board::{BoardFound, BoardOf, FindBoard};
 pub use calibration::{Calibrate, Calibration, CalibrationOfBoards, ViewFound};
 pub use camera_found::CameraFound;
 pub use dense::Dense;
+pub use dense_cloud::{CloudVertex, DenseCloud};
 pub use depth::{DepthOf, FindDepth};
 pub use export::{Export, Measured, Recipe};
 pub use features::{Described, Feature, Features, FeaturesOf, FindFeatures};
@@ -57,6 +64,7 @@ pub use reconstruction::{
     Component, ImagePoints, PairOf, PointFound, Reconstruct, Reconstructed, ReconstructionOfAll,
     UnregisteredReason,
 };
+pub use reduced::{ReducePhotograph, Reduced, ReducedOf};
 pub use task::{Destination, Monitor, Output, Progress, Query, Task};
 pub use thumbnail::Thumbnail;
 pub use two_views::{Shows, TwoViews, TwoViewsOf, VerifyPair, ViewModel};

@@ -42,6 +42,41 @@ impl Component {
     }
 }
 
+#[cfg(any(feature = "vision", feature = "files"))]
+impl Component {
+    /// The component as the core has it.
+    ///
+    /// * `sizes`: width and height of each image, pixels
+    ///
+    /// # Errors
+    /// A message for invalid numbers.
+    pub(super) fn to_core(
+        &self,
+        sizes: impl IntoIterator<Item = (u32, u32)>,
+    ) -> Result<epipole::sfm::Reconstruction, String> {
+        use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
+        let camera = |(camera, size): (&Option<CameraFound>, (u32, u32))| {
+            // One lens took them all.
+            let camera = (camera.as_ref()).map(|camera| camera.posed(size, self.lens));
+            camera.transpose()
+        };
+        let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
+        let point = |point: &PointFound| ScenePoint {
+            position: point.position.into(),
+            color: point.color,
+            track: point.track.iter().map(element).collect(),
+            error_px: point.error_px,
+        };
+        Ok(Reconstruction {
+            cameras: (self.cameras.iter().zip(sizes))
+                .map(camera)
+                .collect::<Result<_, _>>()?,
+            points: self.points.iter().map(point).collect(),
+            is_placed: false,
+        })
+    }
+}
+
 /// Reason why a photograph is in no component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum UnregisteredReason {

@@ -1,7 +1,9 @@
 //! Any sequence of actions leaves the project valid, and undo restores everything.
 
 use crate::common::output;
-use epipole_lab::project::{Anchor, Blob, DensePixel, Measure, Project, Sample, Settings, Step};
+use epipole_lab::project::{
+    Anchor, Blob, CloudPoint, DensePixel, Measure, Project, Sample, Settings, Step,
+};
 use epipole_lab::session::Event;
 use epipole_lab::tasks::OpenProject;
 use proptest::prelude::*;
@@ -35,6 +37,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             settings.calibration.board.columns = features;
             settings.calibration.board.rows = enough;
             settings.calibration.square_m = error;
+            settings.all_views.max_megapixels = megapixels;
             settings.depth.range_px =
                 (features % 2 == 0).then_some([features as i32, enough as i32]);
             settings
@@ -48,11 +51,19 @@ fn event() -> impl Strategy<Value = Event> {
         pixel.prop_map(|(second, u, v)| DensePixel { second, at: [u, v] })
     };
     let anchor = move || {
-        let anchor = (0..14_u32, 0..9_u32, prop::option::of(pixel()));
-        anchor.prop_map(|(photo, keypoint, pixel)| Anchor {
+        let point = (0..3_u64, 0..9_u32);
+        let point = point.prop_map(|(cloud, index)| CloudPoint { cloud, index });
+        let anchor = (
+            0..14_u32,
+            0..9_u32,
+            prop::option::of(pixel()),
+            prop::option::of(point),
+        );
+        anchor.prop_map(|(photo, keypoint, pixel, cloud)| Anchor {
             photo,
             keypoint,
             pixel,
+            cloud,
         })
     };
     prop_oneof![
@@ -69,6 +80,7 @@ fn event() -> impl Strategy<Value = Event> {
         Just(Event::OpenBoards),
         Just(Event::ClearBoards),
         any::<bool>().prop_map(Event::UseCalibration),
+        any::<bool>().prop_map(Event::AllViews),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
         (id.clone(), length()).prop_map(|(id, f)| Event::Focal(vec![id], f)),
         id.clone().prop_map(Event::Earlier),

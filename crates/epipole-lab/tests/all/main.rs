@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod all_views;
 mod bad_files;
 mod bad_scenes;
 mod calibrate;

@@ -24,7 +24,8 @@ fn every_long_task_stops_when_it_is_told_to() {
     let mut project = Project::default();
     project.update(Event::OpenSample(Sample::Table));
     project.update(Event::Show(Step::Depth));
-    let mut kinds = [false; 6];
+    project.update(Event::AllViews(true));
+    let mut kinds = [false; 8];
     while let Some(pending) = project.pending().first().copied() {
         let kind = match pending.query {
             AnyQuery::Features(_) => Some(0),
@@ -33,6 +34,8 @@ fn every_long_task_stops_when_it_is_told_to() {
             AnyQuery::Depth(_) => Some(3),
             AnyQuery::Photograph(_) => Some(4),
             AnyQuery::TwoViews(_) => Some(5),
+            AnyQuery::Reduced(_) => Some(6),
+            AnyQuery::Cloud(_) => Some(7),
             _ => None,
         };
         let request = pending.request(&project).unwrap();
@@ -42,7 +45,7 @@ fn every_long_task_stops_when_it_is_told_to() {
         }
         project.done(&pending, computed(&request.to_bytes()));
     }
-    assert_eq!(kinds, [true; 6], "each of them was asked for");
+    assert_eq!(kinds, [true; 8], "each of them was asked for");
     // An archive for which photographs must be read once more.
     let mut export = project.export_request().unwrap();
     for photograph in &mut export.photographs {

@@ -34,7 +34,11 @@ fn rotation(camera: &CameraFound) -> Matrix3<f64> {
 }
 
 /// Relative errors of the distances of all points, seen from the first camera.
-fn errors(project: &Project, first: usize, pair: &Dense) -> Vec<f64> {
+pub(crate) fn errors(
+    project: &Project,
+    first: usize,
+    points: impl Iterator<Item = [f64; 3]>,
+) -> Vec<f64> {
     let found = |index: usize| project.component().unwrap().cameras[index].unwrap();
     let truth = true_camera(first);
     let center = |camera: &PosedCamera| camera.cam_from_world.inverse() * Point3::origin();
@@ -50,15 +54,20 @@ fn errors(project: &Project, first: usize, pair: &Dense) -> Vec<f64> {
         .matrix()
         * rotation(&found(first));
     let scene = Scene::still_life();
-    let one = |(place, _): ([f64; 3], [u8; 3])| {
+    let one = |place: [f64; 3]| {
         let along = turn * (Point3::from(place) - found(first).center()) * scale;
         let hit = scene.cast(&center(&truth), &along.normalize())?;
         Some((along.norm() / hit.distance_along - 1.0).abs())
     };
-    pair.points(3).filter_map(one).collect()
+    points.filter_map(one).collect()
 }
 
-fn share_below(errors: &[f64], limit: f64) -> f64 {
+/// Errors of every third pixel along rows and columns.
+fn errors_of_pair(project: &Project, first: usize, pair: &Dense) -> Vec<f64> {
+    errors(project, first, pair.points(3).map(|(place, _)| place))
+}
+
+pub(crate) fn share_below(errors: &[f64], limit: f64) -> f64 {
     errors.iter().filter(|error| **error < limit).count() as f64 / errors.len().max(1) as f64
 }
 
@@ -79,7 +88,7 @@ pub(crate) fn every_pixel_has_its_depth(project: &mut Project) {
     let proposed = pair.proposed_px.unwrap();
     assert_eq!(pair.range_px, proposed);
     assert!(proposed[0] > 0 && proposed[1] < 200, "{proposed:?}");
-    let off = errors(project, if pair.is_swapped { 4 } else { 3 }, &pair);
+    let off = errors_of_pair(project, if pair.is_swapped { 4 } else { 3 }, &pair);
     let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
     assert!(one > 0.8 && five > 0.93, "{one} {five} of {}", off.len());
     let words = project.describe();
@@ -161,7 +170,7 @@ fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
         };
         let pair = output(task).unwrap();
         assert_eq!((pair.width, pair.height, pair.factor), (480, 360, 1));
-        let off = errors(project, if pair.is_swapped { second } else { first }, &pair);
+        let off = errors_of_pair(project, if pair.is_swapped { second } else { first }, &pair);
         let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
         let expected = if is_upright { 10_000 } else { 12_000 };
         println!("{changed}: {one} {five} of {}", off.len());

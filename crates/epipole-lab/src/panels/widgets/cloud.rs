@@ -1,7 +1,7 @@
 //! Cameras and points in 3D: rotation, panning and zoom by mouse, touch and keys.
 
 use super::look;
-use super::marks::{add_dense, frustum, rays, standing};
+use super::marks::{add_dense, dense_keys, frustum, has_dense, rays, standing};
 use super::pick::{Click, crosshair, pick};
 use super::steer::{frame, steer};
 use crate::project::{Blob, Key, Project};
@@ -33,6 +33,8 @@ struct Made {
     theme: Theme,
     /// Number of photographs shown in their frusta.
     photographs: usize,
+    /// Whether points that photographs share are shown.
+    sparse: bool,
     /// Number of cameras so far, during a reconstruction.
     growing: Option<usize>,
     dense: Vec<Key>,
@@ -53,11 +55,15 @@ pub(crate) struct CloudView {
     pub(crate) coloring: Coloring,
     /// Whether frusta carry their photographs.
     pub(crate) photographs: bool,
+    /// Whether points that photographs share are shown beside dense ones.
+    pub(crate) sparse: bool,
     /// The point that was clicked.
     pub(crate) point: Option<usize>,
     made: Option<Made>,
     orbit: Option<Orbit>,
     scene: Scene,
+    /// Number of points of the scene that photographs share; dense ones follow.
+    num_shared: usize,
     num_fixed_lines: usize,
     frame: Frame,
     texture: Option<TextureHandle>,
@@ -71,10 +77,12 @@ impl Default for CloudView {
         Self {
             coloring: Coloring::default(),
             photographs: true,
+            sparse: true,
             point: None,
             made: None,
             orbit: None,
             scene: Scene::default(),
+            num_shared: 0,
             num_fixed_lines: 0,
             frame: Frame::default(),
             texture: None,
@@ -165,7 +173,7 @@ impl CloudView {
             &self.frame,
             &self.scene,
             &orbit,
-            component.points.len(),
+            self.num_shared,
         );
         self.point = match clicked {
             Click::Point(point) => Some(point),
@@ -210,7 +218,8 @@ impl CloudView {
                 false => 0,
             },
             growing: (project.component().is_none()).then(|| component.num_registered()),
-            dense: project.dense_pairs().iter().map(|(key, ..)| *key).collect(),
+            sparse: self.sparse || !has_dense(project),
+            dense: dense_keys(project),
             floor: project.floor(),
         };
         if self.made.as_ref() == Some(&made) {
@@ -226,16 +235,16 @@ impl CloudView {
             .filter(|before| before.growing.is_some() && before.key == made.key)
             .and(self.orbit);
         self.scene.points.clear();
-        self.scene
-            .points
-            .extend(component.points.iter().map(|point| {
-                let color = match self.coloring {
-                    Coloring::Photographs => point.color,
-                    Coloring::Error => theme.scale(point.error_px / 2.0),
-                    Coloring::Track => theme.scale(point.track.len() as f64 / 8.0),
-                };
-                (point.position.map(|x| x as f32), color)
-            }));
+        let shared = component.points.iter().filter(|_| made.sparse);
+        self.scene.points.extend(shared.map(|point| {
+            let color = match self.coloring {
+                Coloring::Photographs => point.color,
+                Coloring::Error => theme.scale(point.error_px / 2.0),
+                Coloring::Track => theme.scale(point.track.len() as f64 / 8.0),
+            };
+            (point.position.map(|x| x as f32), color)
+        }));
+        self.num_shared = self.scene.points.len();
         add_dense(&mut self.scene.points, project);
         let mut sum = nalgebra::Vector3::zeros();
         for camera in component.cameras.iter().flatten() {

@@ -1,7 +1,7 @@
 //! Marks besides the points: cameras, the rays of one point, and its observations.
 
-use crate::project::{Anchor, DensePixel, Project};
-use crate::tasks::{CameraFound, Component, Dense, FeaturesOf, Thumbnail};
+use crate::project::{Anchor, DensePixel, Key, Project};
+use crate::tasks::{CameraFound, Component, Dense, DenseCloud, FeaturesOf, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture};
 use std::sync::Arc;
 
@@ -92,12 +92,30 @@ pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64
     point.track.iter().filter_map(sight).collect()
 }
 
-/// Maximum number of points shown from the dense depth of all pairs.
+/// Maximum number of points shown from the depth of all views, and from that of all pairs.
 const MAX_DENSE: usize = 1_000_000;
 
-/// Number of pixels with dense depth, and the step along rows and columns from one that is shown
-/// to the next.
-fn shown_dense(project: &Project) -> (f64, u32) {
+/// Whether dense points are shown.
+pub(crate) fn has_dense(project: &Project) -> bool {
+    !dense_keys(project).is_empty()
+}
+
+/// Keys of the depth that is shown.
+pub(super) fn dense_keys(project: &Project) -> Vec<Key> {
+    let pairs = project.dense_pairs().into_iter().map(|(key, ..)| key);
+    let all_views = project.all_views().map(|(key, _)| key);
+    all_views.into_iter().chain(pairs).collect()
+}
+
+/// The cloud of all views, its key, and the step from one shown point to the next.
+fn shown_cloud(project: &Project) -> Option<(Key, &DenseCloud, usize)> {
+    let (key, cloud) = project.all_views()?;
+    Some((key, cloud, cloud.len().div_ceil(MAX_DENSE).max(1)))
+}
+
+/// Number of pixels of pairs with dense depth, and the step along rows and columns from one that is
+/// shown to the next.
+fn shown_pixels(project: &Project) -> (f64, u32) {
     let all: f64 = (project.dense_pairs().iter())
         .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
         .sum();
@@ -105,9 +123,19 @@ fn shown_dense(project: &Project) -> (f64, u32) {
     (all, every as u32)
 }
 
-/// The pixel of a shown dense point, counted from the first one.
+/// The anchor of a shown dense point, counted from the first one.
 pub(crate) fn dense_anchor(project: &Project, index: usize) -> Option<Anchor> {
-    let (_, every) = shown_dense(project);
+    let num_fused = match shown_cloud(project) {
+        Some((key, cloud, every)) => {
+            let num_shown = cloud.len().div_ceil(every);
+            if index < num_shown {
+                return project.anchor_of_cloud(key, (index * every) as u32);
+            }
+            num_shown
+        }
+        None => 0,
+    };
+    let (_, every) = shown_pixels(project);
     let of_pair = |(first, second, pair)| {
         let pixels = Dense::deep_pixels(pair, every);
         pixels.map(move |(at, _)| (first, second, at))
@@ -116,21 +144,27 @@ pub(crate) fn dense_anchor(project: &Project, index: usize) -> Option<Anchor> {
     let mut all = pairs
         .map(|(_, first, second, pair)| (first.id, second.id, pair))
         .flat_map(of_pair);
-    let (photo, second, at) = all.nth(index)?;
+    let (photo, second, at) = all.nth(index - num_fused)?;
     Some(Anchor {
         photo,
         keypoint: 0,
         pixel: Some(DensePixel { second, at }),
+        cloud: None,
     })
 }
 
-/// Adds the points of every pixel after those that photographs share.
+/// Adds dense points after those that photographs share: of all views, then of pairs.
 pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
-    let (all, every) = shown_dense(project);
+    let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
+    if let Some((_, cloud, every)) = shown_cloud(project) {
+        points.reserve_exact(cloud.len() / every + 1);
+        let fused = cloud.points(every);
+        points.extend(fused.map(|point| plain((point.position, point.color))));
+    }
+    let (all, every) = shown_pixels(project);
     // At once: growing step by step would leave half as much again behind.
     points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
     for (.., pair) in project.dense_pairs() {
-        let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
         points.extend(pair.points(every).map(plain));
     }
 }

@@ -45,6 +45,7 @@ impl Project {
             dense: (self.dense_pairs().into_iter())
                 .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
                 .collect(),
+            all_views: self.all_views().map(|(_, cloud)| cloud.clone()),
         })
     }
 }

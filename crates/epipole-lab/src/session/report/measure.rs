@@ -1,8 +1,8 @@
 //! Lengths between points, how sure they are, and the scale that a known one sets.
 
-use crate::project::{Anchor, DensePixel, Measure, PhotoId, Project};
-use crate::tasks::{CameraFound, Component, Dense, DepthOf};
-use nalgebra::{Matrix2x3, Matrix3, Point3};
+use crate::project::{Anchor, CloudPoint, DensePixel, Key, Measure, PhotoId, Project};
+use crate::tasks::{CameraFound, CloudVertex, Component, Dense, DenseCloud, DepthOf};
+use nalgebra::{Matrix2x3, Matrix3, Point3, Vector3};
 
 /// A length, one standard deviation beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,9 +27,10 @@ pub struct Scale {
 impl Project {
     /// Position of an anchor in the component that is looked at; `None` if it is gone.
     pub fn anchored(&self, anchor: &Anchor) -> Option<Point3<f64>> {
-        match anchor.pixel {
-            Some(pixel) => dense_place(self.dense_of(anchor.photo, pixel)?, pixel.at),
-            None => {
+        match (anchor.cloud, anchor.pixel) {
+            (Some(point), _) => Some(self.cloud_of(point)?.point(point.index)?.position.into()),
+            (None, Some(pixel)) => dense_place(self.dense_of(anchor.photo, pixel)?, pixel.at),
+            (None, None) => {
                 let point = self.anchored_point(anchor)?;
                 Some(self.component()?.points[point].position.into())
             }
@@ -51,10 +52,20 @@ impl Project {
         self.get(query).filter(|_| self.document.is_dense(pair))
     }
 
+    /// The cloud of a point, if it is shown.
+    fn cloud_of(&self, point: CloudPoint) -> Option<&DenseCloud> {
+        let (key, cloud) = self.all_views()?;
+        (key.0 == point.cloud).then_some(cloud)
+    }
+
     fn covariance(&self, anchor: &Anchor) -> Option<Matrix3<f64>> {
-        match anchor.pixel {
-            Some(pixel) => dense_covariance(self.dense_of(anchor.photo, pixel)?, pixel.at),
-            None => {
+        match (anchor.cloud, anchor.pixel) {
+            (Some(point), _) => {
+                let cloud = self.cloud_of(point)?;
+                cloud_covariance(self.component()?, cloud, &cloud.point(point.index)?)
+            }
+            (None, Some(pixel)) => dense_covariance(self.dense_of(anchor.photo, pixel)?, pixel.at),
+            (None, None) => {
                 let component = self.component()?;
                 covariance(component, self.anchored_point(anchor)?, noise_px(component))
             }
@@ -69,6 +80,25 @@ impl Project {
             photo,
             keypoint,
             pixel: None,
+            cloud: None,
+        })
+    }
+
+    /// An anchor for a point of the cloud of all views.
+    ///
+    /// * `cloud`: key of the cloud
+    pub fn anchor_of_cloud(&self, cloud: Key, index: u32) -> Option<Anchor> {
+        let photos = self.taking_part().into_iter();
+        let mut registered = photos.zip(&self.component()?.cameras);
+        let (photo, _) = registered.find(|(_, camera)| camera.is_some())?;
+        Some(Anchor {
+            photo: photo.id,
+            keypoint: 0,
+            pixel: None,
+            cloud: Some(CloudPoint {
+                cloud: cloud.0,
+                index,
+            }),
         })
     }
 
@@ -157,14 +187,38 @@ fn dense_covariance(pair: &Dense, [u, v]: [u32; 2]) -> Option<Matrix3<f64>> {
     Some(covariance)
 }
 
-/// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
+/// Covariance of a point of the cloud of all views for fixed cameras. As many cameras as agree on
+/// it count, those that its surface faces most.
+fn cloud_covariance(
+    component: &Component,
+    cloud: &DenseCloud,
+    point: &CloudVertex,
+) -> Option<Matrix3<f64>> {
+    let (position, normal) = (Point3::from(point.position), Vector3::from(point.normal));
+    let away = |camera: &CameraFound| -(camera.center() - position).normalize().dot(&normal);
+    let mut cameras: Vec<&CameraFound> = component.cameras.iter().flatten().collect();
+    cameras.sort_by(|a, b| away(a).total_cmp(&away(b)));
+    cameras.truncate(usize::from(point.num_views).max(2));
+    covariance_from(&cameras, &position, DISPARITY_SIGMA_PX * cloud.pixel_px)
+}
+
+/// Covariance of a point that photographs share for fixed cameras.
 fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matrix3<f64>> {
     let point = component.points.get(point)?;
-    let position = Point3::from(point.position);
+    let camera = |&(image, _): &(u32, u32)| component.cameras.get(image as usize)?.as_ref();
+    let cameras: Option<Vec<&CameraFound>> = point.track.iter().map(camera).collect();
+    covariance_from(&cameras?, &point.position.into(), noise_px)
+}
+
+/// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
+fn covariance_from(
+    cameras: &[&CameraFound],
+    position: &Point3<f64>,
+    noise_px: f64,
+) -> Option<Matrix3<f64>> {
     let mut information = Matrix3::zeros();
-    for (image, _) in &point.track {
-        let camera = component.cameras.get(*image as usize)?.as_ref()?;
-        let jacobian = jacobian(camera, &position)?;
+    for camera in cameras {
+        let jacobian = jacobian(camera, position)?;
         information += jacobian.transpose() * jacobian;
     }
     let covariance = information.try_inverse()? * (noise_px * noise_px);

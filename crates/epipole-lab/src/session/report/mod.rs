@@ -1,6 +1,7 @@
 //! Facts about the project, and its description in words: outcomes of photographs, measures,
 //! recipes.
 
+mod all_views_words;
 mod boards;
 mod calibration_words;
 mod export;

@@ -29,7 +29,10 @@ impl Project {
             Step::Matches => self.matches_words(),
             Step::TwoViews => self.two_views_words(),
             Step::Reconstruction => self.reconstruction_words(),
-            Step::Depth => self.depth_words(),
+            Step::Depth => match self.document.all_views {
+                true => format!("{} {}", self.depth_words(), self.all_views_words()),
+                false => self.depth_words(),
+            },
             Step::Measure => self.measure_words(),
             Step::Export => self.export_words(),
         };
@@ -289,8 +292,12 @@ impl Project {
                     0 => String::new(),
                     _ => format!(" Dense depth of {}.", count(dense, "pair")),
                 };
+                let all_views = match self.all_views() {
+                    Some((_, cloud)) => format!(" {} from all views.", count(cloud.len(), "point")),
+                    None => String::new(),
+                };
                 let mut words = format!(
-                    "Ready to save: {} and {}.{depth}",
+                    "Ready to save: {} and {}.{depth}{all_views}",
                     count(component.num_registered(), "camera"),
                     count(component.points.len(), "point")
                 );
@@ -300,6 +307,9 @@ impl Project {
                         " The depth of {} is not ready and stays out.",
                         count(waiting, "pair")
                     ));
+                }
+                if self.document.all_views && self.all_views().is_none() {
+                    words.push_str(" The depth of all views is not ready and stays out.");
                 }
                 words
             }

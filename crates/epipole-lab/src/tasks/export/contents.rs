@@ -3,6 +3,7 @@
 use crate::project::Blob;
 use crate::project::LensCamera;
 use crate::tasks::dense::Dense;
+use crate::tasks::dense_cloud::DenseCloud;
 use crate::tasks::project_file::Packed;
 use crate::tasks::reconstruction::{ImagePoints, Reconstructed};
 use crate::tasks::task::Task;
@@ -63,6 +64,8 @@ pub struct Export {
     pub camera: Option<LensCamera>,
     /// Names of pairs, and the depth of their pixels.
     pub dense: Vec<(String, Dense)>,
+    /// Depth of all views.
+    pub all_views: Option<DenseCloud>,
 }
 
 impl Task for Export {

@@ -1,5 +1,7 @@
 //! The zip file of a reconstruction: COLMAP's text model, PLY, JSON, photographs and depth.
 
+#[cfg(feature = "files")]
+mod cloud;
 mod contents;
 #[cfg(feature = "files")]
 mod depth;

@@ -2,19 +2,16 @@
 
 use super::contents::Export;
 use super::frame::file_from_world;
-use super::{depth, summary};
+use super::{cloud, depth, summary};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
-use crate::tasks::camera_found::CameraFound;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
 use crate::tasks::project_file::Packed;
-use crate::tasks::reconstruction::{Component, ImagePoints, PointFound};
+use crate::tasks::reconstruction::ImagePoints;
 use crate::tasks::task::{Monitor, Run};
-use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
 use epipole_io::model::Model;
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat};
-use nalgebra::Point3;
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
@@ -49,7 +46,8 @@ impl Run for Export {
             archive.add(&format!("images/{name}"), &bytes)?;
             image.name = name;
         }
-        let mut model = core_reconstruction(found, &export.images)?;
+        let sizes = (export.images.iter()).map(|image| (image.camera.width, image.camera.height));
+        let mut model = found.to_core(sizes)?;
         // Otherwise to the last bit as the command line writes it.
         if export.meters_per_unit.is_some() || export.floor.is_some() {
             model = model.moved(&file_from_world(export));
@@ -60,6 +58,7 @@ impl Run for Export {
         }
         archive.add("points.ply", &files.to_ply())?;
         depth::add(&mut archive, export)?;
+        cloud::add(&mut archive, export)?;
         let json = summary::json(export, &images, &model);
         archive.add("reconstruction.json", json.as_bytes())?;
         if !export.measures.is_empty() {
@@ -72,41 +71,6 @@ impl Run for Export {
         archive.add("README.txt", summary::readme(export).as_bytes())?;
         Ok(archive.finish()?.into())
     }
-}
-
-/// A component as the core has it.
-///
-/// * `images`: those that it was made of
-///
-/// # Errors
-/// A message for invalid numbers.
-fn core_reconstruction(
-    component: &Component,
-    images: &[ImagePoints],
-) -> Result<Reconstruction, String> {
-    let camera = |(camera, image): (&Option<CameraFound>, &ImagePoints)| {
-        let size = (image.camera.width, image.camera.height);
-        // One lens took them all.
-        let camera = (camera.as_ref()).map(|camera| camera.posed(size, component.lens));
-        camera.transpose()
-    };
-    let element = |&(image, keypoint): &(u32, u32)| TrackElement { image, keypoint };
-    let point = |point: &PointFound| ScenePoint {
-        position: Point3::from(point.position),
-        color: point.color,
-        track: point.track.iter().map(element).collect(),
-        error_px: point.error_px,
-    };
-    Ok(Reconstruction {
-        cameras: component
-            .cameras
-            .iter()
-            .zip(images)
-            .map(camera)
-            .collect::<Result<_, _>>()?,
-        points: component.points.iter().map(point).collect(),
-        is_placed: false,
-    })
 }
 
 /// Invalid indices in tracks are a bug of the caller.

@@ -111,6 +111,12 @@ pub(super) fn readme(export: &Export) -> String {
              dense.ply            all of these pixels as points with their colors, in the frame of points.ply\n",
         );
     }
+    if export.all_views.is_some() {
+        text.push_str(
+            "fused.ply            the depth of all views as points with normals, colors, and the number of \
+             photographs that agree as confidence, in the frame of points.ply\n",
+        );
+    }
     if !export.measures.is_empty() {
         text.push_str("measures.csv         the measured lengths and their ends, in the frame of points.ply\n");
     }

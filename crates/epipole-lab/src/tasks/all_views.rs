@@ -1,0 +1,127 @@
+//! Depth of all views: one cloud from all photographs whose cameras are known.
+
+use super::dense_cloud::DenseCloud;
+use super::reconstruction::{Component, ReconstructionOfAll};
+use super::reduced::{Reduced, ReducedOf};
+use super::task::{Destination, Query, Task};
+use crate::project::{Key, PhotoId, Project};
+use serde::{Deserialize, Serialize};
+
+/// Maximum number of pixels of all photographs: about 1.5 GB while their depth is estimated, of the
+/// 4 GB that a page can have.
+const MAX_PIXELS: f64 = 12e6;
+
+/// Finds the depth of each photograph and fuses them to one cloud.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FuseViews {
+    /// The photographs that take part; `None` for those without a camera.
+    pub photographs: Vec<Option<Reduced>>,
+    /// Their cameras, in pixels of the photographs before they were downscaled, and the points.
+    pub component: Component,
+}
+
+impl Task for FuseViews {
+    type Output = DenseCloud;
+
+    fn is_whole(output: &DenseCloud) -> bool {
+        output.is_whole()
+    }
+}
+
+/// The depth of all views of the component that is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AllViews;
+
+impl AllViews {
+    /// The registered photographs.
+    pub(super) fn photos(self, project: &Project) -> Vec<PhotoId> {
+        let Some(component) = project.component() else {
+            return Vec::new();
+        };
+        let photos = project.taking_part().into_iter().zip(&component.cameras);
+        let registered = photos.filter(|(_, camera)| camera.is_some());
+        registered.map(|(photo, _)| photo.id).collect()
+    }
+
+    /// Maximum number of pixels of a photograph: the setting, or less if there are many.
+    pub(crate) fn max_pixels(self, project: &Project) -> Option<u32> {
+        let count = project.component()?.num_registered().max(1);
+        let wanted = project.document.settings.all_views.max_megapixels * 1e6;
+        Some(wanted.min(MAX_PIXELS / count as f64).round() as u32)
+    }
+
+    /// Whether it is asked for, and neither there nor in a file.
+    pub(super) fn is_open(self, project: &Project) -> bool {
+        let is_in_file = |key| project.imported.contains_key(&key);
+        project.document.all_views
+            && self.key(project).is_some_and(|key| !is_in_file(key))
+            && !self.is_settled(project)
+    }
+}
+
+impl Query for AllViews {
+    type Task = FuseViews;
+
+    fn all(project: &Project) -> Vec<Self> {
+        match project.document.all_views {
+            true => vec![Self],
+            false => Vec::new(),
+        }
+    }
+
+    fn key(self, project: &Project) -> Option<Key> {
+        let max_pixels = self.max_pixels(project)?;
+        let reconstruction = ReconstructionOfAll.key(project)?.0;
+        let component = project.view.component;
+        Some(Key::of(&(
+            "all views",
+            reconstruction,
+            component,
+            max_pixels,
+        )))
+    }
+
+    fn is_ready(self, project: &Project, is_imported: bool) -> bool {
+        let mut photos = self.photos(project).into_iter();
+        is_imported || photos.all(|id| project.get(ReducedOf(id)).is_some())
+    }
+
+    fn priority(self, _project: &Project) -> u8 {
+        80
+    }
+
+    fn task(self, project: &Project) -> Option<FuseViews> {
+        let component = project.component()?;
+        let photos = project.taking_part().into_iter().zip(&component.cameras);
+        let photographs = photos.map(|(photo, camera)| match camera {
+            Some(_) => Some(Some(project.get(ReducedOf(photo.id))?.clone())),
+            None => Some(None),
+        });
+        Some(FuseViews {
+            photographs: photographs.collect::<Option<_>>()?,
+            component: component.clone(),
+        })
+    }
+
+    fn label(self, _project: &Project) -> String {
+        "Computing depth of all views".to_owned()
+    }
+
+    fn stored(output: &DenseCloud, destination: Destination) -> Option<DenseCloud> {
+        (destination == Destination::Project).then(|| output.clone())
+    }
+
+    fn fits(self, project: &Project, output: &DenseCloud) -> bool {
+        let component = project.component();
+        let num_registered = component.map_or(0, Component::num_registered);
+        output.num_registered as usize == num_registered && output.is_valid()
+    }
+}
+
+impl Project {
+    /// The depth of all views with its key, if it is part of the cloud and there.
+    pub fn all_views(&self) -> Option<(Key, &DenseCloud)> {
+        let cloud = self.get(AllViews).filter(|_| self.document.all_views)?;
+        Some((AllViews.key(self)?, cloud))
+    }
+}

@@ -1,0 +1,214 @@
+//! The depth of all views against what the photographs were rendered from, in files, and in
+//! measures.
+
+use crate::common::depth::{errors, share_below};
+use crate::common::{exported, finish, output, reopened, solved};
+use epipole_io::cloud::read_ply;
+use epipole_lab::project::{Anchor, Blob, Measure, Project, Sample, Step};
+use epipole_lab::session::Event;
+use epipole_lab::tasks::{AllViews, CloudVertex, DenseCloud, FuseViews, Query, Reduced, ReducedOf};
+use nalgebra::{Point3, Vector3};
+
+/// The sample with the depth of all views.
+fn dense() -> Project {
+    let mut project = solved(Sample::Table);
+    project.update(Event::AllViews(true));
+    assert_eq!(finish(&mut project), 10, "nine are downscaled, then fused");
+    project
+}
+
+fn cloud(project: &Project) -> DenseCloud {
+    project.all_views().expect("it is there").1.clone()
+}
+
+fn request(project: &Project) -> FuseViews {
+    AllViews.task(project).expect("its inputs are there")
+}
+
+/// Index of the camera that a surface faces most.
+fn faced(project: &Project, point: &CloudVertex) -> usize {
+    let towards = |index: usize| {
+        let camera = project.component().unwrap().cameras[index].unwrap();
+        let away = camera.center() - Point3::from(point.position);
+        away.normalize().dot(&Vector3::from(point.normal))
+    };
+    (0..9)
+        .max_by(|a, b| towards(*a).total_cmp(&towards(*b)))
+        .unwrap()
+}
+
+#[test]
+fn the_cloud_of_all_views_lies_on_the_scene() {
+    let project = dense();
+    let cloud = cloud(&project);
+    assert_eq!((cloud.num_maps, cloud.num_registered), (9, 9));
+    assert_eq!((cloud.size, cloud.pixel_px), ((480, 360), 1.0));
+    assert!(cloud.len() > 60_000 && cloud.density > 0.4, "{cloud:?}");
+    let mut off = Vec::new();
+    for point in cloud.points(25) {
+        assert!(point.num_views >= 3);
+        assert!((Vector3::from(point.normal).norm() - 1.0).abs() < 1e-9);
+        let first = faced(&project, &point);
+        off.extend(errors(&project, first, [point.position].into_iter()));
+    }
+    let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+    println!("{one} {five} of {}", off.len());
+    assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
+    // The same once more, to the last byte.
+    assert!(output(request(&project)).unwrap() == cloud);
+}
+
+#[test]
+fn the_cloud_is_saved_shown_measured_and_exported() {
+    let mut project = dense();
+    let found = cloud(&project);
+    let (key, _) = project.all_views().unwrap();
+    let ends = [100, 40_000].map(|index| project.anchor_of_cloud(key, index).unwrap());
+    let place = |index: u32| Vector3::from(found.point(index).unwrap().position);
+    let apart = (place(100) - place(40_000)).norm();
+    let measure = Measure {
+        ends,
+        length_m: Some(2.0),
+    };
+    let length = project.length_in_units(&measure).unwrap();
+    assert!((length.value - apart).abs() < 1e-12);
+    assert!(
+        length.sigma > 0.0 && length.sigma < 0.05 * apart,
+        "{length:?}"
+    );
+    project.update(Event::Measure(measure));
+    let [a, b] = ends;
+    let c = project.anchor_of_cloud(key, 20_000).unwrap();
+    project.update(Event::Floor(Some([a, b, c])));
+    let (scale, floor) = (project.scale().unwrap(), project.floor().unwrap());
+    assert!((scale.meters_per_unit * apart - 2.0).abs() < 1e-9);
+
+    let mut read = exported(&project);
+    let (ply, notes) = read_ply(&read("fused.ply")).unwrap();
+    assert_eq!((ply.points.len(), notes), (found.len(), vec![]));
+    assert!((ply.points[100] - ply.points[40_000]).norm() - 2.0 < 1e-4);
+    let height = |index: usize| {
+        let up = Vector3::from(found.point(index as u32).unwrap().position) - floor.origin.coords;
+        up.dot(&floor.up) * scale.meters_per_unit
+    };
+    for index in [100, 7000, 40_000] {
+        assert!((ply.points[index].z - height(index)).abs() < 1e-4);
+        let point = found.point(index as u32).unwrap();
+        let up = Vector3::from(point.normal).dot(&floor.up);
+        assert!((ply.normals[index].z - up).abs() < 1e-4);
+        assert_eq!(ply.colors[index], point.color);
+        assert_eq!(ply.confidences[index], f32::from(point.num_views));
+    }
+    assert!(
+        String::from_utf8(read("README.txt"))
+            .unwrap()
+            .contains("fused.ply")
+    );
+    project.update(Event::Show(Step::Export));
+    let words = format!("{} points from all views", found.len());
+    assert!(
+        project.describe().contains(&words),
+        "{}",
+        project.describe()
+    );
+
+    // A saved project brings it along: only pixels are read.
+    let mut again = reopened(&project);
+    while let Some(pending) = again.pending().first().copied() {
+        let request = pending.request(&again).unwrap();
+        assert!(
+            matches!(pending.query, epipole_lab::tasks::AnyQuery::Photograph(_)),
+            "{pending:?}"
+        );
+        let bytes = epipole_lab::tasks::compute(&request.to_bytes(), &mut |_| {
+            std::ops::ControlFlow::Continue(())
+        });
+        again.done(&pending, bytes);
+    }
+    assert!(cloud(&again) == found);
+    assert_eq!(again.length_words(0), project.length_words(0));
+
+    // Another resolution has other points; undo brings the former back.
+    let mut settings = project.document().settings.clone();
+    settings.all_views.max_megapixels = 0.05;
+    project.update(Event::Set(settings));
+    assert_eq!(project.anchored(&a), None);
+    assert_eq!(finish(&mut project), 10);
+    let small = cloud(&project);
+    assert_eq!(small.size, (258, 194));
+    assert!((small.pixel_px - 480.0 / 258.0).abs() < 1e-12 && small.len() < found.len());
+    let gone = |anchor: &Anchor| project.anchored(anchor).is_none();
+    assert!([a, b, c].iter().all(gone));
+    project.update(Event::Undo);
+    assert!(project.pending().is_empty() && project.anchored(&a).is_some());
+    project.update(Event::AllViews(false));
+    assert!(project.all_views().is_none() && project.anchored(&a).is_none());
+}
+
+#[test]
+fn a_missing_cloud_has_its_true_cause() {
+    let mut project = solved(Sample::Table);
+    let mut settings = project.document().settings.clone();
+    settings.all_views.max_megapixels = 0.05;
+    project.update(Event::Set(settings));
+    assert!(
+        project
+            .all_views_words()
+            .starts_with("Finds a depth for each pixel")
+    );
+    project.update(Event::AllViews(true));
+    for photo in project.document().photos.clone() {
+        assert!(!ReducedOf(photo.id).is_settled(&project));
+    }
+    while let Some(pending) = project.pending().first().copied() {
+        if matches!(pending.query, epipole_lab::tasks::AnyQuery::Cloud(_)) {
+            break;
+        }
+        let request = pending.request(&project).unwrap();
+        let bytes = epipole_lab::tasks::compute(&request.to_bytes(), &mut |_| {
+            std::ops::ControlFlow::Continue(())
+        });
+        project.done(&pending, bytes);
+    }
+    assert!(project.all_views_words().starts_with("Computing"));
+    let task = request(&project);
+
+    let mut still = task.clone();
+    let first = still.component.cameras[0];
+    still.component.cameras.fill(first);
+    let why = output(still).unwrap_err();
+    assert!(
+        why.contains("from nearly the same place, 0.0° apart"),
+        "{why}"
+    );
+
+    let mut single = task.clone();
+    single.component.cameras[1..].fill(None);
+    single.photographs[1..].fill(None);
+    let why = output(single).unwrap_err();
+    assert!(why.contains("at least 2"), "{why}");
+
+    let mut apart = task.clone();
+    for point in &mut apart.component.points {
+        point.track.truncate(1);
+    }
+    let why = output(apart).unwrap_err();
+    assert!(why.contains("no two of them show the same points"), "{why}");
+
+    let mut blank = task;
+    for photo in blank.photographs.iter_mut().flatten() {
+        let gray = Blob::from(vec![128; photo.rgb.len()]);
+        *photo = Reduced {
+            rgb: gray,
+            ..photo.clone()
+        };
+    }
+    let why = output(blank).unwrap_err();
+    assert!(why.contains("on which 3 photographs agree"), "{why}");
+
+    let pending = project.pending()[0];
+    project.done(&pending, Err(why.clone()));
+    let words = project.all_views_words();
+    assert_eq!(words, format!("No depth of all views: {why}."));
+    assert!(project.all_views().is_none());
+}
