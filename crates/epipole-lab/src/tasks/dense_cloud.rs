@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Number of bytes of a point: three floats, normal, color, number of photographs.
 const NUM_BYTES: usize = 19;
 /// Length of a normal in bytes.
+#[cfg(feature = "vision")]
 const NORMAL: f64 = 127.0;
 
 /// A point of a cloud.
@@ -26,12 +27,11 @@ impl CloudVertex {
     #[cfg(feature = "vision")]
     pub(super) fn to_bytes(self) -> [u8; NUM_BYTES] {
         let mut bytes = [0; NUM_BYTES];
-        let [place, rest] = [0, 12];
         for (axis, x) in self.position.iter().enumerate() {
-            bytes[place + 4 * axis..][..4].copy_from_slice(&(*x as f32).to_le_bytes());
+            bytes[4 * axis..][..4].copy_from_slice(&(*x as f32).to_le_bytes());
         }
         for (axis, x) in self.normal.iter().enumerate() {
-            bytes[rest + axis] = ((x * NORMAL).round() as i8).to_le_bytes()[0];
+            bytes[12 + axis] = ((x * NORMAL).round() as i8).to_le_bytes()[0];
         }
         bytes[15..18].copy_from_slice(&self.color);
         bytes[18] = self.num_views;

@@ -7,11 +7,24 @@ use epipole_io::cloud::read_ply;
 use epipole_lab::project::{Anchor, Blob, Measure, Project, Sample, Step};
 use epipole_lab::session::Event;
 use epipole_lab::tasks::{AllViews, CloudVertex, DenseCloud, FuseViews, Query, Reduced, ReducedOf};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
-/// The sample with the depth of all views.
-fn dense() -> Project {
+/// The solved sample with photographs of 365 × 274 pixels for the depth of all views.
+fn sample() -> Project {
     let mut project = solved(Sample::Table);
+    resize(&mut project, 0.1);
+    project
+}
+
+fn resize(project: &mut Project, max_megapixels: f64) {
+    let mut settings = project.document().settings.clone();
+    settings.all_views.max_megapixels = max_megapixels;
+    project.update(Event::Set(settings));
+}
+
+/// The same with the depth of all views.
+fn dense() -> Project {
+    let mut project = sample();
     project.update(Event::AllViews(true));
     assert_eq!(finish(&mut project), 10, "nine are downscaled, then fused");
     project
@@ -25,16 +38,13 @@ fn request(project: &Project) -> FuseViews {
     AllViews.task(project).expect("its inputs are there")
 }
 
-/// Index of the camera that a surface faces most.
-fn faced(project: &Project, point: &CloudVertex) -> usize {
-    let towards = |index: usize| {
-        let camera = project.component().unwrap().cameras[index].unwrap();
-        let away = camera.center() - Point3::from(point.position);
-        away.normalize().dot(&Vector3::from(point.normal))
-    };
-    (0..9)
-        .max_by(|a, b| towards(*a).total_cmp(&towards(*b)))
-        .unwrap()
+/// Relative error of a point's distance, the third smallest of all cameras': three photographs
+/// agree on each point, and from the others another surface may hide it.
+fn error(project: &Project, point: &CloudVertex) -> Option<f64> {
+    let from = |camera: usize| errors(project, camera, [point.position].into_iter());
+    let mut errors: Vec<f64> = (0..9).flat_map(from).collect();
+    errors.sort_by(f64::total_cmp);
+    errors.get(2).copied()
 }
 
 #[test]
@@ -42,20 +52,17 @@ fn the_cloud_of_all_views_lies_on_the_scene() {
     let project = dense();
     let cloud = cloud(&project);
     assert_eq!((cloud.num_maps, cloud.num_registered), (9, 9));
-    assert_eq!((cloud.size, cloud.pixel_px), ((480, 360), 1.0));
-    assert!(cloud.len() > 60_000 && cloud.density > 0.4, "{cloud:?}");
+    assert_eq!(cloud.size, (365, 274));
+    assert!(cloud.len() > 30_000 && cloud.density > 0.4, "{cloud:?}");
     let mut off = Vec::new();
-    for point in cloud.points(25) {
+    for point in cloud.points(100) {
         assert!(point.num_views >= 3);
         assert!((Vector3::from(point.normal).norm() - 1.0).abs() < 1e-9);
-        let first = faced(&project, &point);
-        off.extend(errors(&project, first, [point.position].into_iter()));
+        off.push(error(&project, &point).unwrap_or(f64::INFINITY));
     }
     let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
     println!("{one} {five} of {}", off.len());
     assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
-    // The same once more, to the last byte.
-    assert!(output(request(&project)).unwrap() == cloud);
 }
 
 #[test]
@@ -63,9 +70,9 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
     let mut project = dense();
     let found = cloud(&project);
     let (key, _) = project.all_views().unwrap();
-    let ends = [100, 40_000].map(|index| project.anchor_of_cloud(key, index).unwrap());
+    let ends = [100, 15_000].map(|index| project.anchor_of_cloud(key, index).unwrap());
     let place = |index: u32| Vector3::from(found.point(index).unwrap().position);
-    let apart = (place(100) - place(40_000)).norm();
+    let apart = (place(100) - place(15_000)).norm();
     let measure = Measure {
         ends,
         length_m: Some(2.0),
@@ -78,7 +85,7 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
     );
     project.update(Event::Measure(measure));
     let [a, b] = ends;
-    let c = project.anchor_of_cloud(key, 20_000).unwrap();
+    let c = project.anchor_of_cloud(key, 8_000).unwrap();
     project.update(Event::Floor(Some([a, b, c])));
     let (scale, floor) = (project.scale().unwrap(), project.floor().unwrap());
     assert!((scale.meters_per_unit * apart - 2.0).abs() < 1e-9);
@@ -86,12 +93,12 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
     let mut read = exported(&project);
     let (ply, notes) = read_ply(&read("fused.ply")).unwrap();
     assert_eq!((ply.points.len(), notes), (found.len(), vec![]));
-    assert!((ply.points[100] - ply.points[40_000]).norm() - 2.0 < 1e-4);
+    assert!((ply.points[100] - ply.points[15_000]).norm() - 2.0 < 1e-4);
     let height = |index: usize| {
         let up = Vector3::from(found.point(index as u32).unwrap().position) - floor.origin.coords;
         up.dot(&floor.up) * scale.meters_per_unit
     };
-    for index in [100, 7000, 40_000] {
+    for index in [100, 700, 15_000] {
         assert!((ply.points[index].z - height(index)).abs() < 1e-4);
         let point = found.point(index as u32).unwrap();
         let up = Vector3::from(point.normal).dot(&floor.up);
@@ -129,14 +136,14 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
     assert_eq!(again.length_words(0), project.length_words(0));
 
     // Another resolution has other points; undo brings the former back.
-    let mut settings = project.document().settings.clone();
-    settings.all_views.max_megapixels = 0.05;
-    project.update(Event::Set(settings));
+    resize(&mut project, 0.05);
     assert_eq!(project.anchored(&a), None);
     assert_eq!(finish(&mut project), 10);
     let small = cloud(&project);
     assert_eq!(small.size, (258, 194));
     assert!((small.pixel_px - 480.0 / 258.0).abs() < 1e-12 && small.len() < found.len());
+    // The same once more, to the last byte.
+    assert!(output(request(&project)).unwrap() == small);
     let gone = |anchor: &Anchor| project.anchored(anchor).is_none();
     assert!([a, b, c].iter().all(gone));
     project.update(Event::Undo);
@@ -147,10 +154,7 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
 
 #[test]
 fn a_missing_cloud_has_its_true_cause() {
-    let mut project = solved(Sample::Table);
-    let mut settings = project.document().settings.clone();
-    settings.all_views.max_megapixels = 0.05;
-    project.update(Event::Set(settings));
+    let mut project = sample();
     assert!(
         project
             .all_views_words()

@@ -6,19 +6,19 @@ use egui_kittest::kittest::Queryable;
 use epipole_lab::session::Event;
 
 /// Clicks, and returns whether there was a point.
-fn hits(bench: &mut Bench<'_>, at: Pos2) -> bool {
+pub(super) fn hits(bench: &mut Bench<'_>, at: Pos2) -> bool {
     bench.drag_at(at);
     bench.drop_at(at);
     bench.run_steps(3);
     bench.query_by_label_contains("No point there").is_none()
 }
 
-fn space(bench: &Bench<'_>) -> egui::Rect {
+pub(super) fn space(bench: &Bench<'_>) -> egui::Rect {
     bench.get_by_label_contains("Space with ").rect()
 }
 
 /// Places over the whole space.
-fn places(rect: egui::Rect) -> impl Iterator<Item = Pos2> {
+pub(super) fn places(rect: egui::Rect) -> impl Iterator<Item = Pos2> {
     let share = |n: usize| (n as f32 + 0.5) / 12.0;
     let all = (0..144).map(move |n| vec2(share(n % 12), share(n / 12)));
     all.map(move |share| rect.min + share * rect.size())

@@ -2,6 +2,7 @@
 
 #![cfg(all(feature = "panels", feature = "compute"))]
 
+mod all_views;
 mod coming;
 mod keeping;
 mod measuring;

@@ -1,0 +1,44 @@
+//! The depth of all views is asked for, seen, clicked and removed.
+
+use super::measuring::{hits, places, space};
+use crate::common::desk::{click, open, rest};
+use egui_kittest::kittest::Queryable;
+use epipole_lab::session::Arrival;
+
+#[test]
+fn the_depth_of_all_views_takes_one_click() {
+    let mut bench = open(900.0, 700.0);
+    let link = [("step", "depth"), ("all-views-megapixels", "0.05")];
+    let link = link.map(|(name, value)| (name.to_owned(), value.to_owned()));
+    let arrival = Arrival::Link(link.to_vec());
+    bench.state_mut().host().arrivals.push(arrival);
+    rest(&mut bench);
+    click(&mut bench, "All views");
+    click(&mut bench, "Depth of all views");
+    rest(&mut bench);
+    let project = bench.state().project();
+    let cloud = project.all_views().expect("it was computed").1.clone();
+    let words = format!("{} points from all views.", cloud.len());
+    assert!(bench.query_by_label(&words).is_some(), "{words}");
+    assert!(bench.query_by_label("9 of 9").is_some());
+    click(&mut bench, "Show sparse points");
+    click(&mut bench, "Measure");
+    rest(&mut bench);
+    let rect = space(&bench);
+    for at in places(rect) {
+        hits(&mut bench, at);
+    }
+    // Without sparse points, all ends are of the cloud.
+    let project = bench.state().project();
+    let measures = &project.document().measures;
+    assert!(measures.len() > 10, "{}", measures.len());
+    for (index, measure) in measures.iter().enumerate() {
+        assert!(measure.ends.iter().all(|end| end.cloud.is_some()));
+        assert!(project.length_words(index).contains(" ± "));
+    }
+    click(&mut bench, "Depth");
+    click(&mut bench, "Remove from cloud");
+    rest(&mut bench);
+    assert!(bench.state().project().all_views().is_none());
+    assert!(bench.query_by_label("Depth of all views").is_some());
+}
