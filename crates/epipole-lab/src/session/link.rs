@@ -304,6 +304,9 @@ mod tests {
                 fill: true,
                 range_px: Some([12, 90]),
             },
+            all_views: crate::project::AllViewsOptions {
+                max_megapixels: 0.75,
+            },
             calibration: crate::project::CalibrationOptions {
                 board: crate::project::BoardOptions {
                     pattern: BoardPattern::Circles,

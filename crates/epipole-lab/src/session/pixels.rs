@@ -116,7 +116,10 @@ mod tests {
     use super::*;
     use crate::project::{Step, to_bytes};
     use crate::session::{Event, Pending};
-    use crate::tasks::{AnyQuery, Described, Features, Thumbnail};
+    use crate::tasks::{
+        AllViews, AnyQuery, CameraFound, Component, Described, Features, Reconstructed,
+        ReconstructionOfAll, Reduced, Thumbnail,
+    };
 
     /// Five megapixels, 15 MB.
     fn photograph() -> Photograph {
@@ -242,5 +245,54 @@ mod tests {
             do_first(&mut project).map(|pending| pending.query),
             Some(read)
         );
+    }
+
+    #[test]
+    fn all_views_are_downscaled_without_all_pixels_in_memory() {
+        let mut project = given(20);
+        while do_first(&mut project).is_some() {}
+        let camera = CameraFound {
+            intrinsics: [2000.0, 2000.0, 1249.5, 999.5],
+            rotation: [0.0, 0.0, 0.0, 1.0],
+            translation: [0.0; 3],
+        };
+        let found = Reconstructed {
+            components: vec![Component {
+                cameras: vec![Some(camera); 20],
+                lens: epipole::camera::Lens::NONE,
+                points: Vec::new(),
+            }],
+            ..Reconstructed::default()
+        };
+        let key = ReconstructionOfAll.key(&project).unwrap();
+        (project.cache).insert(key, Box::new(found), 1000);
+        project.update(Event::AllViews(true));
+        let mut read = 0;
+        let mut num_reduced = 0;
+        let is_wanted =
+            |query: &AnyQuery| matches!(query, AnyQuery::Photograph(_) | AnyQuery::Reduced(_));
+        while let Some(pending) = (project.pending().into_iter()).find(|p| is_wanted(&p.query)) {
+            assert!(num_in_memory(&project) <= 5, "{}", num_in_memory(&project));
+            let output = match pending.query {
+                AnyQuery::Photograph(_) => {
+                    read += 1;
+                    to_bytes(&photograph())
+                }
+                _ => {
+                    num_reduced += 1;
+                    assert!(pending.request(&project).is_some());
+                    to_bytes(&Reduced {
+                        width: 1,
+                        height: 1,
+                        from: (2500, 2000),
+                        rgb: vec![7; 3].into(),
+                    })
+                }
+            };
+            project.done(&pending, Ok(output));
+        }
+        assert_eq!(num_reduced, 20);
+        assert!(read <= 20, "each is read at most once more: {read}");
+        assert!(AllViews.is_ready(&project, false));
     }
 }

@@ -7,8 +7,8 @@ use super::task::{Destination, Query, Task};
 use crate::project::{Key, PhotoId, Project};
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of pixels of all photographs: about 1.5 GB while their depth is estimated, of the
-/// 4 GB that a page can have.
+/// Maximum number of pixels of all photographs. Their depth takes 60 bytes each, 0.7 GB, of the 4 GB
+/// that a worker can have.
 const MAX_PIXELS: f64 = 12e6;
 
 /// Finds the depth of each photograph and fuses them to one cloud.

@@ -5,7 +5,7 @@
 #![cfg(all(feature = "panels", feature = "compute"))]
 
 use crate::common::desk::{Bench, rest};
-use crate::common::raster::open;
+use crate::common::raster::{Raster, open};
 use egui::Rect;
 use egui_kittest::kittest::{NodeT, Queryable};
 use epipole_lab::app::set_theme;
@@ -77,6 +77,9 @@ fn num_colors(picture: &RgbImage) -> usize {
 
 fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
     let (mut bench, raster) = open(width, height, scale);
+    let link = vec![("all-views-megapixels".to_owned(), "0.1".to_owned())];
+    let arrival = epipole_lab::session::Arrival::Link(link);
+    bench.state_mut().host().arrivals.push(arrival);
     rest(&mut bench);
     for theme in ["light", "dark"] {
         set_theme(&bench.ctx, theme);
@@ -91,16 +94,33 @@ fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
                 bench.run_steps(3);
             }
             rest(&mut bench);
-            let picture = raster.picture(&bench);
-            save(&picture, &name);
-            check_places(&bench, &name, width);
-            assert!(
-                num_colors(&picture) > 500,
-                "{name}: {}",
-                num_colors(&picture)
-            );
+            check(&bench, &raster, &name, width);
+            if step == Step::Depth {
+                all_views(&mut bench);
+                check(&bench, &raster, &format!("{name}-all-views"), width);
+                bench.get_by_label("One pair").click_accesskit();
+            }
         }
     }
+}
+
+fn check(bench: &Bench<'_>, raster: &Raster, name: &str, width: f32) {
+    let picture = raster.picture(bench);
+    save(&picture, name);
+    check_places(bench, name, width);
+    let num_colors = num_colors(&picture);
+    assert!(num_colors > 500, "{name}: {num_colors}");
+}
+
+/// Asks for the depth of all views, or shows it once more.
+fn all_views(bench: &mut Bench<'_>) {
+    bench.get_by_label("All views").click_accesskit();
+    bench.run_steps(3);
+    if let Some(button) = bench.query_by_label("Depth of all views") {
+        button.click_accesskit();
+        bench.run_steps(3);
+    }
+    rest(bench);
 }
 
 fn save(picture: &RgbImage, name: &str) {
