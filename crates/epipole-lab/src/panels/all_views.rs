@@ -57,7 +57,6 @@ pub(super) fn controls(screen: &mut Screen<'_>, ui: &mut Ui) {
 
 fn numbers(cloud: &DenseCloud, ui: &mut Ui) {
     let (width, height) = cloud.size;
-    controls::row(ui, "points", cloud.len().to_string());
     let coverage = format!("{:.0}% of pixels", 100.0 * cloud.density);
     controls::row(ui, "coverage", coverage);
     let maps = format!("{} of {}", cloud.num_maps, cloud.num_registered);

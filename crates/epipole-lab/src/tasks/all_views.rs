@@ -1,15 +1,11 @@
 //! Depth of all views: one cloud from all photographs whose cameras are known.
 
 use super::dense_cloud::DenseCloud;
-use super::reconstruction::{Component, ReconstructionOfAll};
+use super::reconstruction::Component;
 use super::reduced::{Reduced, ReducedOf};
 use super::task::{Destination, Query, Task};
-use crate::project::{Key, PhotoId, Project};
+use crate::project::{Key, Project};
 use serde::{Deserialize, Serialize};
-
-/// Maximum number of pixels of all photographs. Their depth takes 60 bytes each, 0.7 GB, of the 4 GB
-/// that a worker can have.
-const MAX_PIXELS: f64 = 12e6;
 
 /// Finds the depth of each photograph and fuses them to one cloud.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,33 +28,6 @@ impl Task for FuseViews {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AllViews;
 
-impl AllViews {
-    /// The registered photographs.
-    pub(super) fn photos(self, project: &Project) -> Vec<PhotoId> {
-        let Some(component) = project.component() else {
-            return Vec::new();
-        };
-        let photos = project.taking_part().into_iter().zip(&component.cameras);
-        let registered = photos.filter(|(_, camera)| camera.is_some());
-        registered.map(|(photo, _)| photo.id).collect()
-    }
-
-    /// Maximum number of pixels of a photograph: the setting, or less if there are many.
-    pub(crate) fn max_pixels(self, project: &Project) -> Option<u32> {
-        let count = project.component()?.num_registered().max(1);
-        let wanted = project.document.settings.all_views.max_megapixels * 1e6;
-        Some(wanted.min(MAX_PIXELS / count as f64).round() as u32)
-    }
-
-    /// Whether it is asked for, and neither there nor in a file.
-    pub(super) fn is_open(self, project: &Project) -> bool {
-        let is_in_file = |key| project.imported.contains_key(&key);
-        project.document.all_views
-            && self.key(project).is_some_and(|key| !is_in_file(key))
-            && !self.is_settled(project)
-    }
-}
-
 impl Query for AllViews {
     type Task = FuseViews;
 
@@ -70,19 +39,11 @@ impl Query for AllViews {
     }
 
     fn key(self, project: &Project) -> Option<Key> {
-        let max_pixels = self.max_pixels(project)?;
-        let reconstruction = ReconstructionOfAll.key(project)?.0;
-        let component = project.view.component;
-        Some(Key::of(&(
-            "all views",
-            reconstruction,
-            component,
-            max_pixels,
-        )))
+        project.key_of_views()
     }
 
     fn is_ready(self, project: &Project, is_imported: bool) -> bool {
-        let mut photos = self.photos(project).into_iter();
+        let mut photos = project.registered().into_iter();
         is_imported || photos.all(|id| project.get(ReducedOf(id)).is_some())
     }
 

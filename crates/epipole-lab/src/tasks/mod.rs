@@ -42,6 +42,7 @@ mod rendered;
 mod task;
 mod thumbnail;
 mod two_views;
+mod views_to_fuse;
 
 pub use all_views::{AllViews, FuseViews};
 pub use board::{BoardFound, BoardOf, FindBoard};

@@ -1,6 +1,5 @@
 //! Photographs downscaled for the depth of all views, so that all of them fit into memory.
 
-use super::all_views::AllViews;
 use super::photograph::{Photograph, PhotographOf};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Run, report};
@@ -71,15 +70,15 @@ impl Query for ReducedOf {
 
     /// The registered photographs, while their depth is still to be found.
     fn all(project: &Project) -> Vec<Self> {
-        match AllViews.is_open(project) {
-            true => AllViews.photos(project).into_iter().map(Self).collect(),
+        match project.awaits_views() {
+            true => project.registered().into_iter().map(Self).collect(),
             false => Vec::new(),
         }
     }
 
     fn key(self, project: &Project) -> Option<Key> {
         let photograph = PhotographOf(self.0).key(project)?;
-        let max_pixels = AllViews.max_pixels(project)?;
+        let max_pixels = project.max_view_pixels()?;
         Some(Key::of(&("reduced", photograph.0, max_pixels)))
     }
 
@@ -95,7 +94,7 @@ impl Query for ReducedOf {
     fn task(self, project: &Project) -> Option<ReducePhotograph> {
         Some(ReducePhotograph {
             photograph: project.photograph(project.document.photo(self.0)?)?.clone(),
-            max_pixels: AllViews.max_pixels(project)?,
+            max_pixels: project.max_view_pixels()?,
         })
     }
 

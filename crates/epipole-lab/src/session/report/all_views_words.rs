@@ -43,7 +43,7 @@ impl Project {
     /// Maximum size of a photograph for the depth of all views, megapixels, if memory allows less
     /// than the setting.
     pub fn all_views_limit(&self) -> Option<f64> {
-        let max_megapixels = f64::from(AllViews.max_pixels(self)?) / 1e6;
+        let max_megapixels = f64::from(self.max_view_pixels()?) / 1e6;
         let wanted = self.document.settings.all_views.max_megapixels;
         (max_megapixels < wanted - 1e-6).then_some(max_megapixels)
     }
