@@ -77,7 +77,7 @@ fn num_colors(picture: &RgbImage) -> usize {
 
 fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
     let (mut bench, raster) = open(width, height, scale);
-    let link = vec![("all-views-megapixels".to_owned(), "0.1".to_owned())];
+    let link = vec![("all-views-megapixels".to_owned(), "0.05".to_owned())];
     let arrival = epipole_lab::session::Arrival::Link(link);
     bench.state_mut().host().arrivals.push(arrival);
     rest(&mut bench);

@@ -25,7 +25,7 @@ fn every_long_task_stops_when_it_is_told_to() {
     project.update(Event::OpenSample(Sample::Table));
     project.update(Event::Show(Step::Depth));
     let mut settings = project.document().settings.clone();
-    settings.all_views.max_megapixels = 0.1;
+    settings.all_views.max_megapixels = 0.05;
     project.update(Event::Set(settings));
     project.update(Event::AllViews(true));
     let mut kinds = [false; 8];
