@@ -47,6 +47,10 @@ if (document.querySelector(".quiz, .progress, .small .solved")) {
   void import("./quiz").then((quiz) => quiz.start(), sayMissing);
 }
 
+if (document.querySelector("a.term")) {
+  void import("./terms").then((terms) => terms.startTerms(), sayMissing);
+}
+
 if (document.querySelector(".gallery")) {
   void import("./gallery").then((gallery) => gallery.start(), sayMissing);
 }

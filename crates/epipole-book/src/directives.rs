@@ -5,8 +5,10 @@
 
 mod cite;
 mod claim;
+mod define;
 mod figure;
 mod gallery;
+mod glossary;
 mod include;
 mod listing;
 mod live;
@@ -19,6 +21,7 @@ mod references;
 mod small;
 mod symbols;
 mod task;
+mod term;
 mod value;
 
 use crate::parse::text::Entry;
@@ -28,9 +31,11 @@ use crate::render::directive::{Parsed, entry};
 pub(crate) const VOCABULARY: &[Entry<Parsed>] = &[
     entry::<cite::Cite>(),
     entry::<claim::Claim>(),
+    entry::<define::Define>(),
     entry::<operate::Do<_>>(),
     entry::<figure::Figure<_>>(),
     entry::<gallery::Gallery>(),
+    entry::<glossary::Glossary<_>>(),
     entry::<include::Include>(),
     entry::<listing::Listing<_>>(),
     entry::<live::Live>(),
@@ -42,5 +47,6 @@ pub(crate) const VOCABULARY: &[Entry<Parsed>] = &[
     entry::<small::Small<_>>(),
     entry::<symbols::Symbols>(),
     entry::<task::Task<_>>(),
+    entry::<term::Term>(),
     entry::<value::Value>(),
 ];

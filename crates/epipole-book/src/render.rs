@@ -18,6 +18,7 @@ pub(crate) mod pictures;
 mod progress;
 pub(crate) mod symbols;
 mod tables;
+pub(crate) mod terms;
 pub(crate) mod tokens;
 mod words;
 pub(crate) mod writer;

@@ -2,8 +2,10 @@
 
 use super::page::Page;
 use super::progress::{progress_table, solved_mark};
+use super::terms::Terms;
 use super::tokens::{
-    NUMBER_OF_FIGURE, PAGE_OF_FIGURE, PAGE_OF_REFERENCES, PANEL, PROGRESS, SOLVED, fill,
+    DEFINITION, NUMBER_OF_FIGURE, PAGE_OF_FIGURE, PAGE_OF_GLOSSARY, PAGE_OF_REFERENCES, PANEL,
+    PROGRESS, SOLVED, fill,
 };
 use crate::html::{attributes, escape, forbidden_inline, path_to_root};
 use crate::parse::content::Content;
@@ -19,6 +21,7 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
     let figures = figures(pages);
     check_figures(pages, &figures, problems);
     let list = page_of_references(pages, problems);
+    let terms = Terms::collect(pages, problems);
     let progress = progress_table(pages);
     let marks: Vec<String> = pages.iter().map(solved_mark).collect();
     let paths: Vec<String> = pages.iter().map(|page| page.path.clone()).collect();
@@ -52,6 +55,8 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
                     format!("<template shadowrootmode=\"open\">{panel}</template>")
                 }),
             PAGE_OF_REFERENCES => format!("{root}{list}"),
+            PAGE_OF_GLOSSARY => format!("{root}{}", terms.glossary),
+            DEFINITION => terms.definition(name, &root),
             _ => String::new(),
         });
     }

@@ -135,6 +135,12 @@ pub struct Page {
     pub goals: BTreeSet<String>,
     /// Figures that it refers to, and where.
     pub wanted_figures: Vec<(String, Place)>,
+    /// Terms that it uses, and where.
+    pub terms: Vec<(String, Place)>,
+    /// Terms that it defines, and where.
+    pub definitions: Vec<(String, Place)>,
+    /// Terms of the glossary, if that is here, and their places in its file.
+    pub glossary: Option<Vec<(String, Place)>>,
     /// Location of the first citation.
     pub cites: Option<Place>,
     /// Panels of its figures.

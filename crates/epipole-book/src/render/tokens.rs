@@ -2,6 +2,10 @@
 
 /// The page with the list of references.
 pub(crate) const PAGE_OF_REFERENCES: &str = "references-page";
+/// The page with the glossary.
+pub(crate) const PAGE_OF_GLOSSARY: &str = "glossary-page";
+/// A link to the definition of a term, by its key.
+pub(crate) const DEFINITION: &str = "definition";
 /// The page of a figure, and its anchor.
 pub(crate) const PAGE_OF_FIGURE: &str = "figure-page";
 /// `Figure 4.1`.
