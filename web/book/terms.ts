@@ -12,6 +12,8 @@ let card: HTMLElement | undefined;
 /** The link whose card is shown or about to be. */
 let current: HTMLAnchorElement | undefined;
 let timer = 0;
+/** Whether focus comes back to the word from its card, which stays closed. */
+let isReturning = false;
 
 async function fetchPage(address: string): Promise<Document> {
   const response = await fetch(address);
@@ -89,7 +91,7 @@ function later(act: () => void): void {
   timer = window.setTimeout(act, DELAY_MS);
 }
 
-const attempt = (link: HTMLAnchorElement) => void show(link).catch(hide);
+const attempt = (link: HTMLAnchorElement) => void show(link).catch(() => current === link && hide());
 
 export function startTerms(): void {
   document.addEventListener("pointerover", (event) => {
@@ -97,10 +99,11 @@ export function startTerms(): void {
     const link = termOf(event);
     if (link) later(() => attempt(link));
     else if (isInside(event.target)) clearTimeout(timer);
-    else if (current && !isInside(document.activeElement)) later(hide);
+    else if (!isInside(document.activeElement)) later(hide);
   });
   document.addEventListener("focusin", (event) => {
     const link = termOf(event);
+    if (isReturning) return;
     if (link?.matches(":focus-visible")) attempt(link);
     else if (!isInside(event.target)) hide();
   });
@@ -117,6 +120,11 @@ export function startTerms(): void {
     void show(link).catch(() => location.assign(link.href));
   });
   document.addEventListener("keydown", ({ key }) => {
-    if (key === "Escape") hide();
+    if (key !== "Escape") return;
+    const link = card?.contains(document.activeElement) ? current : undefined;
+    hide();
+    isReturning = true;
+    link?.focus();
+    isReturning = false;
   });
 }
