@@ -45,8 +45,7 @@ async function entryOf(link: HTMLAnchorElement): Promise<[HTMLElement, HTMLEleme
 
 /** Places the card below the word, or above where there is more room. */
 function place(link: HTMLElement, shown: HTMLElement): void {
-  // A word that breaks between two lines has two boxes; the first has its beginning.
-  const word = link.getClientRects()[0] ?? link.getBoundingClientRect();
+  const word = link.getBoundingClientRect();
   const { width, height } = shown.getBoundingClientRect();
   const page = document.documentElement;
   const left = Math.max(GAP, Math.min(word.left, page.clientWidth - width - GAP));

@@ -64,6 +64,7 @@ impl Directive for Glossary<ParsedText> {
         let mut html = String::from("<dl class=\"glossary\">\n");
         let mut listed = Vec::new();
         for term in terms {
+            page.page.words.push_str(&format!(" {}: ", term.name));
             let text = term.text.inline(page);
             html.push_str(&format!(
                 "<div id=\"{key}\"><dt>{name}</dt><dd>{text} <span class=\"where\">{chapter}",
