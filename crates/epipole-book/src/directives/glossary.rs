@@ -20,7 +20,7 @@ const FILE: &str = "glossary.toml";
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    /// Where the key does not spell it.
+    /// The name, if it is not the key in words.
     term: Option<String>,
     text: String,
     /// Anchor of a figure that shows it.

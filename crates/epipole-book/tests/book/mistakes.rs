@@ -39,6 +39,11 @@ fn every_mistake_names_its_file_and_line_and_all_are_told() {
             "{{#ref fig-none}}",
             "no figure is called \"fig-none\"; figures: none",
         ),
+        (
+            "{{#term epipole}}",
+            "a term is marked, but no chapter holds {{#glossary}}",
+        ),
+        ("{{#glossary}}", "there is no glossary.toml"),
         ("{{#quiz none}}", "there is no quizzes/none.toml"),
         (
             "{{#include none.py}}",
@@ -46,7 +51,7 @@ fn every_mistake_names_its_file_and_line_and_all_are_told() {
         ),
         (
             "{{#frame x}}",
-            "unknown directive \"frame\"; known: cite, claim, do, figure",
+            "unknown directive \"frame\"; known: cite, claim, define, do, figure",
         ),
         ("{{#value a", "`{{#` without `}}`"),
         ("$\\frac{1}$", "formula `\\frac{1}`: "),

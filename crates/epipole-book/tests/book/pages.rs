@@ -148,6 +148,35 @@ fn letters_of_the_list_have_their_role_everywhere_in_the_chapter() {
 }
 
 #[test]
+fn terms_lead_to_the_glossary_and_that_to_their_chapters() {
+    let book = Book::new(&[
+        (
+            "SUMMARY.md",
+            "# Contents\n\n- [One](one.md)\n\n[Words](words.md)\n",
+        ),
+        (
+            "one.md",
+            "# One\n\nA **{{#define ray}}** and more {{#term ray | rays}}.\n\n{{#figure dot | C.}}\n",
+        ),
+        ("words.md", "# Words\n\n{{#glossary}}\n"),
+        (
+            "glossary.toml",
+            "[ray]\ntext = \"A *half*-line.\"\nfigure = \"fig-dot\"\n",
+        ),
+    ]);
+    book.must_build();
+    let article = book.article("one.html");
+    let expected = "<strong><dfn id=\"term-ray\">ray</dfn></strong> and more <a class=\"term\" \
+                    href=\"words.html#ray\">rays</a>";
+    assert!(article.contains(expected), "{article}");
+    let words = book.article("words.html");
+    let expected = "<div id=\"ray\"><dt>ray</dt><dd>A <em>half</em>-line. <span class=\"where\">\
+                    <a class=\"ref\" href=\"one.html#term-ray\">Chapter 0</a>, \
+                    <a class=\"ref\" href=\"one.html#fig-dot\">Figure 0.1</a></span></dd></div>";
+    assert!(words.contains(expected), "{words}");
+}
+
+#[test]
 fn citations_lead_to_the_list() {
     let references = "[a1]\nauthors = [\"Author, An\"]\nyear = 2001\ntitle = \"Title\"\n";
     let chapter = ("one.md", "# One\n\nAs {{#cite a1 | §2}} says.\n");
