@@ -60,7 +60,7 @@ enum Command {
     },
     /// Make the WebAssembly modules of the npm package of the core.
     Vision,
-    /// Look for mistakes in the content only: no scripts, no fonts, nothing written.
+    /// Look for mistakes in the content only, without making the site.
     Check,
     /// Write the notebooks of the chapters only.
     Notebooks {

@@ -109,7 +109,8 @@ fn build_beside(
         contents,
         chapters,
     } = manuscript;
-    let book = Book::new(&content, gallery, cache(options)?, &problems);
+    let draws_posters = !options.check;
+    let book = Book::new(&content, gallery, cache(options)?, draws_posters, &problems);
     let mut pages = pages(chapters, &content, &book, phases);
     let panels = match options.assets && !options.check {
         true => phases.run("make panels", 0, |_| {
@@ -177,15 +178,12 @@ fn build_beside(
     Ok(report)
 }
 
-/// Cache of posters; none in a check, which draws none.
-fn cache(options: &Options) -> Result<Option<Cache>> {
-    if options.check {
-        return Ok(None);
-    }
+/// Cache of posters and snapshots.
+fn cache(options: &Options) -> Result<Cache> {
     let folder = target_folder(&options.project).join("book-work/posters");
     std::fs::create_dir_all(&folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    Ok(Some(Cache::new(&folder)))
+    Ok(Cache::new(&folder))
 }
 
 /// Parses, resolves and renders all chapters.

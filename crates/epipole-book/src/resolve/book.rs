@@ -20,8 +20,9 @@ pub(crate) struct Book<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) gallery: &'a dyn Gallery,
     pub(crate) references: References,
-    /// Posters are drawn only with a cache: a check of the content needs none.
-    cache: Option<Cache>,
+    cache: Cache,
+    /// A check of the content draws none.
+    draws_posters: bool,
     facts: Mutex<BTreeMap<State, Arc<Facts>>>,
 }
 
@@ -29,7 +30,8 @@ impl<'a> Book<'a> {
     pub(crate) fn new(
         content: &Content,
         gallery: &'a dyn Gallery,
-        cache: Option<Cache>,
+        cache: Cache,
+        draws_posters: bool,
         problems: &'a Problems,
     ) -> Self {
         let references = content.read("references.toml");
@@ -39,6 +41,7 @@ impl<'a> Book<'a> {
             gallery,
             references: references.unwrap_or_default(),
             cache,
+            draws_posters,
             facts: Mutex::default(),
         }
     }
@@ -60,10 +63,7 @@ impl<'a> Book<'a> {
             Ok((Facts::parse(&snapshot)?, snapshot.into_bytes()))
         };
         let read = |kept: &[u8]| Facts::parse(std::str::from_utf8(kept).ok()?).ok();
-        let facts = match &self.cache {
-            Some(cache) => cache.get_or((name, settings, "facts"), read, make),
-            None => make().map(|(facts, _)| facts),
-        };
+        let facts = self.cache.get_or((name, settings, "facts"), read, make);
         let facts = Arc::new(facts.map_err(of_figure)?);
         lock().insert(key, facts.clone());
         Ok(facts)
@@ -80,9 +80,9 @@ impl<'a> Book<'a> {
         rooms: &[Room],
     ) -> Result<Posters, String> {
         let figure = self.gallery.open(name, settings)?;
-        match &self.cache {
-            Some(cache) => posters::draw(figure.as_ref(), name, settings, rooms, cache),
-            None => Ok(Posters::default()),
+        match self.draws_posters {
+            true => posters::draw(figure.as_ref(), name, settings, rooms, &self.cache),
+            false => Ok(Posters::default()),
         }
     }
 }
