@@ -15,6 +15,7 @@ use crate::resolve::book::Book;
 use crate::resolve::cache::Cache;
 use crate::resolve::figures::Gallery;
 use crate::tools::target_folder;
+use crate::write::address;
 use crate::write::assets::{self, Assets, Modules};
 use crate::write::compress;
 use crate::write::disk::{STAND_IN, write};
@@ -259,6 +260,7 @@ impl Bound<'_> {
         {
             files.insert("index.html".to_owned(), html);
         }
+        let root = address::address(config);
         let others = [
             ("404.html".to_owned(), template.not_found(contents, pages)?),
             (
@@ -266,13 +268,15 @@ impl Bound<'_> {
                 template.without_lab(contents, pages)?,
             ),
             (format!("{LAB_FOLDER}/{STAND_IN}"), String::new()),
-            (
-                "robots.txt".to_owned(),
-                "User-agent: *\nAllow: /\n".to_owned(),
-            ),
+            ("robots.txt".to_owned(), address::robots(root.as_deref())),
             (".nojekyll".to_owned(), String::new()),
         ];
         files.extend(others.map(|(path, text)| (path, text.into_bytes())));
+        if let Some(root) = &root {
+            let paths = pages.iter().map(|page| page.path.as_str());
+            let sitemap = address::sitemap(root, paths).into_bytes();
+            files.insert("sitemap.xml".to_owned(), sitemap);
+        }
         files.extend(manual.files);
         if !options.live {
             let manifest = serde_json::to_vec(&manifest(config, assets))?;

@@ -1,5 +1,6 @@
 //! Pages to a site: assets, templates, frames, compression.
 
+pub(crate) mod address;
 pub mod assets;
 pub mod compress;
 pub(crate) mod disk;

@@ -2,6 +2,7 @@
 //! words for readers without script; its address sets the figure. If the address of the book is
 //! configured, each page links to its oEmbed data.
 
+use super::address::address;
 use super::assets::Assets;
 use super::policy::CONTENT_SECURITY_POLICY;
 use crate::html::escape;
@@ -138,12 +139,6 @@ pub(crate) fn add(
         files.extend(frame.files);
     }
     Ok(())
-}
-
-/// Address of the published book, `[output.epipole] address`, with a trailing slash.
-pub(crate) fn address(config: &Config) -> Option<String> {
-    let written = config.get::<String>("output.epipole.address").ok()??;
-    Some(format!("{}/", written.trim_end_matches('/')))
 }
 
 /// The frame as another page writes it.

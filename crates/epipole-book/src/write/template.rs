@@ -1,5 +1,6 @@
 //! The template of a page, `web/theme/index.hbs`, and its variables.
 
+use super::address::{address, of_page};
 use super::assets::Assets;
 use super::policy::{CONTENT_SECURITY_POLICY, PROGRAM_POLICY};
 use crate::html::path_to_root;
@@ -18,6 +19,8 @@ pub(crate) struct Template<'a> {
     book_title: String,
     description: String,
     language: String,
+    /// Of the published book.
+    address: Option<String>,
     assets: &'a Assets,
     search: &'a str,
     has_manual: bool,
@@ -32,6 +35,8 @@ struct Data<'a> {
     title: String,
     book_title: &'a str,
     description: &'a str,
+    /// Address of the published page.
+    canonical: Option<String>,
     /// From this page to the folder of the site: empty or `../`s.
     root: &'a str,
     policy: &'a str,
@@ -175,6 +180,7 @@ impl<'a> Template<'a> {
                 .language
                 .clone()
                 .unwrap_or_else(|| "en".to_owned()),
+            address: address(config),
             assets,
             search,
             has_manual,
@@ -206,6 +212,7 @@ impl<'a> Template<'a> {
             title,
             book_title: &self.book_title,
             description,
+            canonical: (self.address.as_ref()).map(|address| of_page(address, &page.path)),
             root: &root,
             policy: match page.has_programs {
                 true => PROGRAM_POLICY,

@@ -123,10 +123,33 @@ fn every_figure_has_a_page_for_frames() {
 }
 
 #[test]
+fn with_an_address_pages_are_found_under_it() {
+    let book = Book::of_chapter("# One\n\nOld.\n");
+    book.must_build();
+    assert!(!book.page("one.html").contains("canonical"));
+    assert!(!book.out().join("sitemap.xml").exists());
+    book.write("content/book.toml", PUBLISHED);
+    book.must_build();
+    let page = book.page("one.html");
+    for part in [
+        "<link rel=\"canonical\" href=\"https://a.example/book/one.html\">",
+        "<meta property=\"og:url\" content=\"https://a.example/book/one.html\">",
+    ] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    let sitemap = book.page("sitemap.xml");
+    assert!(sitemap.contains("<loc>https://a.example/book/one.html</loc>"));
+    let robots = book.page("robots.txt");
+    assert!(robots.ends_with("Sitemap: https://a.example/book/sitemap.xml\n"));
+}
+
+/// A configuration with the address of the published book.
+const PUBLISHED: &str = "[book]\ntitle = \"Tiny\"\nsrc = \".\"\n[output.epipole]\naddress = \"https://a.example/book\"\n";
+
+#[test]
 fn with_an_address_frames_tell_oembed_of_themselves() {
     let book = Book::of_chapter("# One\n\nOld.\n");
-    let toml = "[book]\ntitle = \"Tiny\"\nsrc = \".\"\n[output.epipole]\naddress = \"https://a.example/book\"\n";
-    book.write("content/book.toml", toml);
+    book.write("content/book.toml", PUBLISHED);
     book.must_build();
     let link = "type=\"application/json+oembed\" href=\"https://a.example/book/embed/dot.json\"";
     assert!(book.page("embed/dot.html").contains(link));
