@@ -113,8 +113,8 @@ export function startTerms(): void {
       return;
     }
     // The first tap shows the card, a second follows the link, as does a mouse or a key.
-    const tapped = event instanceof PointerEvent && event.pointerType === "touch";
-    if (!tapped || (current === link && card)) return;
+    const isTap = event instanceof PointerEvent && event.pointerType === "touch";
+    if (!isTap || (current === link && card)) return;
     event.preventDefault();
     void show(link).catch(() => location.assign(link.href));
   });

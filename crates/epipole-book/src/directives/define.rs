@@ -1,4 +1,4 @@
-//! `{{#define epipole}}`: the place that explains a term, to which the glossary leads.
+//! `{{#define epipole}}`: a term where it is explained. The glossary links to it.
 
 use super::term::Named;
 use crate::html::escape;

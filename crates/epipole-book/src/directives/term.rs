@@ -18,7 +18,10 @@ pub(super) struct Named {
 }
 
 impl Named {
-    /// The term's own name, where no words are given.
+    /// Parses `key | words`. The words default to the name of the term.
+    ///
+    /// # Errors
+    /// A sentence, unless there is one key.
     pub(super) fn parse(request: &Request) -> Result<Self, String> {
         let key = request.one_word("key | words")?;
         let body = request.body.as_ref();

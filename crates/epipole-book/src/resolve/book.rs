@@ -21,7 +21,7 @@ pub(crate) struct Book<'a> {
     pub(crate) gallery: &'a dyn Gallery,
     pub(crate) references: References,
     cache: Cache,
-    /// A check of the content draws none.
+    /// Whether posters are drawn: not by a check of the content.
     draws_posters: bool,
     facts: Mutex<BTreeMap<State, Arc<Facts>>>,
 }

@@ -9,7 +9,7 @@ pub(crate) fn address(config: &Config) -> Option<String> {
     Some(format!("{}/", written.trim_end_matches('/')))
 }
 
-/// The one address of a page below `root`. The first page is the folder itself.
+/// Canonical address of a page below `root`. An index is its folder.
 pub(super) fn of_page(root: &str, path: &str) -> String {
     let path = match path.strip_suffix("index.html") {
         Some(folder) if folder.is_empty() || folder.ends_with('/') => folder,
