@@ -76,6 +76,22 @@ for (const name of chapters) {
   }
 }
 
+test("a sentence finds its figure while another one leaves its dock, on a slow machine, too", async ({ page, library }) => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  const session = await page.context().newCDPSession(page);
+  await session.send("Emulation.setCPUThrottlingRate", { rate: 4 });
+  await page.goto(`${library}/sandbox.html`);
+  for (const text of ["Make the threshold e", "first outliers"]) {
+    const words = page.locator(".do", { hasText: text });
+    const figure = await figureOf(page, words);
+    await words.evaluate((element) => element.scrollIntoView({ block: "center" }));
+    await words.click();
+    await expect(figure).toHaveAttribute("data-ready", "");
+    await expect.poll(() => words.evaluate(together), { message: text }).toMatchObject({ picture: true, words: true });
+  }
+});
+
 test("a docked figure goes home when closed, reached or left behind, and moves no text", async ({ page, library }) => {
   await page.setViewportSize(SCREENS[0]);
   await page.emulateMedia({ reducedMotion: "reduce" });

@@ -31,6 +31,9 @@ function watchReader(): { hasMoved: () => boolean } {
   };
 }
 
+/** Resolves when the browser has scrolled for changes of layout (scroll anchoring), in the frame that follows them. */
+const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+
 /** Makes the words a button without a box of its own, so that they still wrap like text. */
 function startButton(words: HTMLElement): void {
   const figure = figureOf(words);
@@ -48,7 +51,8 @@ function startButton(words: HTMLElement): void {
     together();
     const reader = watchReader();
     await figure.glide?.(parametersOf(words), { scroll: !dock });
-    // A figure that came alive meanwhile may have moved the text.
+    // A figure that came alive or left its dock meanwhile may have moved the text.
+    await scrollAnchored();
     if (!reader.hasMoved()) together();
   };
   words.addEventListener("click", () => void act());
