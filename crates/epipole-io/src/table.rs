@@ -1,7 +1,9 @@
 //! Text files with a row of numbers in each line, as text editors, spreadsheets and programs write
 //! them.
 
-use crate::text::{decode, lines};
+mod json;
+
+use crate::text::{decode, excerpt, lines};
 use crate::{Error, Result};
 
 /// Rows from which a first column that counts them is no chance.
@@ -9,8 +11,8 @@ const MIN_COUNTED: usize = 3;
 
 /// The rows of a text: numbers between commas, semicolons, tabs or spaces, in quotes or brackets,
 /// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. The rest of a line
-/// after `#` is a comment. A first line of names orders the columns; otherwise they are the first
-/// ones.
+/// after `#` is a comment. A first line of names, also as a comment, orders the columns; otherwise
+/// they are the first ones. JSON is read, too, as lists or as objects.
 ///
 /// * `names`: possible names of the columns in a header, in lower case; further columns are ignored
 ///
@@ -18,14 +20,29 @@ const MIN_COUNTED: usize = 3;
 /// [`Error::Malformed`] with the line that has fewer numbers, NaN, or a decimal comma that could
 /// be something else; also for a first column that counts the rows. Infinities stay.
 pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<Vec<[f64; N]>> {
+    let text = decode(bytes)?;
+    if let Some(rows) = json::read(text, names, &expected(names)) {
+        return rows;
+    }
     let mut rows = Vec::new();
-    let mut header: Option<Header<N>> = None;
+    let mut header = match commented_header(text) {
+        Some((number, fields)) => {
+            let header = Header::read(&fields, names).map_err(|error| error.on_line(number))?;
+            // A comment may leave out columns.
+            Some(Header {
+                num_fields: usize::MAX,
+                ..header
+            })
+        }
+        None => None,
+    };
     // The first numbers of rows with more than are needed.
     let mut counted = Vec::new();
+    let mut num_halved = 0;
     let mut is_first = true;
-    for (number, line) in lines(decode(bytes)?) {
+    for (number, line) in lines(text) {
         let fields = fields(line, N).map_err(|error| error.on_line(number))?;
-        if std::mem::take(&mut is_first) && is_header(&fields) {
+        if std::mem::take(&mut is_first) && header.is_none() && is_header(&fields) {
             let read = Header::read(&fields, names);
             header = Some(read.map_err(|error| error.on_line(number))?);
             continue;
@@ -43,12 +60,22 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
                     Some(_) => format!("{N} numbers, {}", expected(names)),
                     None => format!("{N} numbers"),
                 };
-                Error::at(number, format!("here should be {expected}, not \"{line}\""))
+                Error::at(
+                    number,
+                    format!("here should be {expected}, not \"{}\"", excerpt(line)),
+                )
             })?;
+        num_halved += usize::from(is_halved(line, &fields, N));
         if header.is_none() && fields.len() > N {
             counted.push(numbers[0]);
         }
         rows.push(numbers);
+    }
+    if header.is_none() && num_halved == rows.len() && !rows.is_empty() {
+        return Err(Error::malformed(format!(
+            "each line has {} whole numbers between commas where {N} numbers should be: if they have decimal commas, write points, or separate the numbers by semicolons",
+            2 * N
+        )));
     }
     let counts = |from: f64| (counted.iter().zip(0..)).all(|(&n, at)| n == from + f64::from(at));
     let is_counted = counted.len() >= MIN_COUNTED && counted.len() == rows.len();
@@ -170,6 +197,36 @@ fn is_header(fields: &[Field]) -> bool {
     fields.iter().all(|field| number(field).is_none()) && fields.iter().any(is_name)
 }
 
+/// Columns that a comment must name to be a header.
+const COLUMNS: [&[&str]; 4] = [
+    &["u", "v"],
+    &["x", "y"],
+    &["u1", "v1", "u2", "v2"],
+    &["x1", "y1", "x2", "y2"],
+];
+
+/// A first comment that names the columns of the first row, as `numpy.savetxt` and `epipole match`
+/// write it.
+fn commented_header(text: &str) -> Option<(usize, Vec<Field>)> {
+    let mut filled = (text.lines().zip(1..)).filter(|(line, _)| !line.trim().is_empty());
+    let (first, number) = filled.next()?;
+    let names = fields(first.trim().strip_prefix('#')?, 2).ok()?;
+    let (_, row) = lines(text).next()?;
+    let has = |name: &&str| (names.iter()).any(|field| field.text.to_lowercase() == **name);
+    let are_known = COLUMNS.iter().any(|columns| columns.iter().all(has));
+    (are_known && fields(row, names.len()).ok()?.len() == names.len()).then_some((number, names))
+}
+
+/// Whether a line has twice the numbers, all of them whole: decimal commas between commas.
+fn is_halved(line: &str, fields: &[Field], columns: usize) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let are_whole = fields.iter().enumerate().all(|(at, field)| match at % 2 {
+        0 => digits(field.text.trim_start_matches(['-', '+'])),
+        _ => digits(&field.text),
+    });
+    line.contains(',') && fields.len() == 2 * columns && are_whole
+}
+
 /// Names of the columns that are expected, in words.
 fn expected<const N: usize>(names: &[[&str; N]]) -> String {
     let known: Vec<String> = names.iter().map(|names| names.join(" ")).collect();
@@ -248,6 +305,10 @@ mod tests {
             "(1.5, -2), (300, 4.25) # a comment\n\n# another\n5,6 7,8.5",
             "1.5 -2 300 4.25 0.3 x\n5 6 7 8.5 0.4 y",
             "1.5 -2, 300\t4.25 0.3 x\n5 6, 7\t8.5",
+            "[[1.5, -2, 300, 4.25], [5, 6, 7, 8.5]]",
+            "[[[1.5, -2], [300, 4.25]],\n [[5, 6], [7, 8.5]]]\n",
+            "[{\"X1\": 1.5, \"y1\": -2, \"x2\": 300, \"y2\": 4.25, \"score\": 1},
+              {\"x1\": 5, \"y1\": 6, \"x2\": 7, \"y2\": 8.5}]",
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text}");
         }
@@ -261,6 +322,8 @@ mod tests {
             "X2;Y2;id;X1;Y1\n3;4;a b;1;2",
             ",u1,v1,u2,v2,score\n0,1,2,3,4,",
             "\"x1\" \"y1\" \"x2\" \"y2\"\n1 2 3 4",
+            "# x2 y2 x1 y1\n3 4 1 2",
+            "# the points x and y of two images\n1 2 3 4",
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text}");
         }
@@ -288,6 +351,22 @@ mod tests {
             ("1,2,,4,5", "line 1: here should be 4 numbers"),
             (&ten, "the first column counts the rows"),
             ("1 2 3 4\nu1 v1 u2 v2", "line 2: here should be 4 numbers"),
+            (
+                "1,5,-2,5,300,0,4,25\n5,0,6,0,7,0,8,5",
+                "each line has 8 whole numbers between commas",
+            ),
+            (
+                "[[1, 2, 3, 4], [5, 6, 7]]",
+                "row 2 has 3 numbers where 4 should be",
+            ),
+            (
+                "# x y z u v\n1 2 3 4 5",
+                "line 1: the first line names no columns u1",
+            ),
+            (
+                "[{\"u1\": 1, \"v1\": 2, \"u2\": 3}]",
+                "row 1 has no numbers u1 v1 u2 v2 or x1 y1 x2 y2",
+            ),
         ] {
             let told = read(text).unwrap_err().to_string();
             assert!(told.contains(why), "{text}: {told}");

@@ -2,10 +2,35 @@
 
 use crate::{Error, Result};
 
+/// First bytes of binary files that are given for tables, and the way to text.
+const OTHER_FORMATS: [(&[u8], &str); 3] = [
+    (
+        b"\x93NUMPY",
+        "a NumPy file: write it as text, with numpy.savetxt",
+    ),
+    (
+        b"PK\x03\x04",
+        "a ZIP file, such as .xlsx and .npz: save it as CSV or text",
+    ),
+    (
+        b"MATLAB 5.0 MAT-file",
+        "a MATLAB file: write it as text, with writematrix",
+    ),
+];
+
+/// Length to which an excerpt of a line is cut, characters.
+const MAX_EXCERPT: usize = 60;
+
 /// The text of a file, without a byte order mark. Line ends may be `\n` or `\r\n`.
 pub(crate) fn decode(bytes: &[u8]) -> Result<&str> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(Error::malformed("the text is UTF-16: save it as UTF-8"));
+    }
+    let other = OTHER_FORMATS
+        .iter()
+        .find(|(start, _)| bytes.starts_with(start));
+    if let Some((_, why)) = other {
+        return Err(Error::malformed(*why));
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         Error::malformed(format!(
@@ -30,5 +55,13 @@ pub(crate) fn number(line: usize, word: &str) -> Result<f64> {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err(Error::at(line, format!("{word} is not finite"))),
         Err(_) => Err(Error::at(line, format!("\"{word}\" is not a number"))),
+    }
+}
+
+/// A line, cut to what a message can quote.
+pub(crate) fn excerpt(line: &str) -> String {
+    match line.char_indices().nth(MAX_EXCERPT) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
     }
 }
