@@ -66,9 +66,9 @@ pub(crate) fn tell_of_others(
 /// The camera of two photographs.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
-    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
-    /// nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°. Images stay
-    /// distorted, and results are of rays.
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°.
+    /// Images stay distorted, and results are of rays.
     #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
     camera_file: Option<PathBuf>,
 }

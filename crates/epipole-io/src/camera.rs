@@ -5,10 +5,13 @@
 
 mod colmap;
 mod epipole_json;
+mod flat;
 mod format;
 mod kalibr;
+mod kitti;
 mod matlab;
 mod metashape;
+mod middlebury;
 mod named;
 pub(crate) mod nerfstudio;
 mod opencv;

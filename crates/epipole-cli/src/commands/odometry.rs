@@ -54,9 +54,9 @@ pub(crate) struct Arguments {
     frames: PathBuf,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
-    /// nerfstudio, Metashape or MATLAB, for frames of its size. Frames stay distorted. Not for
-    /// rigs, whose frames are rectified.
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for frames of its size. Frames stay
+    /// distorted. Not for rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
     /// The folder of the right camera's frames: rectified, as many, in the same order.

@@ -33,8 +33,8 @@ pub(crate) struct Arguments {
     /// Photographs of the calibrated camera, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
-    /// nerfstudio, Metashape or MATLAB.
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB.
     #[arg(long, value_name = "FILE")]
     camera: PathBuf,
     /// The photographs are by the right camera of the file.

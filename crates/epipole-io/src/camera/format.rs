@@ -20,6 +20,12 @@ pub enum CameraFormat {
     Metashape,
     /// MATLAB's `cameraParameters` or `stereoParameters`, as JSON.
     Matlab,
+    /// Calibration of KITTI: projections, or cameras with lenses.
+    Kitti,
+    /// `calib.txt` of the Middlebury and ETH3D stereo benchmarks.
+    Middlebury,
+    /// Numbers named `fx`, `fy`, `cx`, `cy`: settings of ORB-SLAM, JSON of depth cameras.
+    Flat,
 }
 
 impl CameraFormat {
@@ -34,6 +40,9 @@ impl CameraFormat {
             Self::NerfStudio => "nerfstudio",
             Self::Metashape => "Metashape",
             Self::Matlab => "MATLAB",
+            Self::Kitti => "KITTI",
+            Self::Middlebury => "Middlebury",
+            Self::Flat => "plain numbers",
         }
     }
 }

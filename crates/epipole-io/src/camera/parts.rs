@@ -9,6 +9,9 @@ use nalgebra::{Matrix3, Translation3, UnitQuaternion};
 /// Width and height, pixels.
 pub(super) type Size = (u32, u32);
 
+/// Bound of a translation, in units of the file.
+const FAR: f64 = 1e12;
+
 /// Largest skew relative to the focal length that is rounding.
 const ROUNDED_SKEW: f64 = 1e-9;
 
@@ -17,11 +20,21 @@ const ROUNDED_SKEW: f64 = 1e-9;
 /// # Errors
 /// [`Error::Malformed`] if not.
 pub(super) fn size_or(size: Option<Size>, keys: &str) -> Result<Size> {
-    size.ok_or_else(|| Error::malformed(format!("the file has no image size: {keys} are missing")))
+    size.ok_or_else(|| {
+        Error::malformed(format!(
+            "the file has no image size: {keys} are missing (with photographs, theirs is taken)"
+        ))
+    })
 }
 
-/// Intrinsics from the nine numbers of K, row by row.
+/// Intrinsics from the nine numbers of K, row by row; or column by column, as Open3D writes it.
 pub(super) fn intrinsics(field: &Field, k: &[f64]) -> Result<Intrinsics> {
+    if let &[fx, skew, 0.0, 0.0, fy, 0.0, cx, cy, 1.0] = k
+        && [cx, cy] != [0.0; 2]
+    {
+        check_skew(field, skew, fx)?;
+        return Ok(Intrinsics::new(fx, fy, cx, cy)?);
+    }
     let &[fx, skew, cx, zero, fy, cy, ..] = k else {
         return Err(field.wrong("is not a 3 × 3 matrix"));
     };
@@ -83,6 +96,14 @@ pub(super) fn fisheye(field: &Field, k: &[f64]) -> Result<Lens> {
 
 pub(super) fn lens(kind: LensKind, k: &[f64]) -> Result<Lens> {
     Ok(Lens::from_coefficients(kind, k)?)
+}
+
+/// A translation to the camera, without one so far that inverting its pose could overflow.
+pub(super) fn translation(field: &Field, [x, y, z]: [f64; 3]) -> Result<Translation3<f64>> {
+    match [x, y, z].iter().all(|part| part.abs() < FAR) {
+        true => Ok(Translation3::new(x, y, z)),
+        false => Err(field.wrong("is too far for a camera")),
+    }
 }
 
 /// Motion from a rotation, nine numbers row by row or a rotation vector, and a translation.
@@ -163,6 +184,8 @@ mod tests {
         let mut transposed = k;
         transposed.swap(2, 6);
         assert!(intrinsics(&field, &transposed).is_err());
+        transposed.swap(5, 7);
+        assert_eq!(intrinsics(&field, &transposed), intrinsics(&field, &k));
         assert!(intrinsics(&field, &k[..6]).is_err());
         let turn = UnitQuaternion::from_scaled_axis(nalgebra::Vector3::new(0.1, 0.2, 0.3));
         let numbers: Vec<f64> = (turn.to_rotation_matrix().matrix().transpose().iter())

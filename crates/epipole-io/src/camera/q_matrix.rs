@@ -2,16 +2,22 @@
 //!
 //! Source: OpenCV's documentation of `calib3d`, `stereoRectify` and `reprojectImageTo3D`.
 
+use super::read::read_cameras;
 use crate::text::decode;
 use crate::tree::{Field, Syntax};
 use crate::{Error, Result};
+use epipole::camera::Lens;
 use nalgebra::Matrix4;
 
-/// Reads Q: the key `Q` of JSON, YAML or XML, such as OpenCV writes, or sixteen numbers row by row.
+/// Rotation, radians, and offset relative to the baseline, that are rounding.
+const ROUNDED: f64 = 1e-4;
+
+/// Reads Q: the key `Q` of JSON, YAML or XML, such as OpenCV writes, or sixteen numbers row by row;
+/// also Q of the cameras of a rectified rig, such as `calib.txt` of Middlebury or KITTI.
 ///
 /// # Errors
-/// [`Error::Malformed`] without sixteen finite numbers, and if the last row does not depend on the
-/// disparity.
+/// [`Error::Malformed`] without sixteen finite numbers, if the last row does not depend on the
+/// disparity, and for cameras that are not rectified.
 ///
 /// ```
 /// use epipole_io::camera::read_q;
@@ -21,9 +27,13 @@ use nalgebra::Matrix4;
 /// ```
 pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
     let text = decode(bytes)?;
-    let numbers = match plain(text) {
-        Some(numbers) => numbers,
-        None => keyed(text)?,
+    let numbers = match (plain(text), keyed(text)) {
+        (Some(numbers), _) => numbers,
+        (None, Ok(numbers)) => numbers,
+        (None, Err(error)) => match of_rig(bytes) {
+            Some(q) => return q,
+            None => return Err(error),
+        },
     };
     let entries: [f64; 16] = (numbers.try_into()).map_err(|numbers: Vec<f64>| {
         Error::malformed(format!("Q has {} numbers, not 16", numbers.len()))
@@ -64,6 +74,41 @@ fn keyed(text: &str) -> Result<Vec<f64>> {
     }
 }
 
+/// Q of a file with the cameras of a rig; `None` for another file.
+fn of_rig(bytes: &[u8]) -> Option<Result<Matrix4<f64>>> {
+    // Q does not depend on the size, which some files do not have.
+    let (_, cameras) = read_cameras(bytes, Some((1, 1))).ok()?;
+    let motion = cameras.right_from_left?;
+    let [left, right, ..] = &cameras.cameras[..] else {
+        return None;
+    };
+    let [left, right] = [left.camera, right.camera];
+    let [c1, c2] = [left, right].map(|camera| camera.intrinsics.principal_point());
+    let focal_px = left.intrinsics.fu_px();
+    let baseline = -motion.translation.x;
+    let is_rectified = baseline > 0.0
+        && motion.translation.vector.yz().norm() <= ROUNDED * baseline
+        && motion.rotation.angle() <= ROUNDED
+        && [left, right].iter().all(|camera| {
+            let k = &camera.intrinsics;
+            camera.lens == Lens::NONE && k.fu_px() == focal_px && k.fv_px() == focal_px
+        })
+        && c1.y == c2.y;
+    if !is_rectified {
+        return Some(Err(Error::malformed(
+            "the cameras are not those of a rectified pair: `epipole rectify --json` prints its Q",
+        )));
+    }
+    let mut q = Matrix4::identity();
+    q[(2, 2)] = 0.0;
+    q[(0, 3)] = -c1.x;
+    q[(1, 3)] = -c1.y;
+    q[(2, 3)] = focal_px;
+    q[(3, 2)] = 1.0 / baseline;
+    q[(3, 3)] = (c2.x - c1.x) / baseline;
+    Some(Ok(q))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,6 +138,27 @@ mod tests {
                 (-319.5, 700.0, 8.5, 0.25)
             );
         }
+    }
+
+    #[test]
+    fn q_of_a_rectified_rig() {
+        let middlebury = "cam0=[3997.684 0 1176.728; 0 3997.684 1011.728; 0 0 1]\n\
+            cam1=[3997.684 0 1307.839; 0 3997.684 1011.728; 0 0 1]\nbaseline=193.001\n\
+            width=2964\nheight=1988\n";
+        let q = read_q(middlebury.as_bytes()).unwrap();
+        let point = q * nalgebra::Vector4::new(1176.728, 1011.728, 100.0, 1.0);
+        // Z = f B/(d + doffs), the formula of the page of the datasets.
+        let depth = 3997.684 * 193.001 / (100.0 + 1307.839 - 1176.728);
+        assert!((point.z / point.w - depth).abs() < 1e-9 * depth);
+        let kitti = "P0: 718.856 0 607.1928 0 0 718.856 185.2157 0 0 0 1 0\n\
+            P1: 718.856 0 607.1928 -386.1448 0 718.856 185.2157 0 0 0 1 0\n";
+        assert!((1.0 / read_q(kitti.as_bytes()).unwrap()[(3, 2)] - 0.5372).abs() < 1e-4);
+        let tilted = kitti.replace("185.2157 0 0 0 1 0\nP1", "185.2157 9 0 0 1 0\nP1");
+        let error = read_q(tilted.as_bytes()).unwrap_err().to_string();
+        assert!(
+            error.starts_with("the cameras are not those of a rectified pair"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -2,10 +2,12 @@
 
 use super::format::CameraFormat;
 use super::named::Cameras;
-use super::{colmap, epipole_json, kalibr, matlab, metashape, nerfstudio, opencv, ros};
+use super::{colmap, epipole_json, flat, kalibr, kitti, matlab, metashape, middlebury, nerfstudio};
+use super::{opencv, ros};
 use crate::text::decode;
 use crate::tree::{Field, Syntax};
 use crate::{Error, Result};
+use epipole::camera::{Camera, Intrinsics, Lens};
 
 /// Maximum number of keys that a message lists.
 const MAX_KEYS: usize = 8;
@@ -37,9 +39,12 @@ pub fn read_cameras(bytes: &[u8], size: Option<(u32, u32)>) -> Result<(CameraFor
         (CameraFormat::Colmap, colmap::read_binary(bytes)?)
     } else {
         let text = decode(bytes)?;
-        match colmap::is_text(text) {
-            true => (CameraFormat::Colmap, colmap::read_text(text)?),
-            false => of_tree(text, size)?,
+        if colmap::is_text(text) {
+            (CameraFormat::Colmap, colmap::read_text(text)?)
+        } else if middlebury::is_it(text) {
+            (CameraFormat::Middlebury, middlebury::read(text)?)
+        } else {
+            of_tree(text, size)?
         }
     };
     match cameras.cameras.is_empty() {
@@ -60,7 +65,7 @@ pub fn is_camera_file(bytes: &[u8]) -> bool {
         let root = storage.as_ref().unwrap_or(&whole);
         recognize(syntax, root, storage.is_some()).is_ok() || bare_matrix(root).is_some()
     };
-    let is_text = |text: &str| colmap::is_text(text) || is_tree(text);
+    let is_text = |text: &str| colmap::is_text(text) || middlebury::is_it(text) || is_tree(text);
     colmap::is_binary(bytes) || decode(bytes).is_ok_and(is_text)
 }
 
@@ -70,6 +75,15 @@ fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Camera
     let whole = Field::root(&node);
     let storage = whole.get("opencv_storage");
     let root = storage.as_ref().unwrap_or(&whole);
+    if let (Some([fx, fy, cx, cy]), Some((width, height))) = (bare_matrix(root), size) {
+        let one = Camera {
+            width,
+            height,
+            intrinsics: Intrinsics::new(fx, fy, cx, cy)?,
+            lens: Lens::NONE,
+        };
+        return Ok((CameraFormat::Flat, Cameras::of(one)));
+    }
     let format = recognize(syntax, root, storage.is_some())?;
     let cameras = match format {
         CameraFormat::Epipole => epipole_json::read(root),
@@ -78,7 +92,11 @@ fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Camera
         CameraFormat::Metashape => metashape::read(root),
         CameraFormat::Kalibr => kalibr::read(root),
         CameraFormat::Ros => ros::read(root, size),
-        CameraFormat::OpenCv | CameraFormat::Colmap => opencv::read(root, size),
+        CameraFormat::Kitti => kitti::read(root, size),
+        CameraFormat::Flat => flat::read(root, size),
+        CameraFormat::OpenCv | CameraFormat::Colmap | CameraFormat::Middlebury => {
+            opencv::read(root, size)
+        }
     }?;
     Ok((format, cameras))
 }
@@ -94,17 +112,20 @@ fn bare_matrix(root: &Field) -> Option<[f64; 4]> {
 fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFormat> {
     type Candidate = (CameraFormat, fn(&Field) -> bool);
     const OPENCV: Candidate = (CameraFormat::OpenCv, opencv::is_it);
-    const OF_JSON: [Candidate; 5] = [
+    const OF_JSON: [Candidate; 6] = [
         (CameraFormat::Epipole, epipole_json::is_it),
         (CameraFormat::NerfStudio, nerfstudio::is_it),
         (CameraFormat::Matlab, matlab::is_it),
         (CameraFormat::Ros, ros::is_it),
         OPENCV,
+        (CameraFormat::Flat, flat::is_it),
     ];
-    const OF_YAML: [Candidate; 3] = [
+    const OF_YAML: [Candidate; 5] = [
         (CameraFormat::Kalibr, kalibr::is_it),
         (CameraFormat::Ros, ros::is_it),
+        (CameraFormat::Kitti, kitti::is_it),
         OPENCV,
+        (CameraFormat::Flat, flat::is_it),
     ];
     const OF_XML: [Candidate; 2] = [(CameraFormat::Metashape, metashape::is_it), OPENCV];
     if root.get("views").is_some() && root.get("poses").is_some() {
@@ -133,7 +154,7 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
             false => format!("its keys are {}", keys.join(", ")),
         };
         Error::malformed(format!(
-            "no camera that epipole calibrate, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
+            "no camera that epipole calibrate, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
         ))
     })
 }
@@ -152,6 +173,8 @@ mod tests {
             let error = read_cameras(text.as_bytes(), None).unwrap_err().to_string();
             assert!(error.ends_with("give it as --k 500,501,320,240"), "{error}");
             assert!(is_camera_file(text.as_bytes()));
+            let (_, one) = read_cameras(text.as_bytes(), Some((640, 480))).unwrap();
+            assert_eq!(one.cameras[0].camera.intrinsics.fv_px(), 501.0);
         }
         let scene = br#"{"version": ["1"], "views": [], "intrinsics": [], "poses": []}"#;
         assert!(

@@ -31,7 +31,16 @@ const EPIPOLE: &str = r#"{ "image": { "width": 640, "height": 480 }, "k": [ 532.
     "distortion": { "model": "fisheye", "coefficients": [ 0.1 , 0 , 0 , 0 ] } },
     "stereo": { "right_from_left": { "rotation": [ 1 , 0 , 0 , 0 , 1 , 0 , 0 , 0 , 1 ], "translation": [ -0.1 , 0.01 , 2e-3 ] } } }"#;
 
-const CAMERAS: [(CameraFormat, &str); 9] = [
+const KITTI: &str = "P0: 718.8 0 607.1 0 0 718.8 185.2 0 0 0 1 0\nK_01: 984 0 690 0 980 233 0 0 1\nD_01: 0.1 0 0 0 0\n\
+    S_01: 1392 512\nR_01: 1 0 0 0 1 0 0 0 1\nT_01: -0.5 0 0\n";
+const MIDDLEBURY: &str = "cam0=[3997.684 0 1176.728; 0 3997.684 1011.728; 0 0 1]\n\
+    cam1=[3997.684 0 1307.839; 0 3997.684 1011.728; 0 0 1]\nbaseline=193.001\nwidth=2964\nheight=1988\n";
+const ORB_SLAM: &str = "%YAML:1.0\nCamera.type: \"PinHole\"\nCamera1.fx: 500\nCamera1.fy: 500\nCamera1.cx: 320\nCamera1.cy: 240\n\
+    Camera1.k1: 0.1\nCamera.width: 640\nCamera.height: 480\nCamera2.fx: 500\nCamera2.fy: 500\nCamera2.cx: 320\nCamera2.cy: 240\n\
+    Stereo.T_c1_c2: [1, 0, 0, 0.1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+const FLAT: &str = r#"{"width": 640, "height": 480, "fx": 615, "fy": 615, "ppx": 320, "ppy": 240, "coeffs": [0.1, 0, 0, 0, 0]}"#;
+
+const CAMERAS: [(CameraFormat, &str); 12] = [
     (CameraFormat::OpenCv, OPENCV),
     (CameraFormat::Ros, ROS),
     (CameraFormat::Kalibr, KALIBR),
@@ -41,6 +50,9 @@ const CAMERAS: [(CameraFormat, &str); 9] = [
     (CameraFormat::OpenCv, OPENCV_XML),
     (CameraFormat::Matlab, MATLAB),
     (CameraFormat::Epipole, EPIPOLE),
+    (CameraFormat::Middlebury, MIDDLEBURY),
+    (CameraFormat::Flat, ORB_SLAM),
+    (CameraFormat::Flat, FLAT),
 ];
 
 const TRAJECTORIES: [&str; 5] = [
@@ -51,10 +63,12 @@ const TRAJECTORIES: [&str; 5] = [
     "#timestamp,x,y,z,w,x,y,z\r\n1403636580838555648,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n1403636580838555649,4.6,-1.7,0.7,0.5,-0.1,-0.8,-0.08,1,2\r\n",
 ];
 
-const MATCHES: [&str; 3] = [
+const MATCHES: [&str; 5] = [
     "# u1 v1 u2 v2\n1 2 3 4\n1e2, -2.5, 3 , 4 # and more\n\n10 20 30.25 40 7\n",
     "id;u;v;x;y;z\n7;1,5;2;3;4;5\r\n8;1;2;3;4;-5e-1\n9;\"1\";'2';3;4;5\n",
     "[1 2] [3 4] 5.5\n[[10, 20], [30, 40]] 5D+01\n(1, 2) (3, 4) 7\n",
+    "[[1, 2, 3, 4, 5], [[1, 2], [3, 4.5], 6],\n [1e2, -2.5, 3, 4, 7]]",
+    "[{\"u1\": 1, \"v1\": 2, \"U2\": 3, \"v2\": 4}, {\"x1\": 1, \"y1\": 2, \"x2\": 3, \"y2\": 4.5, \"z\": null}]",
 ];
 
 /// COLMAP's binary file of one `SIMPLE_PINHOLE` camera.
@@ -139,6 +153,8 @@ fn the_files_to_damage_are_right() {
     for (format, text) in CAMERAS {
         assert_eq!(read_cameras(text.as_bytes(), None).unwrap().0, format);
     }
+    let (format, _) = read_cameras(KITTI.as_bytes(), Some((1241, 376))).unwrap();
+    assert_eq!(format, CameraFormat::Kitti);
     let (format, cameras) = read_cameras(&colmap_binary(), None).unwrap();
     assert_eq!(format, CameraFormat::Colmap);
     assert_eq!(
@@ -217,6 +233,7 @@ proptest! {
     fn damaged_cameras(which in 0..CAMERAS.len(), changes in some_damage()) {
         check_cameras(&damage_bytes(CAMERAS[which].1.as_bytes(), &changes));
         check_cameras(&damage_bytes(Q.as_bytes(), &changes));
+        check_cameras(&damage_bytes(KITTI.as_bytes(), &changes));
     }
 
     #[test]

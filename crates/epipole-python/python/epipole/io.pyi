@@ -148,7 +148,8 @@ def read_cameras(
     Parameters
     ----------
     source : str, os.PathLike or bytes
-        File of Epipole, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB.
+        File of Epipole, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, Middlebury, COLMAP, nerfstudio,
+        Metashape or MATLAB, or of plain numbers.
     size : tuple of int, optional
         Width and height of the images, pixels, for a file without them.
 

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 
 /// Formats by their names in Python.
-const FORMATS: [(&str, CameraFormat); 8] = [
+const FORMATS: [(&str, CameraFormat); 11] = [
     ("epipole", CameraFormat::Epipole),
     ("opencv", CameraFormat::OpenCv),
     ("ros", CameraFormat::Ros),
@@ -19,6 +19,9 @@ const FORMATS: [(&str, CameraFormat); 8] = [
     ("nerfstudio", CameraFormat::NerfStudio),
     ("metashape", CameraFormat::Metashape),
     ("matlab", CameraFormat::Matlab),
+    ("kitti", CameraFormat::Kitti),
+    ("middlebury", CameraFormat::Middlebury),
+    ("flat", CameraFormat::Flat),
 ];
 
 /// Camera and its name in a file.
@@ -158,7 +161,8 @@ impl Cameras {
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
-///     File of Epipole, OpenCV, ROS, Kalibr, COLMAP, nerfstudio, Metashape or MATLAB.
+///     File of Epipole, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, Middlebury, COLMAP, nerfstudio,
+///     Metashape or MATLAB, or of plain numbers.
 /// size : tuple of int, optional
 ///     Width and height of the images, pixels, for a file without them.
 ///

@@ -27,9 +27,9 @@ pub(super) struct InputArguments {
     /// one that is to be told by --camera, by its EXIF data, or to be guessed.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
-    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, COLMAP,
-    /// nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°. Images stay
-    /// distorted, and cameras.txt has the lens.
+    /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°.
+    /// Images stay distorted, and cameras.txt has the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
     /// Undistort the images of --camera first. cameras.txt then has pinhole cameras, for programs

@@ -32,8 +32,8 @@ pub(super) struct CloudArguments {
     /// Column of the right principal point minus that of the left, pixels: doffs of Middlebury.
     #[arg(long, value_name = "PX", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true, requires = "ply")]
     doffs: f64,
-    /// File with Q: what `epipole rectify --json` printed, an OpenCV file, or 16 numbers row by
-    /// row. The unit of the cloud is that of Q.
+    /// File with Q: what `epipole rectify --json` printed, an OpenCV file, 16 numbers row by row,
+    /// or `calib.txt` of Middlebury or KITTI. The unit of the cloud is that of the file.
     #[arg(long, value_name = "FILE", requires = "ply", conflicts_with_all = ["focal_px", "baseline_m", "cx", "cy", "doffs"])]
     q: Option<PathBuf>,
 }
