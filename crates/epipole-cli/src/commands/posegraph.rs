@@ -21,8 +21,7 @@ use std::path::PathBuf;
     num_landmarks, num_priors, notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// A g2o file with poses in the plane or in space, in space, or in space with scale, priors of poses, and
-    /// landmarks that are points.
+    /// A g2o file of poses; also with scales, priors of poses, and landmarks that are points.
     graph: PathBuf,
     /// Place the vertices from the measurements first, wherever the file puts them.
     #[arg(long)]
