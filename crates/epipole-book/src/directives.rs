@@ -7,6 +7,7 @@ mod cite;
 mod claim;
 mod define;
 mod figure;
+mod formulas;
 mod gallery;
 mod glossary;
 mod include;
@@ -34,6 +35,7 @@ pub(crate) const VOCABULARY: &[Entry<Parsed>] = &[
     entry::<define::Define>(),
     entry::<operate::Do<_>>(),
     entry::<figure::Figure<_>>(),
+    entry::<formulas::Formulas<_>>(),
     entry::<gallery::Gallery>(),
     entry::<glossary::Glossary<_>>(),
     entry::<include::Include>(),

@@ -1,6 +1,7 @@
 //! Text files with a row of numbers in each line, as text editors, spreadsheets and programs write
 //! them.
 
+#[cfg(feature = "cameras")]
 mod json;
 
 use crate::text::{decode, excerpt, lines};
@@ -12,7 +13,7 @@ const MIN_COUNTED: usize = 3;
 /// The rows of a text: numbers between commas, semicolons, tabs or spaces, in quotes or brackets,
 /// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. The rest of a line
 /// after `#` is a comment. A first line of names, also as a comment, orders the columns; otherwise
-/// they are the first ones. JSON is read, too, as lists or as objects.
+/// they are the first ones. JSON is read, too, as lists or as objects, with the feature `cameras`.
 ///
 /// * `names`: possible names of the columns in a header, in lower case; further columns are ignored
 ///
@@ -21,6 +22,7 @@ const MIN_COUNTED: usize = 3;
 /// be something else; also for a first column that counts the rows. Infinities stay.
 pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<Vec<[f64; N]>> {
     let text = decode(bytes)?;
+    #[cfg(feature = "cameras")]
     if let Some(rows) = json::read(text, names, &expected(names)) {
         return rows;
     }

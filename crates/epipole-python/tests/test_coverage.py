@@ -104,3 +104,11 @@ def test_names_of_the_guide_are_in_python():
     for room, name in paths:
         path = f"{room}::{name}"
         assert path in left_out or is_in_python(room, name), f"docs/names.md names {path}"
+
+
+def test_functions_of_the_formulas_are_in_python():
+    formulas = (REPOSITORY / "content" / "formulas.toml").read_text("utf-8")
+    paths = re.findall(r'^function = "(\w+)::(\w+)"$', formulas, re.MULTILINE)
+    assert len(paths) > 35
+    for room, name in paths:
+        assert is_in_python(room, name), f"content/formulas.toml names {room}::{name}"

@@ -5,6 +5,9 @@ use super::syntax::{Call, Piece, markdown_options, split};
 use crate::problems::Place;
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 
+/// Directives with something to look at: a figure, a table of formulas.
+const SHOWN: [&str; 2] = ["figure", "formulas"];
+
 /// Paragraphs in a row without a figure, a picture, a drawing, a table or a listing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
@@ -20,7 +23,7 @@ pub fn stretches(source: &Source) -> Vec<Stretch> {
     let figures: Vec<Call> = split(source)
         .into_iter()
         .filter_map(|piece| match piece {
-            Piece::Directive(directive) if directive.name == "figure" => Some(directive),
+            Piece::Directive(directive) if SHOWN.contains(&&*directive.name) => Some(directive),
             _ => None,
         })
         .collect();

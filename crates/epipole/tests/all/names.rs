@@ -1,4 +1,4 @@
-//! `docs/names.md` names functions and types of the library that are there.
+//! `docs/names.md` and the book's formulas name functions and types of the library that are there.
 
 use std::path::Path;
 
@@ -52,6 +52,69 @@ fn every_name_of_the_guide_exists() {
             public_names(&room).contains(&name),
             "docs/names.md names {room}::{name}, which is not there"
         );
+    }
+}
+
+/// Rust paths of the book's formulas, and their names in JavaScript where they have one.
+fn of_formulas(file: &str) -> Vec<(String, Option<String>)> {
+    let value = |table: &str, key: &str| {
+        let prefix = format!("{key} = \"");
+        let mut lines = table.lines();
+        let found = lines.find_map(|line| line.strip_prefix(&prefix)?.strip_suffix('"'));
+        found.map(str::to_owned)
+    };
+    let mut names = Vec::new();
+    for table in file.split("\n[[").skip(1) {
+        let Some(path) = value(table, "function") else {
+            continue;
+        };
+        let name = path.rsplit("::").next().unwrap_or_default();
+        let javascript = value(table, "javascript").unwrap_or_else(|| camel_case(name));
+        names.push((path, (!javascript.is_empty()).then_some(javascript)));
+    }
+    names
+}
+
+fn camel_case(name: &str) -> String {
+    let mut upper = false;
+    let mut letters = String::new();
+    for c in name.chars() {
+        match c {
+            '_' => upper = true,
+            c if std::mem::take(&mut upper) => letters.extend(c.to_uppercase()),
+            c => letters.push(c),
+        }
+    }
+    letters
+}
+
+#[test]
+fn every_function_of_the_formulas_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let read = |path: &str| std::fs::read_to_string(root.join(path));
+    let Ok(file) = read("content/formulas.toml") else {
+        // The published crate comes without the book.
+        return;
+    };
+    let functions = read("web/vision/src/api.ts").expect("the npm package's functions");
+    let names = of_formulas(&file);
+    assert!(
+        names.len() > 35,
+        "only {} functions were found",
+        names.len()
+    );
+    for (path, javascript) in names {
+        let (room, name) = path.split_once("::").expect("a path of two parts");
+        assert!(
+            public_names(room).contains(&name.to_owned()),
+            "content/formulas.toml names {path}, which is not there"
+        );
+        if let Some(name) = javascript {
+            assert!(
+                functions.contains(&format!("\n  {name}: [")),
+                "content/formulas.toml names {name} in JavaScript, which is not there"
+            );
+        }
     }
 }
 
