@@ -20,11 +20,7 @@ const ROUNDED_SKEW: f64 = 1e-9;
 /// # Errors
 /// [`Error::Malformed`] if not.
 pub(super) fn size_or(size: Option<Size>, keys: &str) -> Result<Size> {
-    size.ok_or_else(|| {
-        Error::malformed(format!(
-            "the file has no image size: {keys} are missing (with photographs, theirs is taken)"
-        ))
-    })
+    size.ok_or_else(|| Error::malformed(format!("the file has no image size: {keys} are missing")))
 }
 
 /// Intrinsics from the nine numbers of K, row by row; or column by column, as Open3D writes it.
