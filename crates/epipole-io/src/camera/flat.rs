@@ -7,11 +7,10 @@
 //! Source: ORB-SLAM3, "Calibration tutorial", 2021, and its examples of settings.
 
 use super::named::Cameras;
-use super::parts::{Size, fisheye, lens, matrix_rotation, opencv_lens, size_or, translation};
-use crate::Result;
+use super::parts::{Size, fisheye, matrix_motion, opencv_lens, size_or, translation};
 use crate::tree::Field;
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
-use nalgebra::UnitQuaternion;
+use crate::{Error, Result};
+use epipole::camera::{Camera, Intrinsics, Lens};
 
 /// Prefixes of the names.
 const PREFIXES: [&str; 3] = ["", "Camera.", "Camera1."];
@@ -34,31 +33,35 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     let left = camera(root, prefix, size)?;
     if prefix == "Camera1." && root.get("Camera2.fx").is_some() {
         let right = camera(root, "Camera2.", size)?;
-        let motion = root.need("Stereo.T_c1_c2", "a 4 × 4 matrix")?;
-        return Ok(Cameras::of_rig(
-            [left, right],
-            left_from_right(&motion)?.inverse(),
-        ));
+        let left_from_right = matrix_motion(&root.need("Stereo.T_c1_c2", "a 4 × 4 matrix")?)?;
+        return Ok(Cameras::of_rig([left, right], left_from_right.inverse()));
+    }
+    // An RGB-D camera has a baseline only in name.
+    let is_rgbd = ["DepthMapFactor", "RGBD.DepthMapFactor"];
+    if is_rgbd.iter().any(|key| root.get(key).is_some()) {
+        return Ok(Cameras::of(left));
     }
     let baseline = match (root.get("Camera.bf"), root.get("Stereo.b")) {
         (Some(field), _) => Some((field.number()? / left.intrinsics.fu_px(), field)),
         (None, Some(field)) => Some((field.number()?, field)),
         (None, None) => None,
     };
-    let Some((baseline, field)) = baseline else {
-        return Ok(Cameras::of(left));
-    };
-    let x = translation(&field, [-baseline, 0.0, 0.0])?;
-    let motion = RigidTransform::from_parts(x, UnitQuaternion::identity());
-    Ok(Cameras::of_rig([left, left], motion))
+    Ok(match baseline {
+        Some((baseline, field)) => {
+            translation(&field, [baseline, 0.0, 0.0])?;
+            Cameras::of_rectified([left, left], baseline)
+        }
+        None => Cameras::of(left),
+    })
 }
 
 fn camera(root: &Field, prefix: &str, size: Option<Size>) -> Result<Camera> {
-    let number = |names: [&str; 2]| {
-        let [first, second] = names.map(|name| format!("{prefix}{name}"));
-        (root.get(&first).or_else(|| root.get(&second)))
-            .ok_or_else(|| root.missing(&first, "a number of pixels"))?
-            .number()
+    let number = |names: &[&str]| {
+        let found = names
+            .iter()
+            .find_map(|name| root.get(&format!("{prefix}{name}")));
+        let expected = || root.missing(&format!("{prefix}{}", names[0]), "a number of pixels");
+        found.ok_or_else(expected)?.number()
     };
     let side = |name: &str| {
         let names = [format!("{prefix}{name}"), format!("Camera.{name}")];
@@ -76,65 +79,79 @@ fn camera(root: &Field, prefix: &str, size: Option<Size>) -> Result<Camera> {
         width,
         height,
         intrinsics: Intrinsics::new(
-            number(["fx", "fx"])?,
-            number(["fy", "fy"])?,
-            number(["cx", "ppx"])?,
-            number(["cy", "ppy"])?,
+            number(&["fx"])?,
+            number(&["fy"])?,
+            number(&["cx", "ppx"])?,
+            number(&["cy", "ppy"])?,
         )?,
         lens: lens_of(root, prefix)?,
     })
 }
 
+/// Names of lens models, lower case and without `_` and `-`, with those of their coefficients.
+const BROWN: ([&str; 8], [&str; 8]) = (
+    [
+        "",
+        "pinhole",
+        "opencv",
+        "radtan",
+        "plumbbob",
+        "brown",
+        "brownconrady",
+        "distortion.brownconrady",
+    ],
+    ["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"],
+);
+const FISHEYE: ([&str; 6], [&str; 4]) = (
+    [
+        "kannalabrandt8",
+        "opencvfisheye",
+        "fisheye",
+        "equidistant",
+        "kannalabrandt4",
+        "distortion.kannalabrandt4",
+    ],
+    ["k1", "k2", "k3", "k4"],
+);
+
 fn lens_of(root: &Field, prefix: &str) -> Result<Lens> {
     let model = root.get("Camera.type").or_else(|| root.get("model"));
-    let name = model.as_ref().and_then(Field::text).unwrap_or_default();
-    if let Some(list) = root.get("coeffs").or_else(|| root.get("distortion")) {
-        let numbers = list.numbers()?;
-        return match (numbers.iter().all(|&k| k == 0.0), name.contains("inverse")) {
-            (true, _) => Ok(Lens::NONE),
-            (_, true) => {
-                Err(list.unsupported("are those of an inverse model, which is not supported"))
-            }
-            _ => opencv_lens(&list, &numbers),
-        };
-    }
-    let coefficient = |name: &str| match root.get(&format!("{prefix}{name}")) {
-        Some(field) => field.number(),
-        None => Ok(0.0),
-    };
-    let all = |names: &[&str]| {
-        names
-            .iter()
-            .map(|name| coefficient(name))
-            .collect::<Result<Vec<_>>>()
-    };
-    match (model, name) {
-        (_, "Rectified") => Ok(Lens::NONE),
-        (_, "" | "PinHole" | "pinhole") => {
-            lens(LensKind::Brown, &all(&["k1", "k2", "p1", "p2", "k3"])?)
+    let written = model.as_ref().and_then(Field::text).unwrap_or_default();
+    let letters = written.chars().filter(|c| !matches!(c, '_' | '-'));
+    let name = letters.collect::<String>().to_lowercase();
+    let is_fisheye = FISHEYE.0.contains(&&*name);
+    let list = root.get("coeffs").or_else(|| root.get("distortion"));
+    let numbers = match &list {
+        Some(list) => list.numbers()?,
+        None => {
+            let names = if is_fisheye { &FISHEYE.1[..] } else { &BROWN.1 };
+            let coefficient = |name: &&str| match root.get(&format!("{prefix}{name}")) {
+                Some(field) => field.number(),
+                None => Ok(0.0),
+            };
+            names.iter().map(coefficient).collect::<Result<_>>()?
         }
-        (Some(model), "KannalaBrandt8") => fisheye(&model, &all(&["k1", "k2", "k3", "k4"])?),
-        (Some(model), _) if prefix.starts_with("Camera") => Err(model.unsupported(&format!(
-            "\"{name:.40}\" is not supported: PinHole, Rectified and KannalaBrandt8 are"
-        ))),
-        _ => lens(LensKind::Brown, &all(&["k1", "k2", "p1", "p2", "k3"])?),
+    };
+    let field = list.as_ref().or(model.as_ref()).unwrap_or(root);
+    if is_fisheye {
+        // A fifth coefficient of 0 is RealSense's.
+        let count = numbers.len() - usize::from(numbers.len() == 5 && numbers[4] == 0.0);
+        fisheye(field, &numbers[..count])
+    } else if name == "rectified" || numbers.iter().all(|&k| k == 0.0) {
+        Ok(Lens::NONE)
+    } else if BROWN.0.contains(&&*name) {
+        opencv_lens(field, &numbers)
+    } else {
+        Err(Error::unsupported(format!(
+            "the lens model \"{written:.40}\" is not supported: pinholes with OpenCV's coefficients and Kannala–Brandt's fisheye are"
+        )))
     }
-}
-
-/// A 4 × 4 matrix.
-fn left_from_right(field: &Field) -> Result<RigidTransform> {
-    let all: [f64; 16] = field.array()?;
-    let rotation = [&all[..3], &all[4..7], &all[8..11]].concat();
-    Ok(RigidTransform::from_parts(
-        translation(field, [all[3], all[7], all[11]])?,
-        matrix_rotation(field, &rotation)?,
-    ))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::camera::{CameraFormat, read_cameras};
+    use epipole::camera::LensKind;
 
     const SETTINGS: &str = "%YAML:1.0\n\nCamera.type: \"PinHole\"\nCamera.fx: 517.3\nCamera.fy: 516.5\n\
         Camera.cx: 318.6\nCamera.cy: 255.3\nCamera.k1: 0.26\nCamera.k2: -0.95\nCamera.p1: -0.005\n\
@@ -157,13 +174,22 @@ mod tests {
         let (_, rig) = read_cameras(rig.as_bytes(), None).unwrap();
         let baseline = rig.right_from_left.unwrap().translation.vector.x;
         assert!((baseline + 0.1).abs() < 1e-12, "{baseline}");
+        let (_, rgbd) = read_cameras(
+            format!("{SETTINGS}Camera.bf: 40\nDepthMapFactor: 5000\n").as_bytes(),
+            None,
+        )
+        .unwrap();
+        assert_eq!(rgbd.right_from_left, None);
+        let (_, rational) =
+            read_cameras(format!("{SETTINGS}Camera.k6: 0.1\n").as_bytes(), None).unwrap();
+        assert_eq!(rational.cameras[0].camera.lens.kind(), LensKind::Rational);
         let fisheye = SETTINGS.replace("PinHole", "KannalaBrandt8");
         let (_, fisheye) = read_cameras(fisheye.as_bytes(), None).unwrap();
         assert_eq!(fisheye.cameras[0].camera.lens.kind(), LensKind::Fisheye);
         let other = read_cameras(SETTINGS.replace("PinHole", "Omni").as_bytes(), None);
         let error = other.unwrap_err().to_string();
         assert!(
-            error.starts_with("Camera.type \"Omni\" is not supported"),
+            error.starts_with("the lens model \"Omni\" is not supported"),
             "{error}"
         );
     }
@@ -192,7 +218,10 @@ mod tests {
         assert_eq!(one.cameras[0].camera.intrinsics.principal_point().x, 320.4);
         let bent = text.replace("[0,", "[0.1,");
         let error = read_cameras(bent.as_bytes(), None).unwrap_err().to_string();
-        assert!(error.contains("inverse model"), "{error}");
+        assert!(error.contains("inverse_brown_conrady"), "{error}");
+        let fisheye = bent.replace("inverse_brown_conrady", "kannala_brandt4");
+        let (_, fisheye) = read_cameras(fisheye.as_bytes(), None).unwrap();
+        assert_eq!(fisheye.cameras[0].camera.lens.kind(), LensKind::Fisheye);
         let short = r#"{"fx": 500, "fy": 500, "cx": 320, "width": 640, "height": 480}"#;
         let error = read_cameras(short.as_bytes(), None)
             .unwrap_err()

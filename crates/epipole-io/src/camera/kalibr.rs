@@ -7,12 +7,11 @@
 //! datasets".
 
 use super::named::Cameras;
-use super::parts::{fisheye, lens, matrix_rotation};
+use super::parts::{fisheye, lens, matrix_motion};
 use crate::Result;
 use crate::error::set_aside;
 use crate::tree::Field;
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
-use nalgebra::Translation3;
+use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
 /// Cameras of a chain with their keys, `cam0` and so on.
 fn chain<'a>(root: &Field<'a>) -> Vec<(String, Field<'a>)> {
@@ -49,7 +48,7 @@ pub(super) fn read(root: &Field) -> Result<Cameras> {
     let second = chain.get(1).filter(|_| has_both);
     let second = second.and_then(|(_, field)| field.get("T_cn_cnm1"));
     Ok(Cameras {
-        right_from_left: second.map(|field| motion(&field)).transpose()?,
+        right_from_left: second.map(|field| matrix_motion(&field)).transpose()?,
         ..Cameras::of_list(cameras)?
     })
 }
@@ -106,19 +105,6 @@ fn lens_of(field: &Field) -> Result<Lens> {
             "\"{other:.40}\" is not supported: radtan, equidistant and none are"
         ))),
     }
-}
-
-/// A 4 × 4 matrix.
-fn motion(field: &Field) -> Result<RigidTransform> {
-    let all = field.numbers()?;
-    if all.len() != 16 {
-        return Err(field.wrong("is not a 4 × 4 matrix"));
-    }
-    let rotation: Vec<f64> = [&all[..3], &all[4..7], &all[8..11]].concat();
-    Ok(RigidTransform::from_parts(
-        Translation3::new(all[3], all[7], all[11]),
-        matrix_rotation(field, &rotation)?,
-    ))
 }
 
 #[cfg(test)]

@@ -8,8 +8,7 @@
 
 use super::named::Cameras;
 use crate::{Error, Result};
-use epipole::camera::{Camera, Intrinsics, Lens, RigidTransform};
-use nalgebra::{Translation3, UnitQuaternion};
+use epipole::camera::{Camera, Intrinsics, Lens};
 
 pub(super) fn is_it(text: &str) -> bool {
     text.lines()
@@ -20,11 +19,7 @@ pub(super) fn read(text: &str) -> Result<Cameras> {
     let cameras = [camera(text, "cam0")?, camera(text, "cam1")?];
     let (line, baseline) = value(text, "baseline")?;
     let baseline = crate::text::number(line, baseline)?;
-    let motion = RigidTransform::from_parts(
-        Translation3::new(-baseline, 0.0, 0.0),
-        UnitQuaternion::identity(),
-    );
-    Ok(Cameras::of_rig(cameras, motion))
+    Ok(Cameras::of_rectified(cameras, baseline))
 }
 
 /// The line of a key, and its value.

@@ -3,6 +3,7 @@
 use crate::error::Listed;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
+use nalgebra::Translation3;
 
 /// A camera and its name in the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +67,13 @@ impl Cameras {
             right_from_left: Some(right_from_left),
             ..Self::default()
         }
+    }
+
+    /// A rectified rig: the right camera is `baseline` to the right of the left one, in the unit of
+    /// the file.
+    pub(super) fn of_rectified(cameras: [Camera; 2], baseline: f64) -> Self {
+        let right_from_left = Translation3::new(-baseline, 0.0, 0.0);
+        Self::of_rig(cameras, right_from_left.into())
     }
 
     /// The camera of a name.

@@ -115,6 +115,17 @@ pub(super) fn motion(rotation: &Field, translation: &Field) -> Result<RigidTrans
     Ok(RigidTransform::from_parts(Translation3::new(x, y, z), turn))
 }
 
+/// Motion from a 4 × 4 matrix, row by row.
+pub(super) fn matrix_motion(field: &Field) -> Result<RigidTransform> {
+    let numbers = field.numbers()?;
+    let all: [f64; 16] = (numbers.try_into()).map_err(|_| field.wrong("is not a 4 × 4 matrix"))?;
+    let rotation = [&all[..3], &all[4..7], &all[8..11]].concat();
+    Ok(RigidTransform::from_parts(
+        translation(field, [all[3], all[7], all[11]])?,
+        matrix_rotation(field, &rotation)?,
+    ))
+}
+
 /// The rotation nearest to nine numbers, row by row.
 pub(super) fn matrix_rotation(field: &Field, numbers: &[f64]) -> Result<UnitQuaternion<f64>> {
     let no_rotation = || field.wrong("is not nine numbers of a rotation");

@@ -7,6 +7,7 @@ use crate::text::decode;
 use crate::tree::{Field, Syntax};
 use crate::{Error, Result};
 use epipole::camera::Lens;
+use epipole::stereo::q_from_rig;
 use nalgebra::Matrix4;
 
 /// Rotation, radians, and offset relative to the baseline, that are rounding.
@@ -99,14 +100,12 @@ fn of_rig(bytes: &[u8]) -> Option<Result<Matrix4<f64>>> {
             "the cameras are not those of a rectified pair: `epipole rectify --json` prints its Q",
         )));
     }
-    let mut q = Matrix4::identity();
-    q[(2, 2)] = 0.0;
-    q[(0, 3)] = -c1.x;
-    q[(1, 3)] = -c1.y;
-    q[(2, 3)] = focal_px;
-    q[(3, 2)] = 1.0 / baseline;
-    q[(3, 3)] = (c2.x - c1.x) / baseline;
-    Some(Ok(q))
+    let q = q_from_rig(focal_px, baseline, c1.x, c1.y).map(|mut q| {
+        // Z = f B/(d + c₂ − c₁).
+        q[(3, 3)] = (c2.x - c1.x) / baseline;
+        q
+    });
+    Some(q.map_err(Error::from))
 }
 
 #[cfg(test)]

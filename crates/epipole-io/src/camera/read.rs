@@ -154,7 +154,7 @@ fn recognize(syntax: Syntax, root: &Field, is_storage: bool) -> Result<CameraFor
             false => format!("its keys are {}", keys.join(", ")),
         };
         Error::malformed(format!(
-            "no camera that epipole calibrate, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
+            "no camera that epipole calibrate, OpenCV, ROS, Kalibr, KITTI, Middlebury, ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB writes: {keys}"
         ))
     })
 }
