@@ -43,8 +43,7 @@ pub fn read_matches(bytes: &[u8]) -> Result<[Vec<Point2<f64>>; 2]> {
 /// # Errors
 /// As [`read_matches`].
 pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
-    let names = [["u", "v"], ["x", "y"], ["u1", "v1"], ["x1", "y1"]];
-    let rows = table::read(bytes, &names)?;
+    let rows = table::read(bytes, &table::PIXELS)?;
     Ok(rows.iter().map(|row| Point2::new(row[0], row[1])).collect())
 }
 

@@ -7,6 +7,9 @@ mod json;
 use crate::text::{decode, excerpt, lines};
 use crate::{Error, Result};
 
+/// Names of the columns of pixels, or of those in the first image, one of which every table has.
+pub(crate) const PIXELS: [[&str; 2]; 4] = [["u", "v"], ["x", "y"], ["u1", "v1"], ["x1", "y1"]];
+
 /// Rows from which a first column that counts them is no chance.
 const MIN_COUNTED: usize = 3;
 
@@ -23,9 +26,9 @@ const MIN_COUNTED: usize = 3;
 pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<Vec<[f64; N]>> {
     let text = decode(bytes)?;
     #[cfg(feature = "cameras")]
-    if let Some(rows) = json::read(text, names, &expected(names)) {
-        return rows;
-    }
+    let json = json::lines(text, N);
+    #[cfg(feature = "cameras")]
+    let text = json.as_deref().unwrap_or(text);
     let mut rows = Vec::new();
     let mut header = match commented_header(text) {
         Some((number, fields)) => {
@@ -199,14 +202,6 @@ fn is_header(fields: &[Field]) -> bool {
     fields.iter().all(|field| number(field).is_none()) && fields.iter().any(is_name)
 }
 
-/// Columns that a comment must name to be a header.
-const COLUMNS: [&[&str]; 4] = [
-    &["u", "v"],
-    &["x", "y"],
-    &["u1", "v1", "u2", "v2"],
-    &["x1", "y1", "x2", "y2"],
-];
-
 /// A first comment that names the columns of the first row, as `numpy.savetxt` and `epipole match`
 /// write it.
 fn commented_header(text: &str) -> Option<(usize, Vec<Field>)> {
@@ -215,7 +210,7 @@ fn commented_header(text: &str) -> Option<(usize, Vec<Field>)> {
     let names = fields(first.trim().strip_prefix('#')?, 2).ok()?;
     let (_, row) = lines(text).next()?;
     let has = |name: &&str| (names.iter()).any(|field| field.text.to_lowercase() == **name);
-    let are_known = COLUMNS.iter().any(|columns| columns.iter().all(has));
+    let are_known = PIXELS.iter().any(|columns| columns.iter().all(has));
     (are_known && fields(row, names.len()).ok()?.len() == names.len()).then_some((number, names))
 }
 
@@ -310,7 +305,7 @@ mod tests {
             "[[1.5, -2, 300, 4.25], [5, 6, 7, 8.5]]",
             "[[[1.5, -2], [300, 4.25]],\n [[5, 6], [7, 8.5]]]\n",
             "[{\"X1\": 1.5, \"y1\": -2, \"x2\": 300, \"y2\": 4.25, \"score\": 1},
-              {\"x1\": 5, \"y1\": 6, \"x2\": 7, \"y2\": 8.5}]",
+              {\"X1\": 5, \"y1\": 6, \"x2\": 7, \"y2\": 8.5}]",
         ] {
             assert_eq!(read(text).unwrap(), expected, "{text}");
         }
@@ -352,6 +347,14 @@ mod tests {
             ),
             ("1,2,,4,5", "line 1: here should be 4 numbers"),
             (&ten, "the first column counts the rows"),
+            (
+                "[[0, 1, 2, 3, 4], [1, 5, 6, 7, 8], [2, 9, 1, 2, 3]]",
+                "the first column counts the rows",
+            ),
+            (
+                "[[1, 2, null, 4], [5, 6, 7, 8]]",
+                "line 1: here should be 4 numbers",
+            ),
             ("1 2 3 4\nu1 v1 u2 v2", "line 2: here should be 4 numbers"),
             (
                 "1,5,-2,5,300,0,4,25\n5,0,6,0,7,0,8,5",
@@ -359,7 +362,7 @@ mod tests {
             ),
             (
                 "[[1, 2, 3, 4], [5, 6, 7]]",
-                "row 2 has 3 numbers where 4 should be",
+                "line 2: here should be 4 numbers, not \"5;6;7\"",
             ),
             (
                 "# x y z u v\n1 2 3 4 5",
@@ -367,7 +370,7 @@ mod tests {
             ),
             (
                 "[{\"u1\": 1, \"v1\": 2, \"u2\": 3}]",
-                "row 1 has no numbers u1 v1 u2 v2 or x1 y1 x2 y2",
+                "line 1: the first line names no columns u1 v1 u2 v2 or x1 y1 x2 y2, but u1 u2 v1",
             ),
         ] {
             let told = read(text).unwrap_err().to_string();
