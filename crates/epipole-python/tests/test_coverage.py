@@ -112,3 +112,15 @@ def test_functions_of_the_formulas_are_in_python():
     assert len(paths) > 35
     for room, name in paths:
         assert is_in_python(room, name), f"content/formulas.toml names {room}::{name}"
+
+
+def test_functions_of_the_formulas_are_in_opencv():
+    cv2 = pytest.importorskip("cv2")
+    formulas = (REPOSITORY / "content" / "formulas.toml").read_text("utf-8")
+    names = re.findall(r'^opencv = "(.+)"$', formulas, re.MULTILINE)
+    assert len(names) > 25
+    for name in names:
+        function, *flags = re.findall(r"[\w.]+", name)
+        parent, _, method = function.partition(".")
+        assert all(hasattr(cv2, flag) for flag in flags), name
+        assert hasattr(getattr(cv2, parent), method or "__name__"), name

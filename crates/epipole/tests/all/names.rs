@@ -97,6 +97,17 @@ fn every_function_of_the_formulas_exists() {
         return;
     };
     let functions = read("web/vision/src/api.ts").expect("the npm package's functions");
+    let page = read("content/formulas.md").expect("the page of formulas");
+    for key in file
+        .split("\n[[")
+        .skip(1)
+        .filter_map(|table| table.split("]]").next())
+    {
+        assert!(
+            page.contains(&format!("{{{{#formulas {key}}}}}")),
+            "content/formulas.md shows no formulas of {key}"
+        );
+    }
     let names = of_formulas(&file);
     assert!(
         names.len() > 35,
