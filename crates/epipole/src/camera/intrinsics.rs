@@ -117,7 +117,7 @@ impl Intrinsics {
     /// * `from`, `to`: width and height, pixels
     ///
     /// # Errors
-    /// As [`Intrinsics::new`].
+    /// [`Error::OutOfRange`] for an empty image, and as [`Intrinsics::new`].
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -127,7 +127,13 @@ impl Intrinsics {
     /// # Ok(()) }
     /// ```
     pub fn resized(&self, from: (u32, u32), to: (u32, u32)) -> Result<Self> {
-        let share = |to: u32, from: u32| f64::from(to) / f64::from(from.max(1));
+        let [old, new] = [from, to].map(|(width, height)| f64::from(width.min(height)));
+        let least = "at least 1 pixel";
+        Error::check_rules(&[
+            ("the shorter side of the old image", least, old, old >= 1.0),
+            ("the shorter side of the new image", least, new, new >= 1.0),
+        ])?;
+        let share = |to: u32, from: u32| f64::from(to) / f64::from(from);
         let (across, down) = (share(to.0, from.0), share(to.1, from.1));
         Self::new(
             self.fu_px * across,

@@ -15,6 +15,7 @@ use crate::math::order::at_rank;
 use crate::math::random::Random;
 use crate::optim::{LmOptions, RobustLoss};
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
 
 /// Ratio of neighboring focal lengths that are tried, unless there were too many: valleys of the
 /// cost are wider.
@@ -22,6 +23,9 @@ const STEP: f64 = 1.2;
 
 /// Maximum number of focal lengths that are tried.
 const MAX_TRIED: usize = 40;
+
+/// Maximum number of matches that motions are fitted to: more only tell the noise better.
+const MAX_MATCHES: usize = 2000;
 
 /// Samples of five matches for each focal length.
 const NUM_SAMPLES: usize = 12;
@@ -45,7 +49,10 @@ struct Fit {
 
 /// Costs of the best motions over the plausible focal lengths.
 pub(super) struct FocalProfile<'a> {
-    of: &'a FocalEstimator,
+    /// The problem, with at most [`MAX_MATCHES`].
+    of: Cow<'a, FocalEstimator>,
+    /// Number of matches that each of these stands for.
+    num_each: f64,
     max_error_px: f64,
     /// Largest error that counts, pixels.
     width_px: f64,
@@ -72,16 +79,17 @@ impl<'a> FocalProfile<'a> {
         let fundamental = (of.frame).fundamental_within(&model.fundamental, |f| {
             refine_in_frame(&of.in_frame, f, loss, &options)
         })?;
-        let errors_sq = |most_px: f64| -> Vec<f64> {
-            (0..of.matches.len())
-                .map(|index| {
-                    let (x1, x2) = of.matches.pair(index);
-                    super::sampson_sq(&fundamental, &x1, &x2)
-                })
-                .filter(|error_sq| *error_sq < most_px * most_px)
-                .collect()
+        let errors_sq: Vec<f64> = (0..of.matches.len())
+            .map(|index| {
+                let (x1, x2) = of.matches.pair(index);
+                super::sampson_sq(&fundamental, &x1, &x2)
+            })
+            .collect();
+        let near_sq = |most_px: f64| -> Vec<f64> {
+            let is_near = |error_sq: &f64| *error_sq < most_px * most_px;
+            errors_sq.iter().copied().filter(is_near).collect()
         };
-        let mut near = errors_sq(max_error_px);
+        let mut near = near_sq(max_error_px);
         if near.len() < 8 {
             return None;
         }
@@ -89,10 +97,18 @@ impl<'a> FocalProfile<'a> {
         let median_px = at_rank(&mut near, middle).sqrt();
         let least_px = 1e-3 * max_error_px;
         let width_px = (WIDTH_MEDIANS * median_px).clamp(least_px, max_error_px);
-        let near = errors_sq(width_px);
+        let near = near_sq(width_px);
         let freedom = near.len().checked_sub(7).filter(|n| *n > 0)? as f64;
+        let inliers = (0..errors_sq.len())
+            .filter(|index| errors_sq[*index] < max_error_px * max_error_px)
+            .collect();
+        let few = (of.matches.len() > MAX_MATCHES).then(|| chosen(inliers, random));
         let mut profile = Self {
-            of,
+            num_each: few.as_ref().map_or(1.0, |(_, num_each)| *num_each),
+            of: match few {
+                Some((few, _)) => Cow::Owned(of.subset(&few)?),
+                None => Cow::Borrowed(of),
+            },
             max_error_px,
             width_px,
             variance: near.iter().sum::<f64>() / freedom,
@@ -171,7 +187,7 @@ impl<'a> FocalProfile<'a> {
         let least = costs.chain(here).fold(f64::INFINITY, f64::min);
         let mut deviation: f64 = 0.0;
         for fit in &self.fits {
-            let deviations = ((fit.cost - least) / self.variance).sqrt();
+            let deviations = ((fit.cost - least) * self.num_each / self.variance).sqrt();
             if deviations <= POSSIBLE {
                 let distance = libm::log(fit.focal_px / model.focal_px).abs();
                 deviation = deviation.max(distance / deviations.max(1.0));
@@ -274,6 +290,17 @@ impl<'a> FocalProfile<'a> {
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.iter().take(2).map(|fit| fit.pose).collect()
     }
+}
+
+/// Chooses at most [`MAX_MATCHES`] of the inliers at random; returns them, and how many each
+/// stands for.
+fn chosen(mut inliers: Vec<usize>, random: &mut Random) -> (Vec<usize>, f64) {
+    let (all, few) = (inliers.len(), inliers.len().min(MAX_MATCHES));
+    for place in 0..few {
+        inliers.swap(place, place + random.below(all - place));
+    }
+    inliers.truncate(few);
+    (inliers, all as f64 / few.max(1) as f64)
 }
 
 /// A motion of the essential matrix nearest to F.

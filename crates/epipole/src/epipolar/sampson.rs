@@ -2,7 +2,7 @@
 
 use super::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use super::judge::{self, LaneErrors, weigh};
-use crate::math::simd::dispatched;
+use crate::math::simd::{Aligned, dispatched};
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -83,12 +83,13 @@ dispatched! {
         loss: &RobustLoss,
     ) -> EntrySums {
         let f = entries(fundamental);
-        let mut products = [[0.0; LANES]; 45];
-        let mut gradient = [[0.0; LANES]; 9];
+        let mut products = Aligned([[0.0; LANES]; 45]);
+        let mut gradient = Aligned([[0.0; LANES]; 9]);
+        // All of it is written for each group, so it is cleared once.
+        let mut jacobian = [[0.0; LANES]; 9];
         let mut total = [0.0; LANES];
         for start in (0..coordinates.len()).step_by(LANES) {
             let ([u1, v1, u2, v2], count) = coordinates.lanes(start);
-            let mut jacobian = [[0.0; LANES]; 9];
             let mut residual = [0.0; LANES];
             let mut errors_sq = [0.0; LANES];
             for l in 0..LANES {
@@ -128,11 +129,11 @@ dispatched! {
                 let mut weighted = [0.0; LANES];
                 for l in 0..LANES {
                     weighted[l] = weight[l] * jacobian[i][l];
-                    gradient[i][l] += weighted[l] * residual[l];
+                    gradient.0[i][l] += weighted[l] * residual[l];
                 }
                 for other in &jacobian[i..] {
                     for l in 0..LANES {
-                        products[k][l] += weighted[l] * other[l];
+                        products.0[k][l] += weighted[l] * other[l];
                     }
                     k += 1;
                 }
@@ -142,14 +143,14 @@ dispatched! {
         let mut k = 0;
         for i in 0..9 {
             for j in i..9 {
-                hessian[(i, j)] = sum(&products[k]);
+                hessian[(i, j)] = sum(&products.0[k]);
                 hessian[(j, i)] = hessian[(i, j)];
                 k += 1;
             }
         }
         EntrySums {
             hessian,
-            gradient: SVector::from_fn(|i, _| sum(&gradient[i])),
+            gradient: SVector::from_fn(|i, _| sum(&gradient.0[i])),
             cost: 0.5 * sum(&total),
         }
     }

@@ -15,6 +15,7 @@ mod options;
 mod orb;
 mod patch;
 mod refine;
+mod short_tensor;
 mod sift;
 mod structure_tensor;
 mod track;
@@ -33,7 +34,7 @@ pub use patch::describe_patches;
 pub use refine::{RefineOptions, refine_corners};
 pub use sift::{
     ScaleOctave, ScaleSpace, SiftNormalization, SiftOptions, describe_sift, detect_sift,
-    scale_space, sift_directions,
+    scale_space, sift_directions, sift_orientation_histograms,
 };
 pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,

@@ -1,8 +1,10 @@
 //! The structure tensor: how the gradient is spread around each pixel.
 
-use crate::imaging::kernel::{Kernel, Row};
+use super::short_tensor::ShortTensor;
+use crate::imaging::kernel::{Kernel, Row, Three};
 use crate::imaging::rows::along_and_across;
 use crate::imaging::separable::{Ring, RowFilter, Sink, in_bands};
+use crate::imaging::short_derivative::ShortDerivative;
 use crate::imaging::{Border, DerivativeFilter, GrayImage32, gaussian_kernel};
 use crate::math::monitored::Reporter;
 use crate::math::simd::dispatched;
@@ -243,6 +245,9 @@ impl TensorRows<'_> {
         reporter: &mut Reporter,
         finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
     ) -> Result<()> {
+        if let Some(tensor) = self.short() {
+            return self.run_short(tensor, rows, sink, reporter, finish);
+        }
         let Self {
             image,
             options,
@@ -250,10 +255,7 @@ impl TensorRows<'_> {
             kernel,
         } = *self;
         let (width, height) = (image.width() as usize, image.height() as usize);
-        let border = match options.border {
-            Border::Constant(_) => Border::Constant(0.0),
-            other => other,
-        };
+        let border = self.border();
         let radius = kernel.len() / 2;
         let (along, across) = options.derivative.kernels();
         let kernels = [(along, across), (across, along)];
@@ -292,6 +294,53 @@ impl TensorRows<'_> {
             sink(&mut |mut out| {
                 let out = out.each_mut().map(|out| out.columns(0..width));
                 finish([&sums[0], &sums[1], &sums[2]], out);
+            });
+        }
+        Ok(())
+    }
+
+    /// Border of products: beyond a constant border derivatives are 0.
+    fn border(&self) -> Border {
+        match self.options.border {
+            Border::Constant(_) => Border::Constant(0.0),
+            other => other,
+        }
+    }
+
+    /// The tensor for the usual derivatives and windows.
+    fn short(&self) -> Option<ShortTensor<'_>> {
+        let (image, options) = (self.image, self.options);
+        let window = Three::new(self.kernel)?;
+        let derivative = ShortDerivative::new(image, options.derivative.kernels(), options.border)?;
+        let border = self.border();
+        Some(ShortTensor::new(
+            image,
+            derivative,
+            window,
+            self.scale_sq,
+            border,
+        ))
+    }
+
+    /// [`run`](Self::run) by loops of their own.
+    fn run_short<const N: usize>(
+        &self,
+        mut tensor: ShortTensor,
+        rows: Range<usize>,
+        sink: Sink<N>,
+        reporter: &mut Reporter,
+        finish: &impl Fn([&[f32]; 3], [&mut [f32]; N]),
+    ) -> Result<()> {
+        let (width, first) = (self.image.width() as usize, rows.start as isize);
+        tensor.push(first - 1);
+        tensor.push(first);
+        for y in rows.clone() {
+            reporter.report(y - rows.start, rows.len())?;
+            tensor.push(y as isize + 1);
+            let [uu, uv, vv] = &tensor.sums;
+            sink(&mut |mut out| {
+                let out = out.each_mut().map(|out| out.columns(0..width));
+                finish([uu, uv, vv], out);
             });
         }
         Ok(())
@@ -363,6 +412,57 @@ mod tests {
                 what: "every pixel of the image"
             })
         );
+    }
+
+    /// Short filters have loops of their own: against the general filters, to the last bit.
+    #[test]
+    fn sums_are_those_of_filtered_products() {
+        use crate::imaging::{derivative, gaussian_kernel, separable_filter};
+        let filtered = |image: &GrayImage32, along: &[f32], across: &[f32], border| {
+            separable_filter(image, along, across, border, &mut ()).unwrap()
+        };
+        for (w, h) in [(1, 1), (2, 5), (31, 3), (70, 9)] {
+            let image = GrayImage32::from_fn(w, h, |u, v| {
+                image::Luma([((u * 37 + v * 71) % 19) as f32 * 0.17 - 0.9])
+            });
+            for border in [Border::Reflect101, Border::Replicate, Border::Constant(0.3)] {
+                for (filter, sigma_px) in [
+                    (DerivativeFilter::Sobel3, None),
+                    (DerivativeFilter::Scharr, Some(0.25)),
+                    (DerivativeFilter::Sobel5, Some(0.25)),
+                    (DerivativeFilter::Sobel3, Some(0.6)),
+                ] {
+                    let (window, kernel) = match sigma_px {
+                        None => (Window::Box(3), vec![1.0; 3]),
+                        Some(sigma_px) => (
+                            Window::Gaussian(sigma_px),
+                            gaussian_kernel(sigma_px, if sigma_px < 0.5 { 3 } else { 7 }).unwrap(),
+                        ),
+                    };
+                    let options = StructureTensorOptions {
+                        derivative: filter,
+                        window,
+                        border,
+                        ..StructureTensorOptions::default()
+                    };
+                    let tensor = structure_tensor(&image, &options, &mut ()).unwrap();
+                    let (along, across) = filter.kernels();
+                    let mut product = filtered(&image, along, across, border);
+                    let dv = filtered(&image, across, along, border);
+                    let gradient = derivative(&image, filter, border);
+                    assert_eq!((&gradient.du, &gradient.dv), (&product, &dv), "{filter:?}");
+                    for (p, dv) in product.iter_mut().zip(dv.iter()) {
+                        *p *= dv;
+                    }
+                    let outside = match border {
+                        Border::Constant(_) => Border::Constant(0.0),
+                        other => other,
+                    };
+                    let sums = filtered(&product, &kernel, &kernel, outside);
+                    assert_eq!(tensor.uv, sums, "{w}x{h} {filter:?} {window:?} {border:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use crate::epipolar::judge::{self, LaneErrors, weigh};
-use crate::math::simd::dispatched;
+use crate::math::simd::{Aligned, dispatched};
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
@@ -92,8 +92,8 @@ dispatched! {
     ) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>, f64) {
         let h = entries(homography);
         // For each of the six products of x with itself: weighted by 1, u', v', u'² + v'².
-        let mut products = [[[0.0; LANES]; 6]; 4];
-        let mut gradient = [[0.0; LANES]; 9];
+        let mut products = Aligned([[[0.0; LANES]; 6]; 4]);
+        let mut gradient = Aligned([[0.0; LANES]; 9]);
         let mut total = [0.0; LANES];
         for start in (0..coordinates.len()).step_by(LANES) {
             let (lanes, count) = coordinates.lanes(start);
@@ -124,25 +124,25 @@ dispatched! {
                     scaled[2] * x[2],
                 ];
                 let factors = [1.0, u, v, u * u + v * v];
-                for (block, factor) in products.iter_mut().zip(factors) {
+                for (block, factor) in products.0.iter_mut().zip(factors) {
                     for (sum, square) in block.iter_mut().zip(squares) {
                         sum[l] += factor * square;
                     }
                 }
                 let third = -(du * u + dv * v);
                 for i in 0..3 {
-                    gradient[i][l] += scaled[i] * du;
-                    gradient[3 + i][l] += scaled[i] * dv;
-                    gradient[6 + i][l] += scaled[i] * third;
+                    gradient.0[i][l] += scaled[i] * du;
+                    gradient.0[3 + i][l] += scaled[i] * dv;
+                    gradient.0[6 + i][l] += scaled[i] * third;
                 }
             }
         }
-        let [one, u, v, uv] = products.map(|block| block.map(|lanes| sum(&lanes)));
+        let [one, u, v, uv] = products.0.map(|block| block.map(|lanes| sum(&lanes)));
         let none = [0.0; 6];
         let hessian = by_entries(&[one, none, one, u.map(|x| -x), v.map(|x| -x), uv]);
         (
             hessian,
-            SVector::from_fn(|i, _| sum(&gradient[i])),
+            SVector::from_fn(|i, _| sum(&gradient.0[i])),
             0.5 * sum(&total),
         )
     }

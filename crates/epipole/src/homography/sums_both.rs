@@ -6,7 +6,7 @@
 
 use super::sums::{by_entries, offsets};
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
-use crate::math::simd::dispatched;
+use crate::math::simd::{Aligned, dispatched};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// `w S⁻¹` of eight matches, with w the weight of a match, as `[w1, t, w2]`: the squared error is
@@ -86,8 +86,8 @@ dispatched! {
         homography: &Matrix3<f64>,
     ) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>, f64) {
         let h = entries(homography);
-        let mut products = [[[0.0; LANES]; 6]; 6];
-        let mut gradient = [[0.0; LANES]; 9];
+        let mut products = Aligned([[[0.0; LANES]; 6]; 6]);
+        let mut gradient = Aligned([[0.0; LANES]; 9]);
         let mut total = [0.0; LANES];
         for (group, whitening) in whitenings.iter().enumerate() {
             let (lanes, _) = coordinates.lanes(group * LANES);
@@ -118,7 +118,7 @@ dispatched! {
                     x[1] * x[2],
                     x[2] * x[2],
                 ];
-                for (block, factor) in products.iter_mut().zip(factors) {
+                for (block, factor) in products.0.iter_mut().zip(factors) {
                     for (sum, square) in block.iter_mut().zip(squares) {
                         sum[l] += factor * square;
                     }
@@ -126,14 +126,14 @@ dispatched! {
                 let pulls = [pull1, pull2, -(pull1 * u + pull2 * v)];
                 for i in 0..3 {
                     for j in 0..3 {
-                        gradient[3 * i + j][l] += pulls[i] * x[j];
+                        gradient.0[3 * i + j][l] += pulls[i] * x[j];
                     }
                 }
             }
         }
         (
-            by_entries(&products.map(|block| block.map(|lanes| sum(&lanes)))),
-            SVector::from_fn(|i, _| sum(&gradient[i])),
+            by_entries(&products.0.map(|block| block.map(|lanes| sum(&lanes)))),
+            SVector::from_fn(|i, _| sum(&gradient.0[i])),
             0.5 * sum(&total),
         )
     }

@@ -3,11 +3,14 @@
 use super::approx::atan2;
 use super::gaussian::gaussian_derivative_kernels;
 use super::gray::from_vec;
-use super::separable::{filter, filter_briefly};
+use super::separable::{Sink, filter, filter_briefly, in_bands};
+use super::short_derivative::ShortDerivative;
 use super::{Border, GrayImage32};
 use crate::Result;
+use crate::math::monitored::Reporter;
 use crate::math::simd::dispatched;
-use crate::progress::Monitor;
+use crate::progress::{Monitor, Stage};
+use std::ops::Range;
 
 /// The two partial derivatives of an image, in the units of the filter that made them.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,8 +134,29 @@ impl DerivativeFilter {
 /// ```
 pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -> Gradient {
     let (along, across) = kind.kernels();
-    let [du, dv] = filter_briefly(image, [(along, across), (across, along)], border);
+    let [du, dv] = match ShortDerivative::new(image, (along, across), border) {
+        Some(start) => short_derivative(image, &start),
+        None => filter_briefly(image, [(along, across), (across, along)], border),
+    };
     Gradient { du, dv }
+}
+
+/// Both derivatives of an image; each band of rows begins with a copy of `start`.
+fn short_derivative(image: &GrayImage32, start: &ShortDerivative) -> [GrayImage32; 2] {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let work = |rows: Range<usize>, sink: Sink<2>, _: &mut Reporter| {
+        let mut derivative = start.clone();
+        for y in rows {
+            sink(&mut |[mut du, mut dv]| {
+                derivative.row(y, du.columns(0..width), dv.columns(0..width));
+            });
+        }
+        Ok(())
+    };
+    let memory = [const { Vec::new() }; 2];
+    in_bands(memory, width, height, Stage::Filtering, &mut (), work)
+        .expect("`()` never cancels")
+        .map(|values| from_vec(image.width(), image.height(), values))
 }
 
 /// The gradient by centered differences, `Iᵤ = (I(u+1, v) − I(u−1, v)) / 2`, likewise along v.

@@ -39,6 +39,29 @@ impl<'a> Kernel<'a> {
     }
 }
 
+/// Three symmetric weights.
+#[derive(Clone, Copy)]
+pub(crate) struct Three {
+    middle: f32,
+    side: f32,
+}
+
+impl Three {
+    /// `None` for other weights.
+    pub(crate) fn new(weights: &[f32]) -> Option<Self> {
+        match *weights {
+            [before, middle, side] if before == side => Some(Self { middle, side }),
+            _ => None,
+        }
+    }
+
+    /// The weighted sum of three values, in the order of longer kernels.
+    #[inline(always)]
+    pub(crate) fn sum(self, before: f32, middle: f32, after: f32) -> f32 {
+        self.middle * middle + self.side * (before + after)
+    }
+}
+
 /// Destination of a row of results.
 pub(crate) enum Row<'a> {
     /// Over what is there.

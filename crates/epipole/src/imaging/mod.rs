@@ -26,6 +26,7 @@ pub(crate) mod rows;
 mod sample;
 pub(crate) mod separable;
 mod sharpness;
+pub(crate) mod short_derivative;
 mod warp;
 mod weigh;
 

@@ -57,11 +57,19 @@ impl<const K: usize, const N: usize> Reflections<K, N> {
 
     /// An orthonormal basis of the vectors orthogonal to all rows.
     pub(crate) fn null_space<const D: usize>(&self) -> [[f64; N]; D] {
-        const { assert!(K + D == N, "rows and basis vectors must fill the space") };
+        const {
+            assert!(
+                K > 0 && K + D == N,
+                "rows and basis vectors must fill the space"
+            )
+        };
         let mut basis = [[0.0; N]; D];
         for (d, vector) in basis.iter_mut().enumerate() {
             vector[K + d] = 1.0;
-            for j in (0..K).rev() {
+            // The last reflection comes first, and finds a single number.
+            let (last, scale) = (&self.vectors[K - 1], self.scales[K - 1]);
+            subtract(last, scale * last[K + d], K - 1, vector);
+            for j in (0..K - 1).rev() {
                 reflect(&self.vectors[j], self.scales[j], j, vector);
             }
         }
@@ -75,7 +83,11 @@ fn reflect<const N: usize>(v: &[f64; N], scale: f64, from: usize, x: &mut [f64; 
     for i in from..N {
         dot += v[i] * x[i];
     }
-    let factor = scale * dot;
+    subtract(v, scale * dot, from, x);
+}
+
+#[inline(always)]
+fn subtract<const N: usize>(v: &[f64; N], factor: f64, from: usize, x: &mut [f64; N]) {
     for i in from..N {
         x[i] -= factor * v[i];
     }

@@ -9,6 +9,14 @@
     reason = "calling what was compiled for AVX2 is unsafe; each call follows the check of the processor"
 )]
 
+/// A value at the start of a cache line.
+///
+/// A vector store across two lines takes twice as long. The stack gives arrays of numbers only 16
+/// bytes, so sums of lanes that stay in memory are slow or quick by the depth of the stack.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub(crate) struct Aligned<T>(pub(crate) T);
+
 /// Defines a function whose body is compiled for the baseline and again for AVX2, and which picks
 /// by the processor it runs on.
 macro_rules! dispatched {

@@ -68,7 +68,7 @@ pub fn fuse_depth_maps(
     Ok(cloud)
 }
 
-fn check_maps(views: &[MvsView], maps: &[DepthMap]) -> Result<()> {
+pub(super) fn check_maps(views: &[MvsView], maps: &[DepthMap]) -> Result<()> {
     let mismatch = |what, first, second| Error::SizeMismatch {
         what,
         first,

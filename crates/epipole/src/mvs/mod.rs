@@ -5,13 +5,15 @@
 //!    and the depth range of each: an [`MvsView`].
 //! 2. [`estimate_depth_maps`] finds a depth and a normal for each pixel by PatchMatch, from coarse
 //!    to fine, and keeps those that neighbors confirm: a [`DepthMap`].
-//! 3. [`fuse_depth_maps`] joins them to one cloud with normals, colors and confidences.
+//! 3. [`fuse_depth_maps`] joins them to one cloud with normals, colors and confidences,
+//!    [`mesh_depth_maps`] to a surface of triangles: a [`Mesh`].
 //!
 //! ```
 //! # fn main() -> Result<(), epipole::Error> {
 //! use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 //! use epipole::image::{Rgb, RgbImage};
-//! use epipole::mvs::{MvsOptions, estimate_depth_maps, fuse_depth_maps, prepare_views};
+//! use epipole::mvs::{MeshOptions, MvsOptions, prepare_views};
+//! use epipole::mvs::{estimate_depth_maps, fuse_depth_maps, mesh_depth_maps};
 //! use epipole::nalgebra::Point3;
 //! use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
 //! // A wall at a depth of 2, seen from places that are 0.1 apart: f B / Z = 5 pixels.
@@ -46,6 +48,8 @@
 //! assert!((maps[1].depth.get_pixel(36, 27).0[0] - 2.0).abs() < 0.02);
 //! let cloud = fuse_depth_maps(&views, &maps, &options, &mut ())?;
 //! assert!(cloud.normals[cloud.points.len() / 2].z < -0.9);
+//! let mesh = mesh_depth_maps(&views, &maps, &MeshOptions::default(), &mut ())?;
+//! assert!(mesh.triangles.len() > 500);
 //! # Ok(()) }
 //! ```
 //!
@@ -60,6 +64,7 @@ mod field;
 mod fusion;
 mod hypothesis_cost;
 mod level;
+mod mesh;
 mod neighbors;
 mod options;
 mod pair;
@@ -71,5 +76,6 @@ mod views;
 pub use depth_map::DepthMap;
 pub use depth_maps::estimate_depth_maps;
 pub use fusion::fuse_depth_maps;
+pub use mesh::{Mesh, MeshOptions, mesh_depth_maps};
 pub use options::MvsOptions;
 pub use views::{MvsView, prepare_views};

@@ -9,6 +9,7 @@ use crate::sfm::Reconstruction;
 use crate::{Error, Result};
 use image::RgbImage;
 use image::imageops::{FilterType, resize};
+use nalgebra::{Point2, Vector3};
 
 /// A photo of multi-view stereo.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,15 @@ pub struct MvsView {
     pub neighbors: Vec<usize>,
     /// Smallest and largest depth that is looked for, in the unit of the reconstruction.
     pub depth_range: [f64; 2],
+}
+
+impl MvsView {
+    /// The ray of a pixel by its index, row by row, at depth 1.
+    pub(super) fn ray(&self, pixel: usize) -> Vector3<f64> {
+        let width = self.image.width() as usize;
+        let (u, v) = ((pixel % width) as f64, (pixel / width) as f64);
+        self.camera.camera.intrinsics.ray(&Point2::new(u, v))
+    }
 }
 
 /// Undistorts and downscales the photos of a reconstruction, and chooses the neighbors and the

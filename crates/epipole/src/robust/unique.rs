@@ -1,7 +1,7 @@
 //! Equal data, found once and counted once.
 
-use crate::math::order::order_by;
 use crate::{Error, Result};
+use std::collections::HashMap;
 
 /// Maximum number of values of a datum: a point and its pixel.
 const MAX_COORDINATES: usize = 5;
@@ -44,28 +44,16 @@ impl Unique {
         Self::of_keys(num_data, &keys)
     }
 
-    /// Apart from [`new`](Self::new), so that there is one sort for data of every kind.
+    /// Apart from [`new`](Self::new), so that there is one search for data of every kind.
     fn of_keys(num_data: usize, keys: &[([u64; MAX_COORDINATES], usize)]) -> Self {
-        // Of equal ones the first occurrence is at the front.
-        let order = order_by(keys.len(), &mut |a, b| keys[a].0.cmp(&keys[b].0));
-        let mut leader = vec![None; num_data];
-        let mut group = None;
-        let mut current = 0;
-        for (bits, i) in order.into_iter().map(|place| keys[place]) {
-            if group != Some(bits) {
-                (group, current) = (Some(bits), i);
-            }
-            leader[i] = Some(current);
-        }
-        let mut first = Vec::with_capacity(num_data);
+        let mut places = HashMap::with_capacity(keys.len());
+        let mut first = Vec::with_capacity(keys.len());
         let mut place = vec![None; num_data];
-        for i in 0..num_data {
-            if leader[i] == Some(i) {
-                place[i] = Some(first.len());
-                first.push(i);
-            } else {
-                place[i] = leader[i].and_then(|leader: usize| place[leader]);
-            }
+        for (key, i) in keys {
+            place[*i] = Some(*places.entry(key).or_insert_with(|| {
+                first.push(*i);
+                first.len() - 1
+            }));
         }
         Self { first, place }
     }
@@ -135,6 +123,14 @@ mod tests {
         assert_eq!(unique.first_occurrences(), [1, 2, 4]);
         assert_eq!(unique.places(), [None, Some(0), Some(1), Some(0), Some(2)]);
         assert_eq!((unique.len(), unique.num_left_out()), (3, 1));
+    }
+
+    #[test]
+    fn small_whole_numbers_and_their_repetitions_are_told_apart() {
+        let datum = |i: usize| [(i % 40) as f64, (i / 40 % 30) as f64];
+        let unique = Unique::new(2500, datum);
+        assert!(unique.first_occurrences().iter().copied().eq(0..1200));
+        assert!((0..2500).all(|i| unique.places()[i] == Some(i % 1200)));
     }
 
     #[test]

@@ -13,6 +13,7 @@
 //!   points.
 //! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
 //!   photographs, to cameras and points: a [`Reconstruction`].
+//! * [`triangulate_tracks`] gives the points where the poses are known.
 //! * [`Reconstruction::refine_lenses`] corrects lenses that are not as they were given, and
 //!   [`Reconstruction::determines_focal`] tells whether the photographs can.
 //! * [`Reconstruction::localize`] gives the pose of another photo.
@@ -24,6 +25,7 @@ mod builder;
 mod bundle;
 mod incremental;
 mod keyframes;
+mod known_poses;
 mod localize;
 mod loop_closure;
 mod odometry;
@@ -50,6 +52,7 @@ pub use bundle::{
     Bundle, BundleObservation, BundleOptions, Gauge, PositionPrior, Sensor, adjust_bundle,
 };
 pub use incremental::{IncrementalReconstruction, SfmResult, SfmStep, reconstruct};
+pub use known_poses::triangulate_tracks;
 pub use localize::{Localization, LocalizeOptions};
 pub use loop_closure::{
     ClosedPath, LoopClosure, LoopMotion, close_loops, estimate_similarity_of_points,

@@ -49,7 +49,7 @@ impl PathRow {
 /// * `before`: from the cell before disparity 0 to the cell after the last
 /// * `minimum`: the smallest of them, `p2`: the penalty of a large step to here
 #[inline(always)]
-fn advance<const BLOCK: usize>(
+pub(super) fn advance<const BLOCK: usize>(
     costs: &[u8],
     before: &[u8],
     minimum: u8,

@@ -109,7 +109,7 @@ impl Default for StereoSgm {
 const MIN_LARGE_STEP_PENALTY: u8 = 20;
 /// The cost of a candidate outside the right image: more than a good match, less than a bad one, so
 /// that disparities continue beyond the border.
-const OUTSIDE_COST: u8 = 12;
+pub(super) const OUTSIDE_COST: u8 = 12;
 
 impl StereoSgm {
     /// The disparities of `left`.
@@ -160,7 +160,7 @@ impl StereoSgm {
         self.compute(&left, &right, monitor)
     }
 
-    fn check(&self) -> Result<()> {
+    pub(super) fn check(&self) -> Result<()> {
         let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
         Error::check_rules(&[
             (
@@ -179,7 +179,7 @@ impl StereoSgm {
         self.filter.check()
     }
 
-    fn penalties(&self) -> Penalties {
+    pub(super) fn penalties(&self) -> Penalties {
         let (p1, p2) = (self.small_step_penalty, self.large_step_penalty);
         let lowest = p1.max(MIN_LARGE_STEP_PENALTY).min(p2);
         Penalties {

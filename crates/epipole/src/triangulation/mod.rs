@@ -19,6 +19,7 @@
 
 mod dlt;
 mod midpoint;
+mod null_point;
 mod nview;
 mod nview_problem;
 mod optimal;

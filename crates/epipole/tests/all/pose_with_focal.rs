@@ -14,9 +14,14 @@ struct Scene {
     p2: Vec<Point2<f64>>,
 }
 
-/// 200 matches in photographs of 1000 × 800 pixels, the first ones wrong. The cameras turn by some
-/// ten degrees about any axis and step in any direction, so that their axes do not meet.
+/// 200 matches, the first ones wrong.
 fn scene(seed: u64, num_wrong: usize, noise_px: f64) -> Scene {
+    scene_of(200, seed, num_wrong, noise_px)
+}
+
+/// Matches in photographs of 1000 × 800 pixels, the first ones wrong. The cameras turn by some ten
+/// degrees about any axis and step in any direction, so that their axes do not meet.
+fn scene_of(num: usize, seed: u64, num_wrong: usize, noise_px: f64) -> Scene {
     let mut random = Random::new(seed);
     let f = 800.0 * libm::exp(random.uniform(-0.4, 0.7));
     let k = Intrinsics::new(f, f, 500.0, 400.0).unwrap();
@@ -24,7 +29,7 @@ fn scene(seed: u64, num_wrong: usize, noise_px: f64) -> Scene {
     let t = Vector3::from_fn(|_, _| random.normal()).normalize();
     let motion = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
     let (mut p1, mut p2) = (Vec::new(), Vec::new());
-    while p1.len() < 200 {
+    while p1.len() < num {
         let anywhere = |random: &mut Random| {
             Point2::new(random.uniform(0.0, 1000.0), random.uniform(0.0, 800.0))
         };
@@ -129,6 +134,23 @@ fn a_found_focal_length_is_better_than_a_guess() {
 }
 
 /// Two cameras whose axes are parallel, or that look at one thing from the same distance.
+/// Other focal lengths are compared on a part of many matches; the deviation is that of all.
+#[test]
+fn many_matches_tell_a_focal_length_exactly() {
+    let mut deviations = vec![];
+    for seed in 0..12 {
+        let scene = scene_of(6000, seed, 3000, 0.5);
+        let report = scene.estimate();
+        let off_px = (report.model.focal_px - scene.k.fu_px()).abs();
+        let std_px = report.model.focal_std_px.unwrap();
+        assert!(off_px < 0.01 * scene.k.fu_px(), "{seed}: {off_px}");
+        assert!(std_px < 0.01 * scene.k.fu_px(), "{seed}: {std_px}");
+        deviations.push(off_px / std_px);
+    }
+    let middle = median(deviations.clone());
+    assert!((0.2..1.5).contains(&middle), "{deviations:?}");
+}
+
 #[test]
 fn it_is_said_where_the_focal_length_is_open() {
     let k = Intrinsics::new(800.0, 800.0, 500.0, 400.0).unwrap();

@@ -73,6 +73,21 @@ impl FocalEstimator {
         })
     }
 
+    /// The same problem with some of the matches; `None` for fewer than 6.
+    pub(in crate::epipolar) fn subset(&self, indices: &[usize]) -> Option<Self> {
+        let pairs = indices.iter().map(|index| self.matches.pair(*index));
+        let (pixels1, pixels2): (Vec<_>, Vec<_>) = pairs.unzip();
+        let matches = MatchSet::new(&pixels1, &pixels2).ok()?;
+        matches.at_least(6, NAME).ok()?;
+        let pixels = Coordinates::voting(&matches);
+        Some(Self {
+            in_frame: pixels.mapped(&self.frame),
+            matches,
+            pixels,
+            ..self.clone()
+        })
+    }
+
     pub(super) fn is_usable(&self, focal_px: f64) -> bool {
         self.focals_px.contains(&focal_px)
     }

@@ -97,6 +97,45 @@ pub fn sift_directions(
     Ok(found)
 }
 
+/// The histograms whose peaks are [`sift_directions`], one for each place: 36 sums of gradients,
+/// smoothed. Bin k is at an angle of `k · 10° − 180°`.
+///
+/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient all sums
+/// are 0. The one stage is [`Stage::FeatureDetection`].
+///
+/// Source: Lowe 2004, §5.
+///
+/// ```
+/// # fn main() -> Result<(), epipole::Error> {
+/// use epipole::feature::{Keypoint, SiftOptions, sift_orientation_histograms};
+/// use epipole::imaging::GrayImage32;
+/// let ramp = GrayImage32::from_fn(64, 64, |_, v| image::Luma([v as f32 / 64.0]));
+/// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
+/// let found = sift_orientation_histograms(&ramp, &[middle], &SiftOptions::default(), &mut ())?;
+/// // All gradients point down, at 90°: 27 · 10° − 180°. Smoothing takes them to both sides.
+/// let [before, at, after] = [26, 27, 28].map(|bin: usize| found[0][bin]);
+/// assert!(at > before && (before - after).abs() < 0.01 * at && found[0][9] == 0.0);
+/// # Ok(()) }
+/// ```
+pub fn sift_orientation_histograms(
+    image: &GrayImage32,
+    keypoints: &[Keypoint],
+    options: &SiftOptions,
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<[f32; 36]>> {
+    let mut found = vec![[0.0; orientation::NUM_BINS]; keypoints.len()];
+    at_layers(
+        image,
+        keypoints,
+        options,
+        monitor,
+        |index, layer, center, sigma, scratch| {
+            found[index] = orientation::histogram(layer, center, sigma, scratch);
+        },
+    )?;
+    Ok(found)
+}
+
 /// Visits each keypoint with the layer of its blur: index, layer, and place and blur in samples of
 /// the layer.
 fn at_layers(

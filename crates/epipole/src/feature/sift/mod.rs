@@ -11,7 +11,7 @@ mod scale_space;
 #[cfg(test)]
 mod tests;
 
-pub use describe::{describe_sift, sift_directions};
+pub use describe::{describe_sift, sift_directions, sift_orientation_histograms};
 pub use detect::detect_sift;
 pub use layers::{ScaleOctave, ScaleSpace, scale_space};
 pub use options::{SiftNormalization, SiftOptions};

@@ -1,19 +1,13 @@
-//! Directions of a keypoint: peaks of the histogram of gradients around it.
+//! Directions of a keypoint: histogram of the gradients around it, and its peaks.
 
 use super::descriptor::Samples;
 use super::options::SiftOptions;
 use crate::imaging::GrayImage32;
 use std::f32::consts::{PI, TAU};
 
-const NUM_BINS: usize = 36;
+pub(super) const NUM_BINS: usize = 36;
 
 /// The directions of the gradients around a place, strongest first, in (−π, π].
-///
-/// The weights fall off as a Gaussian of 1.5 times the keypoint's blur; each gradient is shared
-/// by the two bins around it; the histogram is smoothed by `[1 4 6 4 1]/16`, and a parabola gives
-/// the peak between bins.
-///
-/// Source: Lowe 2004, §5.
 pub(super) fn directions(
     layer: &GrayImage32,
     center: (f32, f32),
@@ -21,6 +15,21 @@ pub(super) fn directions(
     options: &SiftOptions,
     scratch: &mut Samples,
 ) -> Vec<f32> {
+    peaks(&histogram(layer, center, sigma, scratch), options)
+}
+
+/// Histogram of the gradients around a place; bin k is at an angle of `k · 10° − 180°`.
+///
+/// The weights fall off as a Gaussian of 1.5 times the keypoint's blur; each gradient is shared
+/// by the two bins around it; the histogram is smoothed by `[1 4 6 4 1]/16`.
+///
+/// Source: Lowe 2004, §5.
+pub(super) fn histogram(
+    layer: &GrayImage32,
+    center: (f32, f32),
+    sigma: f32,
+    scratch: &mut Samples,
+) -> [f32; NUM_BINS] {
     let mut histogram = [0.0f32; NUM_BINS + 1];
     let spread = 1.5 * sigma;
     let radius = 3.0 * spread;
@@ -40,10 +49,14 @@ pub(super) fn directions(
     // Bin 36 is bin 0 again: both lie at an angle of ±π.
     histogram[0] += histogram[NUM_BINS];
     let h = |k: usize| histogram[k % NUM_BINS];
-    let smooth: [f32; NUM_BINS] = std::array::from_fn(|k| {
+    std::array::from_fn(|k| {
         let k = k + NUM_BINS;
         ((h(k - 2) + h(k + 2)) + 4.0 * (h(k - 1) + h(k + 1)) + 6.0 * h(k)) / 16.0
-    });
+    })
+}
+
+/// The peaks of a [`histogram`], strongest first, in (−π, π]; a parabola gives each between bins.
+fn peaks(smooth: &[f32; NUM_BINS], options: &SiftOptions) -> Vec<f32> {
     let strongest = smooth.iter().fold(0.0f32, |m, &v| m.max(v));
     if strongest <= 0.0 {
         // No gradient at all: any direction is as good.

@@ -1,6 +1,7 @@
 //! Points of a growing reconstruction: made, given more observations, and dropped.
 
 use super::{Builder, TrackPoint, insert};
+use crate::sfm::tracks::TrackElement;
 use crate::sfm::triangulate_track::{triangulate_track, widest_angle_rad};
 
 impl Builder {
@@ -51,6 +52,15 @@ impl Builder {
         for (track, point) in candidates.into_iter().zip(found) {
             self.points[track] = point;
         }
+    }
+
+    /// Whether the rays of two keypoints meet in front of their cameras, at any angle.
+    pub(in crate::sfm) fn meet(&self, first: TrackElement, second: TrackElement) -> bool {
+        let (Some(first), Some(second)) = (self.sight(first), self.sight(second)) else {
+            return false;
+        };
+        let max_error_px = self.options.max_reprojection_error_px;
+        triangulate_track(&[first, second], max_error_px, 0.0).is_some()
     }
 
     /// Picks up observations that fit their point after all.
