@@ -21,7 +21,7 @@
 //! |---|---|
 //! | `shape` | cuboids, lathes and rings that rays meet |
 //! | `paint` | noise, textures, and everything that is painted on surfaces |
-//! | `things` | bodies: a shape with its paint; the wares on tables and walls |
+//! | `objects` | bodies: a shape with its paint; the props on tables and walls |
 //! | `light` | a window, soft light, and maps of both |
 //! | `scene` | bodies with their light, rays through them |
 //! | `sets` | the three scenes |
@@ -30,12 +30,12 @@
 mod detail;
 mod gradual;
 mod light;
+mod objects;
 mod paint;
 mod photograph;
 mod scene;
 mod sets;
 mod shape;
-mod things;
 
 pub use photograph::reproject::{Moved, Reprojected};
 pub use photograph::{Photograph, Sampling};

@@ -4,8 +4,8 @@ use super::lighting::Lighting;
 use super::maps::{Decal, LightMap};
 use super::shade::Shade;
 use crate::detail::Detail;
+use crate::objects::body::Body;
 use crate::shape::Shape;
-use crate::things::body::Body;
 
 /// Cells along each side of the shade of a movable thing.
 const DECAL_CELLS: usize = 96;

@@ -1,9 +1,9 @@
 //! Light that reaches a point, and its occlusion.
 
 use super::lighting::Lighting;
+use crate::objects::body::{Body, Placement};
+use crate::objects::proxy::Proxy;
 use crate::shape::Ray;
-use crate::things::body::{Body, Placement};
-use crate::things::proxy::Proxy;
 use epipole::math::length;
 use nalgebra::Vector3;
 

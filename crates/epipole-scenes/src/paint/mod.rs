@@ -6,11 +6,11 @@ mod books;
 mod lettering;
 pub(crate) mod noise;
 mod prints;
+mod props;
 mod rooms;
 pub(crate) mod texture;
-mod wares;
 
 pub(crate) use books::{book_cover, book_spine, linen, pages};
 pub(crate) use prints::{block_print, geometric, landscape, star_chart};
+pub(crate) use props::{apple, citrus, jug, mug, tin};
 pub(crate) use rooms::{boards, floor, measured_boards, number, plaster, window};
-pub(crate) use wares::{apple, citrus, jug, mug, tin};

@@ -1,7 +1,7 @@
 //! Image regions of bodies, from their bounding boxes.
 
+use crate::objects::body::{Body, Placement};
 use crate::scene::{SHADE_M, Scene};
-use crate::things::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! The color of a place on a body: paint times light, plus reflections on glossy things.
 
 use crate::light::{LightMap, Lighting, single};
+use crate::objects::body::Body;
 use crate::shape::Place;
-use crate::things::body::Body;
 
 /// Approximates log₂ of a positive number within 0.09: linear between powers of two.
 fn log2(x: f32) -> f32 {

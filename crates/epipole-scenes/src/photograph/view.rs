@@ -5,9 +5,9 @@ use super::outline::outline;
 use super::shading::{self, Look};
 use crate::detail::Detail;
 use crate::light::{Decal, LightMap, Lighting, single};
+use crate::objects::body::{Body, Placement};
 use crate::scene::Scene;
 use crate::shape::{Contact, Ray, TOP};
-use crate::things::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 

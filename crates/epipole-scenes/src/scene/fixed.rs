@@ -3,7 +3,7 @@
 use crate::detail::Detail;
 use crate::gradual::Gradual;
 use crate::light::{Baking, LightMap, Lighting};
-use crate::things::body::Body;
+use crate::objects::body::Body;
 
 /// Light on every body and chart.
 pub(super) type Lights = Vec<Vec<LightMap>>;

@@ -9,7 +9,7 @@ pub(crate) use movable::{Movable, SHADE_M};
 
 use crate::detail::Detail;
 use crate::light::{Decal, LightMap};
-use crate::things::body::{Body, Placement};
+use crate::objects::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use epipole::{Error, Result};
 use std::sync::Arc;

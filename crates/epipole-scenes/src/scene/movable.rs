@@ -4,7 +4,7 @@ use super::fixed::Lights;
 use crate::detail::Detail;
 use crate::gradual::Gradual;
 use crate::light::{Baking, Decal, Lighting, Shading};
-use crate::things::body::Body;
+use crate::objects::body::Body;
 
 /// A movable thing: its bodies around the origin and its shade.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! Exact rays through a scene, and exact correspondences.
 
 use super::Scene;
+use crate::objects::body::{Body, Placement};
 use crate::shape::{Contact, Ray};
-use crate::things::body::{Body, Placement};
 use epipole::camera::PosedCamera;
 use nalgebra::{Point2, Point3, Vector3};
 

@@ -1,11 +1,11 @@
 //! The long table: a hall with one movable thing, for measuring depth.
 
 use crate::light::Lighting;
+use crate::objects::body::{Body, Paint, Placement};
+use crate::objects::props::{PICTURE_DEPTH_M, PLASTER_M, Props, placed};
 use crate::paint;
 use crate::scene::{Fixed, Movable, Scene};
 use crate::shape::{BACK, BOTTOM, TOP};
-use crate::things::body::{Body, Paint, Placement};
-use crate::things::wares::{PICTURE_DEPTH_M, PLASTER_M, Wares, placed};
 use epipole::{Error, Result};
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -114,19 +114,19 @@ fn build_hall() -> Fixed {
 
 /// Builds the thing at the origin of the plane y = 0, lit as on the table.
 fn build_movable(kind: MovableKind) -> Movable {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let bodies = match kind {
-        MovableKind::Mug => wares.mug([0.0; 3], -0.5, 1.7),
-        MovableKind::Ball => vec![wares.ball([0.0; 3], 0.11)],
+        MovableKind::Mug => props.mug([0.0; 3], -0.5, 1.7),
+        MovableKind::Ball => vec![props.ball([0.0; 3], 0.11)],
     };
-    Movable::new(bodies, wares.slab(TABLE_WIDTH, 4.0), TABLE_TOP)
+    Movable::new(bodies, props.slab(TABLE_WIDTH, 4.0), TABLE_TOP)
 }
 
 /// Builds the table with its numbered meters; its top comes first.
 fn table() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let name = "the table";
-    let wood = Arc::new(paint::measured_boards(wares.noise, TABLE_WIDTH as f32));
+    let wood = Arc::new(paint::measured_boards(props.noise, TABLE_WIDTH as f32));
     let edge = Paint::new(&wood).repeated(0.4, 0.04).lit(4, 4);
     let length = TABLE_FAR_Z - TABLE_NEAR_Z;
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
@@ -159,7 +159,7 @@ fn table() -> Vec<Body> {
         );
     }
     for meters in 1..=11 {
-        let plate = Paint::new(&Arc::new(paint::number(wares.noise, meters)))
+        let plate = Paint::new(&Arc::new(paint::number(props.noise, meters)))
             .glossy(0.6)
             .lit(2, 2);
         for side in [-1.0, 1.0] {
@@ -175,7 +175,7 @@ fn table() -> Vec<Body> {
 
 /// Builds the hall around the table, with windows on the left and pictures on the other walls.
 fn hall() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let size = Vector3::from(HALL_SIZE);
     let (left, right, back) = (
         HALL_CENTER[0] - size.x / 2.0,
@@ -183,7 +183,7 @@ fn hall() -> Vec<Body> {
         HALL_CENTER[2] + size.z / 2.0,
     );
     let wall = |width_m: f64, tile: f64, shift: f32| {
-        Paint::new(&wares.plaster)
+        Paint::new(&props.plaster)
             .repeated(
                 (width_m / (PLASTER_M * tile)) as f32,
                 (size.y / (PLASTER_M * tile)) as f32,
@@ -197,21 +197,21 @@ fn hall() -> Vec<Body> {
         .painted(TOP, &wall(size.x, 2.0, 0.0).tinted([2.1, 2.3, 2.7]))
         .painted(
             BOTTOM,
-            &Paint::new(&wares.floor).repeated(4.0, 10.0).lit(24, 60),
+            &Paint::new(&props.floor).repeated(4.0, 10.0).lit(24, 60),
         );
     let mut bodies = vec![walls];
     for z in [2.6, 5.4, 8.2, 11.0] {
-        bodies.push(wares.window([left, -1.0, z], [1.3, 1.5]));
+        bodies.push(props.window([left, -1.0, z], [1.3, 1.5]));
     }
     let quarter = std::f64::consts::FRAC_PI_2;
     let pictures = [
-        (&wares.landscape, [1.30, 0.96]),
-        (&wares.geometric, [0.85, 1.03]),
-        (&wares.star_chart, [0.80, 1.04]),
+        (&props.landscape, [1.30, 0.96]),
+        (&props.geometric, [0.85, 1.03]),
+        (&props.star_chart, [0.80, 1.04]),
     ];
     for (i, z) in [3.0, 4.7, 6.3, 7.9, 9.5, 11.1].into_iter().enumerate() {
         let (texture, size_m) = pictures[i % 3];
-        bodies.push(wares.picture(
+        bodies.push(props.picture(
             texture,
             size_m,
             [right - PICTURE_DEPTH_M / 2.0, -0.75, z],
@@ -220,7 +220,7 @@ fn hall() -> Vec<Body> {
     }
     for (i, x) in [(1, -1.75), (0, 0.0), (2, 1.75)] {
         let (texture, size_m) = pictures[i];
-        bodies.push(wares.picture(
+        bodies.push(props.picture(
             texture,
             size_m.map(|side| 1.25 * side),
             [x, -0.85, back - PICTURE_DEPTH_M / 2.0],
@@ -232,18 +232,18 @@ fn hall() -> Vec<Body> {
 
 /// Builds the static things on the table, left and right of the free lane.
 fn props() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let mut bodies = Vec::new();
     let mut books = |x: f64, z: f64, first: usize, yaw_rad: f64| {
         let foot = [x, TABLE_Y, z];
-        bodies.extend(wares.book(first, foot, [0.30, 0.05, 0.22], yaw_rad));
-        bodies.extend(wares.book(
+        bodies.extend(props.book(first, foot, [0.30, 0.05, 0.22], yaw_rad));
+        bodies.extend(props.book(
             first + 1,
             placed(foot, 0.0, [0.01, -0.05, 0.0]),
             [0.27, 0.042, 0.20],
             yaw_rad + 0.2,
         ));
-        bodies.extend(wares.book(
+        bodies.extend(props.book(
             first + 2,
             placed(foot, 0.0, [-0.01, -0.092, 0.01]),
             [0.24, 0.036, 0.18],
@@ -253,15 +253,15 @@ fn props() -> Vec<Body> {
     books(-0.54, 1.85, 0, 0.1);
     books(0.55, 4.4, 1, -0.3);
     books(-0.52, 7.3, 2, 0.25);
-    bodies.extend(wares.apple([-0.54, TABLE_Y - 0.128, 1.85], 0.048, 0.3));
-    bodies.push(wares.jug([0.55, TABLE_Y, 2.65], 0.3, 1.15));
-    bodies.push(wares.jug([-0.56, TABLE_Y, 5.4], 1.3, 1.3));
-    bodies.push(wares.jug([0.58, TABLE_Y, 8.6], 2.3, 1.3));
-    bodies.extend(wares.tin([-0.55, TABLE_Y, 3.4], [0.17, 0.25, 0.14], 0.35));
-    bodies.extend(wares.tin([0.55, TABLE_Y, 6.3], [0.19, 0.28, 0.16], -0.4));
-    bodies.push(wares.orange([0.50, TABLE_Y, 1.62], 0.050, [0.9, 0.5]));
-    bodies.push(wares.orange([0.60, TABLE_Y, 1.72], 0.048, [2.0, -0.4]));
-    bodies.push(wares.lemon([0.49, TABLE_Y, 1.78], [0.3, std::f64::consts::FRAC_PI_2]));
+    bodies.extend(props.apple([-0.54, TABLE_Y - 0.128, 1.85], 0.048, 0.3));
+    bodies.push(props.jug([0.55, TABLE_Y, 2.65], 0.3, 1.15));
+    bodies.push(props.jug([-0.56, TABLE_Y, 5.4], 1.3, 1.3));
+    bodies.push(props.jug([0.58, TABLE_Y, 8.6], 2.3, 1.3));
+    bodies.extend(props.tin([-0.55, TABLE_Y, 3.4], [0.17, 0.25, 0.14], 0.35));
+    bodies.extend(props.tin([0.55, TABLE_Y, 6.3], [0.19, 0.28, 0.16], -0.4));
+    bodies.push(props.orange([0.50, TABLE_Y, 1.62], 0.050, [0.9, 0.5]));
+    bodies.push(props.orange([0.60, TABLE_Y, 1.72], 0.048, [2.0, -0.4]));
+    bodies.push(props.lemon([0.49, TABLE_Y, 1.78], [0.3, std::f64::consts::FRAC_PI_2]));
     bodies
 }
 

@@ -1,13 +1,13 @@
 //! The still life of the book: a table by a window, and the room around it.
 
 use crate::light::Lighting;
+use crate::objects::body::{Body, Paint};
+use crate::objects::props::{
+    GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, Props, STAR_CHART_M, placed,
+};
 use crate::paint;
 use crate::scene::{Fixed, Scene};
 use crate::shape::{BACK, BOTTOM, FRONT, RIGHT, TOP};
-use crate::things::body::{Body, Paint};
-use crate::things::wares::{
-    GEOMETRIC_M, LANDSCAPE_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares, placed,
-};
 use nalgebra::{Point3, Vector3};
 use std::sync::{Arc, OnceLock};
 
@@ -117,9 +117,9 @@ fn build() -> Scene {
 
 /// Builds walls, floor, window and pictures.
 fn room() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let wall = |width_m: f64, shift: f32| {
-        Paint::new(&wares.plaster)
+        Paint::new(&props.plaster)
             .repeated(
                 (width_m / PLASTER_M) as f32,
                 (ROOM_SIZE[1] / PLASTER_M) as f32,
@@ -134,43 +134,43 @@ fn room() -> Vec<Body> {
         .painted(TOP, &wall(size.x, 0.2).tinted([1.5, 1.45, 1.4]))
         .painted(
             BOTTOM,
-            &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(24, 24),
+            &Paint::new(&props.floor).repeated(4.0, 4.0).lit(24, 24),
         );
     let quarter = std::f64::consts::FRAC_PI_2;
     let on_back = BACK_WALL_Z - PICTURE_DEPTH_M / 2.0;
     vec![
         walls,
-        wares.picture(
-            &wares.landscape,
+        props.picture(
+            &props.landscape,
             LANDSCAPE_M,
             [LANDSCAPE_XY[0], LANDSCAPE_XY[1], on_back],
             0.0,
         ),
-        wares.picture(&wares.geometric, GEOMETRIC_M, [0.32, -0.50, on_back], 0.0),
-        wares.picture(&wares.star_chart, STAR_CHART_M, [0.84, -0.46, on_back], 0.0),
-        wares.picture(
-            &wares.star_chart,
+        props.picture(&props.geometric, GEOMETRIC_M, [0.32, -0.50, on_back], 0.0),
+        props.picture(&props.star_chart, STAR_CHART_M, [0.84, -0.46, on_back], 0.0),
+        props.picture(
+            &props.star_chart,
             STAR_CHART_M,
             [-1.12, -0.55, on_back],
             0.0,
         ),
-        wares.picture(
-            &wares.landscape,
+        props.picture(
+            &props.landscape,
             LANDSCAPE_M,
             [RIGHT_WALL_X - PICTURE_DEPTH_M / 2.0, -0.55, 0.1],
             -quarter,
         ),
-        wares.window([LEFT_WALL_X, -1.02, -0.62], [0.95, 1.1]),
+        props.window([LEFT_WALL_X, -1.02, -0.62], [0.95, 1.1]),
     ]
 }
 
 /// Builds the table, its apron and legs.
 fn table() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let (width, depth, thick) = (1.9, 1.16, 0.036);
     let z = -0.06;
     let top = Arc::new(paint::boards(
-        wares.noise,
+        props.noise,
         [512, 512],
         [width as f32, depth as f32],
         8.0,
@@ -218,9 +218,9 @@ fn table() -> Vec<Body> {
 
 /// Builds the things on the table.
 fn things() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let cloth = Arc::new(paint::block_print(
-        wares.noise,
+        props.noise,
         (CLOTH_M[0] / CLOTH_M[2]) as f32,
     ));
     let print = Paint::new(&cloth);
@@ -240,32 +240,32 @@ fn things() -> Vec<Body> {
     // Three books, the lowest the largest, not quite in line.
     let stack = [-0.315, 0.0, 0.06];
     let heights = [0.046, 0.037, 0.032];
-    bodies.extend(wares.book(0, stack, [0.295, heights[0], 0.215], -0.10));
-    bodies.extend(wares.book(
+    bodies.extend(props.book(0, stack, [0.295, heights[0], 0.215], -0.10));
+    bodies.extend(props.book(
         1,
         placed(stack, 0.0, [0.012, -heights[0], 0.004]),
         [0.27, heights[1], 0.19],
         0.07,
     ));
-    bodies.extend(wares.book(
+    bodies.extend(props.book(
         2,
         placed(stack, 0.0, [-0.010, -heights[0] - heights[1], 0.006]),
         [0.24, heights[2], 0.17],
         -0.21,
     ));
     let stack_m: f64 = heights.iter().sum();
-    bodies.extend(wares.apple([-0.33, -stack_m, 0.055], 0.041, 0.6));
+    bodies.extend(props.apple([-0.33, -stack_m, 0.055], 0.041, 0.6));
 
-    bodies.extend(wares.mug([0.19, on_cloth, -0.16], -0.45, 1.12));
-    bodies.push(wares.jug([0.045, 0.0, 0.215], 0.3, 1.0));
-    bodies.extend(wares.tin([0.40, 0.0, 0.16], [0.105, 0.150, 0.085], -0.42));
-    bodies.push(wares.orange([-0.01, on_cloth, -0.085], 0.042, [0.9, 0.5]));
-    bodies.push(wares.orange([-0.085, on_cloth, -0.165], 0.039, [2.4, -0.9]));
-    bodies.push(wares.lemon(
+    bodies.extend(props.mug([0.19, on_cloth, -0.16], -0.45, 1.12));
+    bodies.push(props.jug([0.045, 0.0, 0.215], 0.3, 1.0));
+    bodies.extend(props.tin([0.40, 0.0, 0.16], [0.105, 0.150, 0.085], -0.42));
+    bodies.push(props.orange([-0.01, on_cloth, -0.085], 0.042, [0.9, 0.5]));
+    bodies.push(props.orange([-0.085, on_cloth, -0.165], 0.039, [2.4, -0.9]));
+    bodies.push(props.lemon(
         [0.045, on_cloth, -0.245],
         [0.55, std::f64::consts::FRAC_PI_2],
     ));
-    bodies.push(wares.orange([0.47, 0.0, 0.015], 0.041, [4.0, 0.3]));
+    bodies.push(props.orange([0.47, 0.0, 0.015], 0.041, [4.0, 0.3]));
     bodies
 }
 

@@ -1,13 +1,13 @@
 //! The studio: a mug that grows with its distance, ambiguous for a camera at table height.
 
 use crate::light::Lighting;
+use crate::objects::body::{Body, Paint, Placement};
+use crate::objects::props::{
+    GEOMETRIC_M, LANDSCAPE_M, MUG_HEIGHT_M, PICTURE_DEPTH_M, PLASTER_M, Props, STAR_CHART_M,
+};
 use crate::paint;
 use crate::scene::{Fixed, Movable, Scene};
 use crate::shape::{BACK, BOTTOM, FRONT, TOP};
-use crate::things::body::{Body, Paint, Placement};
-use crate::things::wares::{
-    GEOMETRIC_M, LANDSCAPE_M, MUG_HEIGHT_M, PICTURE_DEPTH_M, PLASTER_M, STAR_CHART_M, Wares,
-};
 use epipole::{Error, Result};
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
@@ -101,9 +101,9 @@ fn lighting() -> Lighting {
 
 /// Builds the mug at the origin of the plane y = 0, with its shade on the table.
 fn build_mug() -> Movable {
-    let wares = Wares::shared();
-    let slab = wares.slab(TABLE_WIDTH, 3.0);
-    Movable::new(wares.mug([0.0; 3], -0.5, 1.0), slab, TABLE_TOP)
+    let props = Props::shared();
+    let slab = props.slab(TABLE_WIDTH, 3.0);
+    Movable::new(props.mug([0.0; 3], -0.5, 1.0), slab, TABLE_TOP)
 }
 
 /// Builds the static bodies; the table's top comes first.
@@ -115,11 +115,11 @@ fn build_room() -> Fixed {
 
 /// Builds the table, a cloth that hangs down in front, and a number at every meter.
 fn table() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let name = "the table";
-    let wood = Arc::new(paint::measured_boards(wares.noise, TABLE_WIDTH as f32));
+    let wood = Arc::new(paint::measured_boards(props.noise, TABLE_WIDTH as f32));
     let cloth = Arc::new(paint::block_print(
-        wares.noise,
+        props.noise,
         (CLOTH_M[0] / CLOTH_M[1]) as f32,
     ));
     let length = TABLE_FAR_Z - TABLE_NEAR_Z;
@@ -155,7 +155,7 @@ fn table() -> Vec<Body> {
         .painted(FRONT, &Paint::new(&cloth).lit(4, 4)),
     ];
     for meters in 1..=3 {
-        let plate = Paint::new(&Arc::new(paint::number(wares.noise, meters))).lit(2, 2);
+        let plate = Paint::new(&Arc::new(paint::number(props.noise, meters))).lit(2, 2);
         let plate = cuboid(
             [0.12, 0.0004, 0.12],
             [TABLE_WIDTH / 2.0 - 0.16, -0.0002, f64::from(meters)],
@@ -168,11 +168,11 @@ fn table() -> Vec<Body> {
 
 /// Builds the room, with pictures on the visible walls.
 fn walls() -> Vec<Body> {
-    let wares = Wares::shared();
+    let props = Props::shared();
     let size = Vector3::from(ROOM_SIZE);
     let (left, back) = (ROOM_CENTER[0] - size.x / 2.0, ROOM_CENTER[2] + size.z / 2.0);
     let wall = |width_m: f64, shift: f32| {
-        Paint::new(&wares.plaster)
+        Paint::new(&props.plaster)
             .repeated((width_m / PLASTER_M) as f32, (size.y / PLASTER_M) as f32)
             .shifted(shift, 0.3)
             .lit(12, 8)
@@ -183,25 +183,25 @@ fn walls() -> Vec<Body> {
         .painted(TOP, &wall(size.x, 0.0).tinted([2.1, 2.3, 2.7]))
         .painted(
             BOTTOM,
-            &Paint::new(&wares.floor).repeated(4.0, 4.0).lit(12, 12),
+            &Paint::new(&props.floor).repeated(4.0, 4.0).lit(12, 12),
         );
     let quarter = std::f64::consts::FRAC_PI_2;
     let (on_back, on_left) = (back - PICTURE_DEPTH_M / 2.0, left + PICTURE_DEPTH_M / 2.0);
     let mut bodies = vec![room];
     for (texture, size_m, x) in [
-        (&wares.geometric, GEOMETRIC_M, -0.62),
-        (&wares.landscape, LANDSCAPE_M, 1.32),
+        (&props.geometric, GEOMETRIC_M, -0.62),
+        (&props.landscape, LANDSCAPE_M, 1.32),
     ] {
         let size_m = size_m.map(|side| 1.5 * side);
-        bodies.push(wares.picture(texture, size_m, [x, -0.85, on_back], 0.0));
+        bodies.push(props.picture(texture, size_m, [x, -0.85, on_back], 0.0));
     }
     for (texture, size_m, z) in [
-        (&wares.star_chart, STAR_CHART_M, 0.35),
-        (&wares.landscape, LANDSCAPE_M, 1.55),
-        (&wares.geometric, GEOMETRIC_M, 2.75),
+        (&props.star_chart, STAR_CHART_M, 0.35),
+        (&props.landscape, LANDSCAPE_M, 1.55),
+        (&props.geometric, GEOMETRIC_M, 2.75),
     ] {
         let size_m = size_m.map(|side| 1.3 * side);
-        bodies.push(wares.picture(texture, size_m, [on_left, -0.80, z], quarter));
+        bodies.push(props.picture(texture, size_m, [on_left, -0.80, z], quarter));
     }
     bodies
 }

@@ -1,9 +1,9 @@
 //! The tea tin.
 
-use super::{Wares, placed};
-use crate::things::body::{Body, Paint};
+use super::{Props, placed};
+use crate::objects::body::{Body, Paint};
 
-impl Wares {
+impl Props {
     /// A tea tin, `foot` in the middle of its lower face.
     pub(crate) fn tin(&self, foot: [f64; 3], size_m: [f64; 3], yaw_rad: f64) -> Vec<Body> {
         let name = "the tea tin";

@@ -1,10 +1,10 @@
 //! Books.
 
-use super::{Wares, placed};
+use super::{Props, placed};
+use crate::objects::body::{Body, Paint};
 use crate::shape::{FRONT, TOP};
-use crate::things::body::{Body, Paint};
 
-impl Wares {
+impl Props {
     /// A book lying flat, its spine toward −z, `center` in the middle of its lower face.
     pub(crate) fn book(
         &self,

@@ -1,5 +1,5 @@
 //! Things to furnish a scene with.
 
 pub(crate) mod body;
+pub(crate) mod props;
 pub(crate) mod proxy;
-pub(crate) mod wares;

@@ -24,7 +24,7 @@ pub(crate) struct Edition {
 }
 
 /// Textures that all scenes share, painted once.
-pub(crate) struct Wares {
+pub(crate) struct Props {
     pub(crate) noise: &'static Noise,
     pub(crate) plaster: Arc<Texture>,
     pub(crate) floor: Arc<Texture>,
@@ -53,10 +53,10 @@ pub(crate) const PICTURE_DEPTH_M: f64 = 0.028;
 /// Side of the square of wall after which the plaster repeats, meters.
 pub(crate) const PLASTER_M: f64 = 1.7;
 
-impl Wares {
+impl Props {
     pub(crate) fn shared() -> &'static Self {
-        static WARES: OnceLock<Wares> = OnceLock::new();
-        WARES.get_or_init(Self::paint)
+        static PROPS: OnceLock<Props> = OnceLock::new();
+        PROPS.get_or_init(Self::paint)
     }
 
     fn paint() -> Self {

@@ -1,13 +1,13 @@
 //! The mug and the jug.
 
 use super::profiles::{MUG_HEIGHT_M, MUG_RADIUS_M, jug_profile, mug_profile};
-use super::{Wares, placed};
+use super::{Props, placed};
+use crate::objects::body::{Body, Paint};
+use crate::objects::proxy::Proxy;
 use crate::shape::{Lathe, Ring, Shape};
-use crate::things::body::{Body, Paint};
-use crate::things::proxy::Proxy;
 use nalgebra::Vector3;
 
-impl Wares {
+impl Props {
     /// A mug of coffee, its foot at `foot`, the handle along local x.
     pub(crate) fn mug(&self, foot: [f64; 3], yaw_rad: f64, scale: f64) -> Vec<Body> {
         let name = "the mug";

@@ -1,15 +1,15 @@
 //! Fruit, and a ball.
 
-use super::Wares;
+use super::Props;
 use super::profiles::ball_profile;
+use crate::objects::body::{Body, Paint};
+use crate::objects::proxy::Proxy;
 use crate::paint::texture::Texture;
 use crate::shape::{Lathe, Profile, Shape};
-use crate::things::body::{Body, Paint};
-use crate::things::proxy::Proxy;
 use nalgebra::Vector3;
 use std::sync::Arc;
 
-impl Wares {
+impl Props {
     /// An orange that rests on `foot`.
     pub(crate) fn orange(&self, foot: [f64; 3], radius_m: f64, turn: [f64; 2]) -> Body {
         let shape = ball_profile(radius_m, radius_m * 0.95, 0.0);

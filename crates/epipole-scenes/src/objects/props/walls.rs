@@ -1,12 +1,12 @@
 //! Things on walls: windows and pictures.
 
-use super::{PICTURE_DEPTH_M, Wares};
+use super::{PICTURE_DEPTH_M, Props};
+use crate::objects::body::{Body, Paint};
 use crate::paint::texture::Texture;
 use crate::shape::{FRONT, RIGHT};
-use crate::things::body::{Body, Paint};
 use std::sync::Arc;
 
-impl Wares {
+impl Props {
     /// Returns the support of a movable thing while its light is computed: the plane y = 0.
     pub(crate) fn slab(&self, width_m: f64, depth_m: f64) -> Body {
         let paint = Paint::new(&self.plaster).lit(1, 1);
