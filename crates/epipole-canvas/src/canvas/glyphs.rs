@@ -5,7 +5,7 @@
 
 use super::coverage::Coverage;
 use super::place::At;
-use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
+use super::stamp::{STEPS, Stamp, StampCache, pixel_and_step, stamp_width};
 use super::strokes::Cap;
 use crate::font::{self, Pen};
 use crate::theme::Rgb;
@@ -16,7 +16,7 @@ use tiny_skia::Pixmap;
 const FLATNESS: f32 = 0.05;
 
 thread_local! {
-    static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
+    static CACHE: RefCell<StampCache<Key>> = const { RefCell::new(StampCache::new()) };
 }
 
 /// Cache key of a glyph, in device pixels.
@@ -48,7 +48,7 @@ pub(super) fn draw(
         return;
     }
     let y = baseline.round() as i32;
-    KEPT.with_borrow_mut(|kept| {
+    CACHE.with_borrow_mut(|kept| {
         let mut pen_x = left;
         for character in text.chars() {
             let (x, step) = pixel_and_step(pen_x);
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn a_kept_glyph_is_the_same_as_a_new_one() {
         let first = drawn("e₂ = 0", (3.3, 20.0), 0.0);
-        KEPT.with_borrow_mut(Kept::forget);
+        CACHE.with_borrow_mut(StampCache::forget);
         assert_eq!(first, drawn("e₂ = 0", (3.3, 20.0), 0.0));
         assert_eq!(first, drawn("e₂ = 0", (3.3, 20.0), 0.0));
         assert!(first.iter().any(|&byte| byte < 40));

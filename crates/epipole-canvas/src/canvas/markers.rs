@@ -5,7 +5,7 @@
 
 use super::coverage::Coverage;
 use super::place::At;
-use super::stamp::{Kept, STEPS, Stamp, pixel_and_step, stamp_width};
+use super::stamp::{STEPS, Stamp, StampCache, pixel_and_step, stamp_width};
 use super::strokes::Cap;
 use super::{Canvas, Place, Shape};
 use crate::theme::{Rgb, Role};
@@ -15,7 +15,7 @@ use std::cell::RefCell;
 const LARGE: f32 = 64.0;
 
 thread_local! {
-    static KEPT: RefCell<Kept<Key>> = const { RefCell::new(Kept::new()) };
+    static CACHE: RefCell<StampCache<Key>> = const { RefCell::new(StampCache::new()) };
 }
 
 /// Cache key of a marker, in device pixels.
@@ -69,7 +69,7 @@ pub(super) fn draw(
         is_dot: false,
     };
     let color = canvas.theme.color(role);
-    KEPT.with_borrow_mut(|kept| {
+    CACHE.with_borrow_mut(|kept| {
         kept.stamp(key, cover)
             .blend(&mut canvas.pixmap, (x, y), color);
     });
@@ -88,7 +88,7 @@ pub(super) fn draw_dot(canvas: &mut Canvas, (x, y): Place, radius: f64, color: R
         is_dot: true,
     };
     let rim = canvas.theme.color(Role::Muted);
-    KEPT.with_borrow_mut(|kept| {
+    CACHE.with_borrow_mut(|kept| {
         kept.stamp(key, cover)
             .blend_both(&mut canvas.pixmap, (x, y), [rim, color]);
     });
@@ -184,7 +184,7 @@ mod tests {
         let empty = drawn(Shape::Disk, (f64::NAN, 3.0));
         for shape in SHAPES {
             let first = drawn(shape, (20.1, 15.3));
-            KEPT.with_borrow_mut(Kept::forget);
+            CACHE.with_borrow_mut(StampCache::forget);
             assert_eq!(first, drawn(shape, (20.1, 15.3)), "{shape:?}");
             assert_eq!(first, drawn(shape, (20.1, 15.3)), "{shape:?}");
             let covered = first.chunks(4).zip(empty.chunks(4)).enumerate();

@@ -23,7 +23,7 @@ struct Key {
     target: Target,
 }
 
-struct Kept {
+struct CachedImage {
     key: Key,
     /// RGBA bytes of the target; empty until a second frame, since a photograph that changes in
     /// every frame is not worth caching.
@@ -33,7 +33,7 @@ struct Kept {
 
 /// The photographs of the last frame.
 #[derive(Default)]
-pub(super) struct Scaled(Vec<Kept>);
+pub(super) struct Scaled(Vec<CachedImage>);
 
 impl Scaled {
     /// Copies the photograph into the picture if it is cached, or else calls `scale` to draw it
@@ -54,7 +54,7 @@ impl Scaled {
         };
         let Some(kept) = self.0.iter_mut().find(|kept| kept.key == key) else {
             scale(picture);
-            return self.0.push(Kept {
+            return self.0.push(CachedImage {
                 key,
                 pixels: Vec::new(),
                 is_shown: true,

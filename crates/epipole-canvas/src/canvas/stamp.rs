@@ -19,9 +19,9 @@ const MOST_KEPT: usize = 2048;
 
 /// Stamps sorted by key. A sorted list, since a map would add code to the download for every key
 /// type. Caching changes no pixel: equal keys give equal stamps.
-pub(super) struct Kept<K>(Vec<(K, Stamp)>);
+pub(super) struct StampCache<K>(Vec<(K, Stamp)>);
 
-impl<K: Copy + Ord> Kept<K> {
+impl<K: Copy + Ord> StampCache<K> {
     pub(super) const fn new() -> Self {
         Self(Vec::new())
     }

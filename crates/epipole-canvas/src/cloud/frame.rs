@@ -1,14 +1,14 @@
 //! A picture of a space, with the depth and the point index of each pixel.
 
 use super::picture::Standing;
-use super::{Line, Orbit, Scene};
+use super::{Line, Orbit, Scene, surface};
 
 /// Options for drawing a space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
     /// Side of a point at the orbit's distance, pixels.
     pub point_px: f64,
-    /// Stride over the points; above 1 for coarse pictures during motion.
+    /// Stride over the points; above 1 for coarse pictures during motion, without triangles.
     pub every: usize,
     /// Color of the background.
     pub background: [u8; 3],
@@ -66,6 +66,17 @@ impl Frame {
             return;
         }
         self.points(scene, orbit, look);
+        if look.every <= 1 {
+            surface::draw(scene, orbit, size, |fragment| {
+                let surface::Fragment {
+                    pixel,
+                    depth,
+                    point,
+                    color,
+                } = fragment;
+                self.plot(pixel, depth, point, color);
+            });
+        }
         for picture in &scene.pictures {
             if let Some(standing) = Standing::new(picture, orbit, size) {
                 self.picture(&standing);
@@ -90,7 +101,12 @@ impl Frame {
             values.copy_from_slice(rotation.as_slice());
             values
         };
-        for (index, (place, color)) in scene.points.iter().enumerate().step_by(look.every.max(1)) {
+        let num_points = match look.every {
+            0 | 1 if !scene.triangles.is_empty() => scene.first_vertex,
+            _ => scene.points.len(),
+        };
+        let points = scene.points.iter().take(num_points).enumerate();
+        for (index, (place, color)) in points.step_by(look.every.max(1)) {
             let (x, y, z) = (
                 place[0] - middle.x,
                 place[1] - middle.y,
@@ -115,12 +131,7 @@ impl Frame {
             let to = |at: f32, most: usize| ((at + side / 2.0 + 0.5) as usize).min(most);
             for row in from(v)..to(v, size.1) {
                 for column in from(u)..to(u, size.0) {
-                    let at = row * size.0 + column;
-                    if depth < self.depth[at] {
-                        self.depth[at] = depth;
-                        self.point[at] = index as u32;
-                        self.rgba[4 * at..4 * at + 3].copy_from_slice(color);
-                    }
+                    self.plot(row * size.0 + column, depth, index as u32, *color);
                 }
             }
         }
@@ -132,12 +143,7 @@ impl Frame {
                 let Some((depth, color)) = standing.seen(column, row) else {
                     continue;
                 };
-                let at = row * self.width + column;
-                if depth < self.depth[at] {
-                    self.depth[at] = depth;
-                    self.point[at] = NONE;
-                    self.rgba[4 * at..4 * at + 3].copy_from_slice(&color);
-                }
+                self.plot(row * self.width + column, depth, NONE, color);
             }
         }
     }
@@ -165,12 +171,17 @@ impl Frame {
             if !(u >= 0.0 && v >= 0.0 && u < size.0 as f64 && v < size.1 as f64) {
                 continue;
             }
-            let at = v as usize * size.0 + u as usize;
-            if depth < self.depth[at] {
-                self.depth[at] = depth;
-                self.point[at] = NONE;
-                self.rgba[4 * at..4 * at + 3].copy_from_slice(&line.color);
-            }
+            let pixel = v as usize * size.0 + u as usize;
+            self.plot(pixel, depth, NONE, line.color);
+        }
+    }
+
+    /// Colors a pixel unless it shows something nearer.
+    fn plot(&mut self, pixel: usize, depth: f32, point: u32, color: [u8; 3]) {
+        if depth < self.depth[pixel] {
+            self.depth[pixel] = depth;
+            self.point[pixel] = point;
+            self.rgba[4 * pixel..4 * pixel + 3].copy_from_slice(&color);
         }
     }
 

@@ -18,6 +18,7 @@ mod orbit;
 mod outermost;
 mod perspective;
 mod picture;
+mod surface;
 
 pub use frame::{Frame, Look};
 pub use orbit::Orbit;
@@ -28,6 +29,10 @@ pub use picture::Picture;
 pub struct Scene {
     /// Positions and colors.
     pub points: Vec<([f32; 3], [u8; 3])>,
+    /// The points from this index on are vertices of triangles, which only coarse pictures show.
+    pub first_vertex: usize,
+    /// The vertices of each triangle, counted from the first one.
+    pub triangles: Vec<[u32; 3]>,
     /// Lines, such as the edges of a camera's frustum.
     pub lines: Vec<Line>,
     /// Photographs in the space.
