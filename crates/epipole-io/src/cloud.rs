@@ -2,6 +2,7 @@
 
 mod ply;
 
+pub(crate) use ply::ply_of;
 pub use ply::{read_ply, write_ply};
 
 /// Sentence on points that were left out, if any.

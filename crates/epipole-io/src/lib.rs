@@ -24,7 +24,11 @@ pub mod disparity;
 mod error;
 #[cfg(test)]
 mod fuzz;
+#[cfg(feature = "cameras")]
+mod gltf;
 pub mod matches;
+#[cfg(feature = "cameras")]
+pub mod mesh;
 #[cfg(feature = "cameras")]
 pub mod model;
 #[cfg(feature = "photos")]

@@ -8,20 +8,24 @@ mod colmap_rigs;
 mod colmap_text;
 #[cfg(test)]
 mod example;
+mod folder;
 mod format;
+mod frustum;
 #[cfg(test)]
 mod fuzz;
 mod gltf;
-mod image_size;
+mod html;
 mod nerfstudio;
 mod notes;
 mod openmvg;
 mod reconstruction;
 mod rig;
 
+pub use folder::ModelFolder;
 pub use format::{ModelFormat, ReadModel, format_of_file, read_model_file, read_model_folder};
 pub use rig::{Rig, RigCamera, RigFrame};
 
+use crate::trajectory::Trajectory;
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::stereo::PointCloud;
@@ -98,9 +102,6 @@ fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
         .collect()
 }
 
-/// Content of a file of the same folder, by its name.
-type Beside<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
-
 /// Cameras in the order in which they come, each once.
 #[derive(Default)]
 struct CameraList {
@@ -158,6 +159,15 @@ impl ModelFile {
 }
 
 impl Model {
+    /// Poses of the images in their order, without times.
+    pub fn trajectory(&self) -> Trajectory {
+        let poses = self.images.iter();
+        Trajectory {
+            world_from_cam: poses.map(|image| image.cam_from_world.inverse()).collect(),
+            ..Trajectory::default()
+        }
+    }
+
     /// # Errors
     /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same
     /// number, or an image is elsewhere than its rig has it.

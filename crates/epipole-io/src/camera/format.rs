@@ -45,4 +45,24 @@ impl CameraFormat {
             Self::Flat => "plain numbers",
         }
     }
+    /// Pixels of the format, in a sentence. Cameras that were read have centers at integers.
+    pub fn convention(self) -> &'static str {
+        match self {
+            Self::Epipole
+            | Self::OpenCv
+            | Self::Ros
+            | Self::Kalibr
+            | Self::Kitti
+            | Self::Middlebury
+            | Self::Flat => "pixel centers at integers",
+            Self::Colmap | Self::NerfStudio => {
+                "pixel centers at halves in the file, converted to integers"
+            }
+            Self::Metashape => {
+                "principal point from the middle of the image in the file, converted to pixel \
+                 centers at integers"
+            }
+            Self::Matlab => "pixels from 1 in the file, converted to pixels from 0",
+        }
+    }
 }

@@ -349,6 +349,11 @@ fn left_out(element: &Element) -> Option<String> {
 /// assert_eq!(read_ply(&write_ply(&cloud)).unwrap().0, cloud);
 /// ```
 pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
+    ply_of(cloud, &[])
+}
+
+/// Bytes of a PLY file with faces, if there are any.
+pub(crate) fn ply_of(cloud: &PointCloud, triangles: &[[u32; 3]]) -> Vec<u8> {
     let is_whole = |len: usize| len > 0 && len == cloud.points.len();
     let has_normals = is_whole(cloud.normals.len());
     let has_colors = is_whole(cloud.colors.len());
@@ -365,9 +370,13 @@ pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
         (has_confidences, "property float confidence\n"),
     ];
     let parts = parts.iter().filter(|(has, _)| *has).map(|(_, part)| *part);
+    let faces = match triangles.len() {
+        0 => String::new(),
+        count => format!("element face {count}\nproperty list uchar uint vertex_indices\n"),
+    };
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n\
-         property float x\nproperty float y\nproperty float z\n{}end_header\n",
+         property float x\nproperty float y\nproperty float z\n{}{faces}end_header\n",
         cloud.points.len(),
         parts.collect::<String>()
     )
@@ -387,6 +396,10 @@ pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
         if has_confidences {
             bytes.extend(cloud.confidences[index].to_le_bytes());
         }
+    }
+    for triangle in triangles {
+        bytes.push(3);
+        bytes.extend(triangle.iter().flat_map(|vertex| vertex.to_le_bytes()));
     }
     bytes
 }

@@ -7,8 +7,7 @@
 //!
 //! Source: Snavely, "Bundler v0.4 User's Manual", §"Output format and scene representation".
 
-use super::image_size::image_size;
-use super::{Beside, CameraList, Model, ModelFile, ModelImage, ModelPoint};
+use super::{CameraList, Model, ModelFile, ModelFolder, ModelImage, ModelPoint};
 use crate::rotation::{FOUR_DIGITS, half_turn, pose, rotation_from_matrix};
 use crate::text::number;
 use crate::{Error, Result, text};
@@ -79,7 +78,7 @@ struct Entry {
 pub(super) fn read(
     bytes: &[u8],
     lists: &[String],
-    beside: &Beside<'_>,
+    folder: &dyn ModelFolder,
 ) -> Result<(Model, Vec<String>)> {
     let text = text::decode(bytes)?;
     let words = text::lines(text);
@@ -125,7 +124,7 @@ pub(super) fn read(
         points.push((position, color));
         tracks.push(track);
     }
-    let list = lists.iter().find_map(|name| beside(name));
+    let list = lists.iter().find_map(|name| folder.file(name));
     let names = match &list {
         Some(bytes) => names(text::decode(bytes)?),
         None => Vec::new(),
@@ -151,7 +150,7 @@ pub(super) fn read(
             num_without += 1;
             continue;
         };
-        let size = names.get(index).and_then(|name| image_size(name, beside));
+        let size = names.get(index).and_then(|name| folder.image_size(name));
         num_unknown += usize::from(size.is_none());
         let (width, height) = size.unwrap_or(smallest);
         let [f, k1, k2] = entry.focal;
@@ -349,7 +348,7 @@ mod tests {
     #[test]
     fn wrong_values_are_named() {
         let of = |text: &str| {
-            let read = read(text.as_bytes(), &["list.txt".to_owned()], &|_| None);
+            let read = read(text.as_bytes(), &["list.txt".to_owned()], &|_: &str| None);
             read.unwrap_err().to_string()
         };
         assert!(of(&FILE[..60]).contains("the file ends"));

@@ -2,11 +2,13 @@
 
 use super::notes::has_blank;
 use super::{
-    Beside, Model, ModelFile, bundler, colmap_binary, colmap_text, nerfstudio, openmvg, points_of,
+    Model, ModelFile, ModelFolder, bundler, colmap_binary, colmap_text, nerfstudio, openmvg,
+    points_of,
 };
 use crate::cloud::read_ply;
 use crate::{Error, Result};
 use epipole::camera::LensKind;
+use epipole::mvs::Mesh;
 
 /// Formats of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +28,8 @@ pub enum ModelFormat {
     Ply,
     /// Points and cameras in a binary glTF file: written only.
     Glb,
+    /// Points and cameras in a page for browsers: written only.
+    Html,
 }
 
 impl ModelFormat {
@@ -39,6 +43,7 @@ impl ModelFormat {
             Self::OpenMvg => "openmvg",
             Self::Ply => "ply",
             Self::Glb => "glb",
+            Self::Html => "html",
         }
     }
 
@@ -61,6 +66,7 @@ impl ModelFormat {
             }
             Self::Ply => "points of the world",
             Self::Glb => "y up, cameras looking along -z, the world turned by half a turn about x",
+            Self::Html => "a page that shows points and cameras of the world",
         }
     }
 
@@ -108,7 +114,9 @@ impl ModelFormat {
                 losses.push("colors and keypoints without a point are not written".to_owned());
             }
             Self::Ply if has_images => losses.push("only the points are written".to_owned()),
-            Self::Glb if has_tracks => losses.push("tracks are not written".to_owned()),
+            Self::Glb | Self::Html if has_tracks => {
+                losses.push("tracks are not written".to_owned())
+            }
             _ => {}
         }
         losses
@@ -137,7 +145,7 @@ fn with_format(format: ModelFormat, (model, notes): (Model, Vec<String>)) -> Rea
 /// Reads the model in a folder: COLMAP's files, binary ones first as COLMAP does, or one of
 /// `transforms.json`, `sfm_data.json`, `bundle.out` and `points.ply`. `None` if there is none.
 ///
-/// * `file`: the content of a file of the folder, `None` if it is not there
+/// * `folder`: its files
 ///
 /// # Errors
 /// As [`read_model_file`]; [`Error::Malformed`] also if one of COLMAP's files is missing.
@@ -154,7 +162,7 @@ fn with_format(format: ModelFormat, (model, notes): (Model, Vec<String>)) -> Rea
 /// assert_eq!((read.model.images[0].id, &*read.model.images[0].name), (3, "a photo.jpg"));
 /// # Ok::<(), epipole_io::Error>(())
 /// ```
-pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
+pub fn read_model_folder(folder: &dyn ModelFolder) -> Result<Option<ReadModel>> {
     type Read = fn(&[u8], &[u8], Option<&[u8]>, Option<[&[u8]; 2]>) -> Result<(Model, Vec<String>)>;
     let readers: [(_, _, Read); 2] = [
         ("bin", ModelFormat::ColmapBinary, colmap_binary::read),
@@ -162,14 +170,15 @@ pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
     ];
     for (ending, format, read) in readers {
         let [cameras, images, points] =
-            ["cameras", "images", "points3D"].map(|name| file(&format!("{name}.{ending}")));
+            ["cameras", "images", "points3D"].map(|name| folder.file(&format!("{name}.{ending}")));
         let (cameras, images) = match (cameras, images) {
             (Some(cameras), Some(images)) => (cameras, images),
             (Some(_), None) => return Err(alone("cameras", "images", ending)),
             (None, Some(_)) => return Err(alone("images", "cameras", ending)),
             (None, None) => continue,
         };
-        let [rigs, frames] = ["rigs", "frames"].map(|name| file(&format!("{name}.{ending}")));
+        let [rigs, frames] =
+            ["rigs", "frames"].map(|name| folder.file(&format!("{name}.{ending}")));
         let of_rigs = rigs.as_deref().zip(frames.as_deref()).map(|(r, f)| [r, f]);
         let joined = read(&cameras, &images, points.as_deref(), of_rigs)?;
         let mut read = with_format(format, joined);
@@ -191,8 +200,8 @@ pub fn read_model_folder(file: &Beside<'_>) -> Result<Option<ReadModel>> {
         "bundle.out",
         "points.ply",
     ] {
-        if let Some(bytes) = file(name) {
-            return read_model_file(name, &bytes, file).map(Some);
+        if let Some(bytes) = folder.file(name) {
+            return read_model_file(name, &bytes, folder).map(Some);
         }
     }
     Ok(None)
@@ -207,12 +216,12 @@ fn alone(this: &str, other: &str, ending: &str) -> Error {
 /// Reads a model of one file, which its content tells.
 ///
 /// * `name`: of the file, within its folder
-/// * `beside`: the content of another file of the folder, `None` if it is not there
+/// * `folder`: the other files
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line or place, [`Error::Unsupported`] for another format and for
 /// cameras that the library does not have, [`Error::Invalid`] for impossible cameras.
-pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<ReadModel> {
+pub fn read_model_file(name: &str, bytes: &[u8], folder: &dyn ModelFolder) -> Result<ReadModel> {
     let unknown = || {
         Error::unsupported(format!(
             "{name} is no model: expected a folder of COLMAP, transforms.json, sfm_data.json, \
@@ -236,13 +245,14 @@ pub fn read_model_file(name: &str, bytes: &[u8], beside: &Beside<'_>) -> Result<
                 format!("{name}.list.txt"),
                 format!("{stem}.list.txt"),
             ];
-            bundler::read(bytes, &lists, beside)?
+            bundler::read(bytes, &lists, folder)?
         }
         ModelFormat::OpenMvg => openmvg::read(bytes)?,
-        ModelFormat::Transforms => nerfstudio::read(bytes, beside)?,
-        ModelFormat::ColmapText | ModelFormat::ColmapBinary | ModelFormat::Glb => {
-            return Err(unknown());
-        }
+        ModelFormat::Transforms => nerfstudio::read(bytes, folder)?,
+        ModelFormat::ColmapText
+        | ModelFormat::ColmapBinary
+        | ModelFormat::Glb
+        | ModelFormat::Html => return Err(unknown()),
     };
     Ok(with_format(format, read))
 }
@@ -282,6 +292,10 @@ impl Model {
             ModelFormat::OpenMvg => self.to_openmvg(),
             ModelFormat::Ply => Ok(vec![ModelFile::new("points.ply", self.to_ply())]),
             ModelFormat::Glb => Ok(vec![ModelFile::new("model.glb", self.to_glb()?)]),
+            ModelFormat::Html => Ok(vec![ModelFile::new(
+                "model.html",
+                self.to_html(&Mesh::default())?,
+            )]),
         }
     }
 }

@@ -255,7 +255,7 @@ proptest! {
             b"{\"frames\": [", b"{\"sfm_data_version\": ",
         ];
         let bytes = [starts[start], &bytes].concat();
-        if let Ok(read) = read_model_file("a.out", &bytes, &|_| Some(bytes.clone())) {
+        if let Ok(read) = read_model_file("a.out", &bytes, &|_: &str| Some(bytes.clone())) {
             check(&read.model)?;
         }
         for ending in ["bin", "txt"] {

@@ -7,9 +7,8 @@
 //! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
 //! equation of the lens.
 
-use super::image_size::image_size;
 use super::notes::LeftOut;
-use super::{Beside, CameraList, Model, ModelFile, ModelImage, points_of};
+use super::{CameraList, Model, ModelFile, ModelFolder, ModelImage, points_of};
 use crate::camera::nerfstudio::camera_of_frame;
 use crate::cloud::read_ply;
 use crate::error::set_aside;
@@ -48,10 +47,10 @@ fn cam_from_world(matrix: &Field<'_>) -> Result<RigidTransform> {
 
 /// Reads a document.
 ///
-/// * `beside`: files of its folder, for the points
+/// * `folder`: its folder, for the points
 ///
 /// Returned with it: sentences on what was left out.
-pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<String>)> {
+pub(super) fn read(bytes: &[u8], folder: &dyn ModelFolder) -> Result<(Model, Vec<String>)> {
     let node = Syntax::Json.parse(text::decode(bytes)?)?;
     let document = Field::root(&node);
     let (mut cameras, mut images) = (CameraList::default(), Vec::new());
@@ -61,7 +60,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
         None => (frames
             .first()
             .and_then(|frame| frame.get("file_path")?.text()))
-        .and_then(|name| image_size(name, beside)),
+        .and_then(|name| folder.image_size(name)),
     };
     let (mut left_out, mut kept) = (LeftOut::default(), Vec::new());
     for (index, frame) in frames.iter().enumerate() {
@@ -96,7 +95,7 @@ pub(super) fn read(bytes: &[u8], beside: &Beside<'_>) -> Result<(Model, Vec<Stri
     let mut points = Vec::new();
     if let Some(path) = document.get("ply_file_path") {
         let path = path.word()?;
-        match beside(path.trim_start_matches("./")) {
+        match folder.file(path.trim_start_matches("./")) {
             Some(bytes) => {
                 let (cloud, of_points) = read_ply(&bytes).map_err(|error| error.in_file(path))?;
                 points = points_of(cloud);
@@ -217,7 +216,7 @@ mod tests {
                 [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]] },
               { "file_path": "c.png", "colmap_im_id": 5, "fl_x": 400, "fl_y": 410, "cx": 300.5,
                 "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] } ] }"#;
-        let (model, notes) = read(text.as_bytes(), &|_| None).unwrap();
+        let (model, notes) = read(text.as_bytes(), &|_: &str| None).unwrap();
         let first = &model.images[0];
         assert_eq!((first.id, &*first.name), (7, "./images/a b.png"));
         assert_eq!(first.center_in_world(), Point3::new(1.0, 2.0, 3.0));
@@ -248,7 +247,11 @@ mod tests {
 
     #[test]
     fn missing_and_wrong_values_are_named() {
-        let of = |text: &str| read(text.as_bytes(), &|_| None).unwrap_err().to_string();
+        let of = |text: &str| {
+            read(text.as_bytes(), &|_: &str| None)
+                .unwrap_err()
+                .to_string()
+        };
         let frame = r#"{ "frames": [ { "file_path": "a", "transform_matrix": [] } ]"#;
         assert!(of("{}").contains("frames is missing"));
         assert!(of(&format!("{frame} }}")).contains("w and h are missing"));

@@ -25,8 +25,8 @@ pub struct PrepareOptions<'a> {
     /// Length of the longer side of the camera's sensor, millimeters, for files that have the focal
     /// length in millimeters only.
     pub sensor_width_mm: Option<f64>,
-    /// Undistortion for images of one camera, those with its sensor's size before they are turned
-    /// upright.
+    /// Undistortion for images of one camera: those with its size before they are turned upright,
+    /// or else after.
     pub undistortion: Option<&'a Undistortion>,
 }
 
@@ -79,26 +79,30 @@ impl PreparedPhoto {
     }
 
     /// The camera of the prepared image, rotated and downscaled with it; `None` for another camera:
-    /// the sensor has another size, or the photograph was mirrored. For photographs that keep their
-    /// distortion.
+    /// neither the sensor nor the upright photograph has its size, or the photograph was mirrored.
+    /// For photographs that keep their distortion.
     ///
-    /// * `of_sensor`: the camera in the sensor's orientation and size
+    /// * `camera`: of the sensor's orientation and size, or of those of the photograph upright
     ///
     /// # Errors
     /// As [`Intrinsics::resized`].
-    pub fn camera(&self, of_sensor: &Camera) -> Result<Option<Camera>> {
-        let its_own = (of_sensor.width, of_sensor.height) == self.sensor_size;
-        let Some(quarters) = self.quarters.filter(|_| its_own) else {
+    pub fn camera(&self, camera: &Camera) -> Result<Option<Camera>> {
+        let size = (camera.width, camera.height);
+        let quarters = match size == self.sensor_size {
+            true => self.quarters,
+            false => (size == self.full_size).then_some(0),
+        };
+        let Some(quarters) = quarters else {
             return Ok(None);
         };
-        let k = of_sensor.intrinsics.turned(quarters, self.sensor_size);
+        let k = camera.intrinsics.turned(quarters, size);
         let (width, height) = self.image.dimensions();
         Ok(Some(Camera {
             intrinsics: match self.full_size == (width, height) {
                 true => k,
                 false => k.resized(self.full_size, (width, height))?,
             },
-            lens: of_sensor.lens.turned(quarters),
+            lens: camera.lens.turned(quarters),
             width,
             height,
         }))
@@ -110,7 +114,8 @@ impl PreparedPhoto {
 ///
 /// The lens is fixed to the sensor: a camera calibrated with photographs in the sensor's
 /// orientation also serves for photographs taken upright, if their files have the orientation. It
-/// does not serve for a mirrored photograph.
+/// does not serve for a mirrored photograph. A camera that has the size of the upright photograph
+/// alone was calibrated with photographs that were turned, as OpenCV reads them.
 ///
 /// # Errors
 /// As [`decode_rgb`].
@@ -136,18 +141,29 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     let decoded = decode_rgb(bytes, &as_stored)?;
     let sensor_size = decoded.image.dimensions();
     let quarters = quarters(decoded.orientation);
-    let its_own = |flat: &&Undistortion| (flat.map.width(), flat.map.height()) == sensor_size;
-    let redrawn = options.undistortion.filter(its_own).zip(quarters);
-    let (image, intrinsics) = match redrawn {
+    let of_size = |size| {
+        let has_size = |flat: &&Undistortion| (flat.map.width(), flat.map.height()) == size;
+        options.undistortion.filter(has_size)
+    };
+    let turn = |image: RgbImage| {
+        let mut image = DynamicImage::from(image);
+        image.apply_orientation(decoded.orientation);
+        image.into_rgb8()
+    };
+    let (image, intrinsics) = match of_size(sensor_size).zip(quarters) {
         Some((flat, quarters)) => (
-            flat.map.warp(&decoded.image, &mut ())?,
+            turn(flat.map.warp(&decoded.image, &mut ())?),
             Some(flat.intrinsics.turned(quarters, sensor_size)),
         ),
-        None => (decoded.image, None),
+        None => {
+            let upright = turn(decoded.image);
+            let is_turned = upright.dimensions() != sensor_size;
+            match of_size(upright.dimensions()).filter(|_| is_turned) {
+                Some(flat) => (flat.map.warp(&upright, &mut ())?, Some(flat.intrinsics)),
+                None => (upright, None),
+            }
+        }
     };
-    let mut image = DynamicImage::from(image);
-    image.apply_orientation(decoded.orientation);
-    let image = image.into_rgb8();
     let full_size = image.dimensions();
     let image = reduce_rgb(image, options.max_pixels);
     let size = image.dimensions();
@@ -162,7 +178,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
         quarters,
         range: decoded.range,
         is_as_stored: decoded.orientation == Orientation::NoTransforms
-            && redrawn.is_none()
+            && intrinsics.is_none()
             && decoded.range.is_none()
             && size == full_size,
     };
@@ -269,6 +285,28 @@ mod tests {
             let its_ray = photo.intrinsics.unwrap().ray(&place(at.0, at.1));
             assert!((its_ray.x - turned[0]).abs() < 1e-12, "{orientation}");
             assert!((its_ray.y - turned[1]).abs() < 1e-12, "{orientation}");
+        }
+    }
+
+    #[test]
+    fn a_camera_of_upright_photographs_serves_as_it_is() {
+        let upright = image::imageops::rotate90(&smooth());
+        let lens = camera().lens.turned(1);
+        let camera = Camera {
+            lens,
+            ..Camera::pinhole(camera().intrinsics.turned(1, (80, 60)), 60, 80)
+        };
+        let flat = Undistortion::new(&camera, Keep::Valid, &mut ()).unwrap();
+        let options = PrepareOptions {
+            undistortion: Some(&flat),
+            ..PrepareOptions::default()
+        };
+        for bytes in [file(&smooth(), 6), file(&upright, 1)] {
+            let photo = prepare_photo(&bytes, &options).unwrap();
+            assert_eq!(photo.image, flat.map.warp(&upright, &mut ()).unwrap());
+            assert_eq!(photo.intrinsics, Some(flat.intrinsics));
+            assert!(!photo.is_as_stored);
+            assert_eq!(photo.camera(&camera), Ok(Some(camera)));
         }
     }
 
