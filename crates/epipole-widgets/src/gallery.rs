@@ -14,17 +14,20 @@ mod epipolar_plane;
 mod flat_scene;
 mod flow_window;
 mod four_poses;
+mod fundamental_entries;
 mod gradient_field;
 pub mod harris;
 mod homography_drag;
 mod incremental_sfm;
 mod kernel_stepper;
+mod keypoint_orientation;
 mod lens_bend;
 mod odometry;
 mod optimal_plane;
 mod outlier_drag;
 mod panorama;
 mod patch_match;
+mod path_costs;
 mod plane_or_not;
 pub mod ransac_budget;
 pub mod ransac_epipolar;
@@ -90,11 +93,13 @@ figures![
     sub_pixel::View,
     patch_match::View,
     ratio_test::View,
+    keypoint_orientation::View,
     sift_descriptor::View,
     scale_space::View,
     epipolar_click::View,
     epipolar_plane::View,
     eight_point::View,
+    fundamental_entries::View,
     flat_scene::View,
     column_sizes::View,
     outlier_drag::View,
@@ -108,6 +113,7 @@ figures![
     rectify::View,
     window_search::View,
     disparity_map::View,
+    path_costs::View,
     four_poses::View,
     two_view_sfm::View,
     incremental_sfm::View,

@@ -60,6 +60,12 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
     ("sub-pixel", "noise=10", "sub-pixel.png", Theme::Light),
     ("three-rays", "", "three-rays.png", Theme::Light),
     ("flat-scene", "spread=0", "flat-scene.png", Theme::Light),
+    (
+        "fundamental-entries",
+        "entry=f11&change=0.20",
+        "fundamental-entries.png",
+        Theme::Dark,
+    ),
     ("ransac-race", "", "ransac-race.png", Theme::Light),
     ("scale-drift", "", "scale-drift.png", Theme::Light),
     ("stereo-slider", "", "stereo-slider.png", Theme::Light),
@@ -73,6 +79,18 @@ const GOLDEN: &[(&str, &str, &str, Theme)] = &[
         "window-search",
         "window=5&place=170,214&candidate=22,0",
         "window-search.png",
+        Theme::Dark,
+    ),
+    (
+        "path-costs",
+        "place=196,108",
+        "path-costs.png",
+        Theme::Light,
+    ),
+    (
+        "keypoint-orientation",
+        "keypoint=144,96",
+        "keypoint-orientation.png",
         Theme::Dark,
     ),
 ];

@@ -51,6 +51,15 @@ pub(crate) fn distance_px(fundamental: &Matrix3<f64>, (pixel1, pixel2): &Match) 
     Some(line.signed_distance(pixel2).abs())
 }
 
+/// Returns the mean distance of the second pixels from the lines of the first, pixels.
+pub(crate) fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
+    let distances = matches
+        .iter()
+        .filter_map(|found| distance_px(fundamental, found));
+    let distances: Vec<f64> = distances.collect();
+    distances.iter().sum::<f64>() / distances.len().max(1) as f64
+}
+
 /// Cache size in seeds: the first ones, which fresh figures use, and the last one.
 const MOST_KEPT: usize = 8;
 

@@ -3,6 +3,7 @@
 //! | module | purpose |
 //! |---|---|
 //! | [`question`] | a computation that takes long: asked, carried out elsewhere, answered |
+//! | [`changed`] | a photograph that is turned, scaled and lit otherwise, around a place |
 //! | [`patch`] | what the windows of features show, for comparison |
 //! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
@@ -12,7 +13,7 @@
 //! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
 //! | [`points`] | points that the reader drags, adds and removes |
 //! | [`running`], [`timeline`] | a loop that runs, steps and starts over; frames of a video |
-//! | [`matches`] | exact and noisy matches of the still life |
+//! | [`matches`], [`meeting`] | exact and noisy matches of the still life; where lines meet |
 //! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
 //! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
 //! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
@@ -31,6 +32,7 @@
 //! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
 
 pub(crate) mod cells;
+pub(crate) mod changed;
 pub(crate) mod corners;
 pub(crate) mod features;
 pub(crate) mod geometry;
@@ -43,6 +45,7 @@ pub(crate) mod lens;
 pub(crate) mod line_plane;
 pub(crate) mod line_points;
 pub(crate) mod matches;
+pub(crate) mod meeting;
 pub(crate) mod orbit;
 pub(crate) mod pair;
 pub(crate) mod patch;

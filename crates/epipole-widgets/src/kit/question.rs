@@ -1,8 +1,8 @@
 //! Questions: long computations, their answers, and a model's state of both.
 //!
-//! A figure's `question.rs` defines the computation ([`Question`]); its model holds an [`Asked`]
-//! and returns it from [`Model::asking`](crate::contract::Model::asking). Answers of a worker are
-//! validated before use.
+//! A figure's `question.rs` defines the computation ([`Question`]); its model holds a
+//! [`Computation`] and returns it from [`Model::asking`](crate::contract::Model::asking). Answers
+//! of a worker are validated before use.
 
 use crate::contract::{Asking, Job, JobResult, Problem, Progress};
 #[cfg(test)]
@@ -63,14 +63,14 @@ struct Out<Q> {
 }
 
 /// State of a question: pending, answered or failed.
-pub(crate) struct Asked<Q: Question> {
+pub(crate) struct Computation<Q: Question> {
     out: Option<Out<Q>>,
     known: Option<(Q, Q::Answer)>,
     problem: Option<String>,
     version: u64,
 }
 
-impl<Q: Question> Default for Asked<Q> {
+impl<Q: Question> Default for Computation<Q> {
     fn default() -> Self {
         Self {
             out: None,
@@ -81,9 +81,9 @@ impl<Q: Question> Default for Asked<Q> {
     }
 }
 
-impl<Q: Question> Asked<Q> {
+impl<Q: Question> Computation<Q> {
     /// Creates a state with this question pending.
-    pub(crate) fn about(question: Q) -> Self {
+    pub(crate) fn of(question: Q) -> Self {
         let mut asked = Self::default();
         asked.ask(question);
         asked
@@ -162,7 +162,7 @@ impl<Q: Question> Asked<Q> {
     }
 }
 
-impl<Q: Question> Asking for Asked<Q> {
+impl<Q: Question> Asking for Computation<Q> {
     fn job(&self) -> Option<&dyn Job> {
         self.out.as_ref().map(|out| out as &dyn Job)
     }
@@ -264,7 +264,7 @@ mod tests {
         }
     }
 
-    fn settle(asked: &mut Asked<Half>) -> bool {
+    fn settle(asked: &mut Computation<Half>) -> bool {
         let request = asked.job().unwrap().request();
         let result = carry_out::<Half>(&request, &mut |_| ControlFlow::Continue(()));
         asked.take(result)
@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn a_question_is_out_until_it_is_answered() {
-        let mut asked = Asked::about(Half(3.0));
+        let mut asked = Computation::of(Half(3.0));
         let key = asked.job().unwrap().key();
         assert!(asked.is_waiting() && asked.answer().is_none());
         assert!(settle(&mut asked) && !asked.is_waiting());
@@ -306,15 +306,15 @@ mod tests {
             ),
             (ended, "There is no half: the worker has gone."),
         ] {
-            let mut asked = Asked::about(Half(1.0));
+            let mut asked = Computation::of(Half(1.0));
             assert!(!asked.take(result));
             assert_eq!(asked.problem(), Some(sentence));
             assert!(!asked.is_waiting() && !asked.take(Ok(Vec::new())));
         }
         assert!(carry_out::<Half>(&[], &mut |_| ControlFlow::Continue(())).is_err());
-        let request = Asked::about(Half(1.0)).job().unwrap().request();
+        let request = Computation::of(Half(1.0)).job().unwrap().request();
         assert!(carry_out::<Half>(&request, &mut |_| ControlFlow::Break(())).is_err());
-        let mut asked = Asked::about(Half(1.0));
+        let mut asked = Computation::of(Half(1.0));
         asked.refuse("Choose a number.");
         assert_eq!(
             (asked.problem(), asked.is_waiting()),

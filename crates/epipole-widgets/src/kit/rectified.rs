@@ -3,7 +3,7 @@
 use crate::canvas::{Canvas, Place, Stroke};
 use crate::contract::{Problem, Progress, Rect};
 use crate::kit::picture::Picture;
-use crate::kit::question::tell;
+use crate::kit::question::{Question, tell};
 use crate::theme::Role;
 use epipole::Error;
 use epipole::camera::{PosedCamera, RigidTransform};
@@ -88,6 +88,27 @@ impl RectifiedPair {
     /// Whether a pixel of the left photograph is hidden from the right camera.
     pub(crate) fn is_hidden(&self, u: u32, v: u32) -> bool {
         self.hidden.get(index(u, v)).copied().unwrap_or(false)
+    }
+}
+
+/// The request for the pair at a baseline of [`BASELINE_M`]; it has no parameters.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PairQuestion;
+
+/// Distance between the cameras of a [`PairQuestion`], meters.
+pub(crate) const BASELINE_M: f64 = 0.08;
+
+impl Question for PairQuestion {
+    type Answer = RectifiedPair;
+    const LABEL: &'static str = "Taking the photographs";
+    const FAILED: &'static str = "There are no photographs";
+
+    fn answer(&self, progress: Progress<'_>) -> Result<RectifiedPair, Problem> {
+        RectifiedPair::render(BASELINE_M, progress)
+    }
+
+    fn fits(&self, answer: &RectifiedPair) -> bool {
+        answer.fits()
     }
 }
 

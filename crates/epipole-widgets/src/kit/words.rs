@@ -138,6 +138,16 @@ pub(crate) fn magnitude(value: f64, largest: f64) -> String {
     }
 }
 
+/// Formats a number as [`magnitude`] does, with its sign.
+pub(crate) fn signed(value: f64, largest: f64) -> String {
+    let text = magnitude(value.abs(), largest);
+    if value < 0.0 && text != "0" {
+        format!("−{text}")
+    } else {
+        text
+    }
+}
+
 fn with_power(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -183,6 +193,8 @@ mod tests {
         assert_eq!(magnitude(0.0217, 1.0), "0.022");
         assert_eq!(magnitude(3e-9, 1.0), "3.00·10⁻⁹");
         assert_eq!(magnitude(3e-9, 1e6), "0");
+        assert_eq!(signed(-0.0217, 1.0), "−0.022");
+        assert_eq!([-1e-15, 0.0].map(|value| signed(value, 1.0)), ["0", "0"]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::contract::{
 use crate::kit::house::{House, SIZE};
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::running::Running;
 
 const LOSS: Choice = Choice::new(
@@ -56,7 +56,7 @@ pub(crate) struct BundleAdjustment {
     house: Option<House>,
     /// Feature of the ridge's end in the photograph shown, pixels.
     pub(super) mark: Probe,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     running: Running,
 }
 
@@ -139,7 +139,7 @@ impl Declared for BundleAdjustment {
             orbit: Orbit::new(-9.0, 34.0),
             mark: home(house.as_ref()),
             house,
-            asked: Asked::default(),
+            asked: Computation::default(),
             running: Running::at(STEPS_PER_SECOND),
         };
         model.ask();

@@ -5,7 +5,7 @@ use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, Problem, Settings,
     Slider, knobs,
 };
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 /// The views that are used, a bit each.
 const VIEWS: Slider = Slider::new("views", "Views used")
@@ -34,7 +34,7 @@ pub(super) const VIEW_IDS: [&str; NUM_VIEWS] = ["1", "2", "3", "4", "5", "6", "7
 /// The model of `calibrate`.
 pub(crate) struct Calibrate {
     settings: Settings,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl Calibrate {
@@ -84,7 +84,7 @@ impl Declared for Calibrate {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.ask();
         model

@@ -5,7 +5,7 @@ use crate::contract::{
     Model, Problem, Settings, Slider, Space, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::reconstruction::{Answer, Question, Source};
 
 const STEP: Choice = Choice::new(
@@ -36,7 +36,7 @@ const STEPS_PER_SECOND: f64 = 0.5;
 pub(crate) struct Cover {
     settings: Settings,
     pub(super) orbit: Orbit,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     is_playing: bool,
 }
 
@@ -78,7 +78,7 @@ impl Declared for Cover {
         Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-40.0, 22.0),
-            asked: Asked::about(Question {
+            asked: Computation::of(Question {
                 source: Source::Step,
                 focal: 1.25,
                 max_ratio: 0.8,

@@ -6,7 +6,7 @@ use crate::contract::{
     Settings, Slider, Toggle, knobs,
 };
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::rectified::SIZE;
 
 const METHOD: Choice = Choice::new(
@@ -40,7 +40,7 @@ const PROBE: Probe = Probe::new("probe", "left", "Probe")
 pub(crate) struct DisparityMap {
     settings: Settings,
     pub(super) probe: Probe,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 /// Disparity found and true disparity at the probe, pixels.
@@ -97,7 +97,7 @@ impl Declared for DisparityMap {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             probe: PROBE,
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.ask();
         model

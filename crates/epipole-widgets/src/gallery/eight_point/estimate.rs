@@ -1,11 +1,11 @@
 //! F from matches by the core's eight-point algorithm, and its quality.
 
-use crate::kit::matches::{Match, distance_px, line2};
+use crate::kit::matches::{Match, mean_distance_px};
+use crate::kit::meeting::Meeting;
 use epipole::epipolar::{
     EightPoint, fundamental_8point_explained, fundamental_8point_unnormalized,
 };
-use epipole::math::Line2;
-use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
+use nalgebra::Matrix3;
 
 /// F with and without normalization, and the quality of the chosen one.
 pub(super) struct Estimate {
@@ -22,14 +22,6 @@ pub(super) struct Estimate {
     pub(super) used_px: f64,
     /// The same for exact matches held out of the estimation.
     pub(super) held_out_px: f64,
-}
-
-/// The least-squares intersection of many lines.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting {
-    pub(super) place: Point2<f64>,
-    /// Mean distance of the lines from it, pixels.
-    pub(super) miss_px: f64,
 }
 
 impl Estimate {
@@ -54,7 +46,7 @@ impl Estimate {
         };
         Ok(Self {
             fundamental,
-            meeting: meeting(&fundamental, &pixels1),
+            meeting: Meeting::of(&fundamental, &pixels1),
             used_px: mean_distance_px(&fundamental, &used),
             held_out_px: mean_distance_px(&fundamental, held_out),
             used,
@@ -77,53 +69,5 @@ impl Estimate {
         } else {
             &self.raw
         }
-    }
-}
-
-/// Returns the mean distance of the second pixels from the lines of the first, pixels.
-fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) -> f64 {
-    let distances = matches
-        .iter()
-        .filter_map(|found| distance_px(fundamental, found));
-    let distances: Vec<f64> = distances.collect();
-    distances.iter().sum::<f64>() / distances.len().max(1) as f64
-}
-
-/// Returns the least-squares intersection of the epipolar lines of these pixels; `None` if they are
-/// nearly parallel.
-fn meeting(fundamental: &Matrix3<f64>, pixels1: &[Point2<f64>]) -> Option<Meeting> {
-    let lines: Vec<Line2> = pixels1
-        .iter()
-        .filter_map(|pixel1| line2(fundamental, pixel1))
-        .collect();
-    let (mut normals, mut offsets) = (Matrix2::zeros(), Vector2::zeros());
-    for line in &lines {
-        let normal = Vector2::new(line.a, line.b);
-        normals += normal * normal.transpose();
-        offsets -= normal * line.c;
-    }
-    let trace = normals.trace();
-    // Nearly parallel lines, or none at all.
-    if normals.determinant().max(0.0) <= 1e-6 * trace * trace {
-        return None;
-    }
-    let place = Point2::from(normals.try_inverse()? * offsets);
-    let distance = |line: &Line2| line.signed_distance(&place).abs();
-    Some(Meeting {
-        place,
-        miss_px: lines.iter().map(distance).sum::<f64>() / lines.len() as f64,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parallel_lines_meet_nowhere() {
-        // For a step to the right the lines are rows.
-        let fundamental = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
-        let pixels = [(10.0, 20.0), (300.0, 50.0), (90.0, 400.0)];
-        assert!(meeting(&fundamental, &pixels.map(|(u, v)| Point2::new(u, v))).is_none());
     }
 }

@@ -12,7 +12,7 @@ use crate::contract::{
 use crate::kit::geometry::match_symbols;
 use crate::kit::matches::{MAX_USED, Matches, cameras, distance_px, exact_match, line2};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::scenes::PHOTO_SIZE;
 use epipole::epipolar::{Epipole, epipoles, fundamental_from_cameras};
 use nalgebra::{Matrix3, Point2};
@@ -41,7 +41,7 @@ const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
 pub struct EightPoint {
     settings: Settings,
     probe: Probe,
-    asked: Asked<Question>,
+    asked: Computation<Question>,
     estimate: OnceCell<Result<Estimate, String>>,
 }
 
@@ -129,7 +129,7 @@ impl Declared for EightPoint {
         Self {
             settings: Settings::new(KNOBS),
             probe: PROBE,
-            asked: Asked::about(Question),
+            asked: Computation::of(Question),
             estimate: OnceCell::new(),
         }
     }

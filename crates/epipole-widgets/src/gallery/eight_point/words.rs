@@ -1,13 +1,11 @@
 //! Readouts and description of `eight-point`.
 
-use super::estimate::{Estimate, Meeting};
+use super::estimate::Estimate;
 use super::model::EightPoint;
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::meeting::Meeting;
 use crate::kit::words;
 use epipole::math::svd3;
-
-/// Mean distance below which the lines count as meeting, pixels.
-const MEETS_PX: f64 = 1e-6;
 
 impl Words for EightPoint {
     fn readouts(&self) -> Vec<Readout> {
@@ -54,7 +52,7 @@ impl Words for EightPoint {
             },
             words::magnitude(estimate.chosen().condition_number, 0.0),
             match estimate.meeting {
-                Some(meeting) if meeting.miss_px < MEETS_PX =>
+                Some(meeting) if meeting.is_exact() =>
                     "All epipolar lines meet in the epipole".to_owned(),
                 Some(meeting) => format!(
                     "Its rank is 3, so the epipolar lines miss one another, by {} px on average",
@@ -64,18 +62,6 @@ impl Words for EightPoint {
             },
             format_number(estimate.held_out_px, 2),
         )
-    }
-}
-
-impl Meeting {
-    /// Returns the mean distance of the lines from their intersection, pixels; 0 if only rounding
-    /// is left.
-    fn shown_px(self) -> f64 {
-        if self.miss_px < MEETS_PX {
-            0.0
-        } else {
-            self.miss_px
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The singular values of the normalized rows, and every F that fits about as well as the best.
 
-use crate::kit::matches::{Match, distance_px, line2};
+use crate::kit::matches::{Match, line2, mean_distance_px};
 use epipole::Error;
 use epipole::epipolar::{Normalization, epipolar_row};
 use epipole::math::{Line2, right_singular_vectors};
@@ -68,11 +68,7 @@ impl Fit {
 
     /// Returns the mean distance of matches from their lines by the best F, pixels.
     pub(super) fn mean_px(&self, matches: &[Match]) -> f64 {
-        let distances = matches
-            .iter()
-            .filter_map(|pair| distance_px(&self.best, pair));
-        let (sum, count) = distances.fold((0.0, 0.0), |(sum, count), px| (sum + px, count + 1.0));
-        sum / f64::max(count, 1.0)
+        mean_distance_px(&self.best, matches)
     }
 }
 
@@ -112,6 +108,7 @@ fn angle_deg(one: &Line2, other: &Line2) -> f64 {
 mod tests {
     use super::super::scene::{Scene, cameras, pixel2};
     use super::*;
+    use crate::kit::matches::distance_px;
     use epipole::epipolar::{fundamental_8point_explained, fundamental_from_cameras};
 
     fn same(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {

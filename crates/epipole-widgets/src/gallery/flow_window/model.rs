@@ -7,7 +7,7 @@ use crate::contract::{
     Settings, Slider, format_number, knobs,
 };
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use nalgebra::Vector2;
 
@@ -71,7 +71,7 @@ pub(crate) struct FlowWindow {
     settings: Settings,
     pub(super) place: Probe,
     pub(super) motion: Probe,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     photograph: Option<GrayImage32>,
     flow: Result<Flow, String>,
     /// Number of the flow, for the cache of the view's map.
@@ -130,7 +130,7 @@ impl Declared for FlowWindow {
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
-        let asked = Asked::about(Question);
+        let asked = Computation::of(Question);
         Self {
             settings: Settings::new(KNOBS),
             place: PLACE,

@@ -10,7 +10,7 @@ use crate::contract::{
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::picture::{Own, Picture, slot};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use image::RgbImage;
 use std::cell::OnceCell;
 
@@ -79,7 +79,7 @@ pub(crate) struct GradientField {
     edge: OnceCell<Result<Field, String>>,
     /// The still life, once rendered.
     taken: Option<Picture>,
-    asked: Asked<Question>,
+    asked: Computation<Question>,
 }
 
 impl GradientField {
@@ -214,7 +214,7 @@ impl Declared for GradientField {
             orbit: Orbit::new(-28.0, 38.0),
             edge: OnceCell::new(),
             taken: None,
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.begin();
         model

@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::picture::{Own, slot};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::scenes::SQUARE_SIZE;
 use epipole::feature::WindowTensor;
 use image::RgbImage;
@@ -70,7 +70,7 @@ pub struct Harris {
     settings: Settings,
     own: Own<1>,
     pub(super) probe: Probe,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl Harris {
@@ -164,7 +164,7 @@ impl Declared for Harris {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
             probe: PROBE,
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.begin();
         model

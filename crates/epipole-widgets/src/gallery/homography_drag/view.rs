@@ -108,9 +108,13 @@ fn plane_panel(cell: Rect, [x, y]: [[f64; 2]; 2]) -> Panel {
     let half = |[low, high]: [f64; 2]| (high - low) / 2.0;
     let middle = |[low, high]: [f64; 2]| (high + low) / 2.0;
     let scale = (cell.width / half(x)).min(cell.height / half(y)) / 2.0;
+    // Rounding must not leave out an end of the range.
     let shown = |range: [f64; 2], side: f64| {
         let half = side / scale / 2.0;
-        [middle(range) - half, middle(range) + half]
+        [
+            (middle(range) - half).min(range[0]),
+            (middle(range) + half).max(range[1]),
+        ]
     };
     Panel::new("plane", cell, shown(x, cell.width), shown(y, cell.height))
 }

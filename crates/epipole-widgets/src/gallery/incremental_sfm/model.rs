@@ -7,7 +7,7 @@ use crate::contract::{
     Slider, Space, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::timeline::Timeline;
 
 const APART: Slider = Slider::new("apart", "Angle between")
@@ -29,7 +29,7 @@ pub(crate) struct IncrementalSfm {
     settings: Settings,
     timeline: Timeline,
     pub(super) orbit: Orbit,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl IncrementalSfm {
@@ -102,7 +102,7 @@ impl Declared for IncrementalSfm {
             settings: Settings::new(KNOBS),
             timeline: Timeline::new("now", "Step", PACE),
             orbit: Orbit::new(-4.0, 38.0),
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.asked.ask(model.question());
         model

@@ -6,7 +6,7 @@ use crate::contract::{
     Slider, Space, Toggle, knobs,
 };
 use crate::kit::orbit::{Orbit, SPACE};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::sequence;
 use crate::kit::timeline::Timeline;
 
@@ -31,7 +31,7 @@ pub(crate) struct OdometryFigure {
     settings: Settings,
     timeline: Timeline,
     pub(super) orbit: Orbit,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl OdometryFigure {
@@ -88,7 +88,7 @@ impl Declared for OdometryFigure {
             settings: Settings::new(KNOBS),
             timeline: Timeline::of_frames(),
             orbit: Orbit::new(-30.0, 32.0),
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.asked.ask(model.question());
         model

@@ -6,7 +6,7 @@ use crate::contract::{
     Settings, Slider, knobs,
 };
 use crate::kit::picture::{Own, Picture};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use epipole::stitch::{Blend, Surface};
 use image::RgbImage;
 
@@ -71,7 +71,7 @@ pub(super) const MOVED_PX: f64 = 1.0;
 pub(crate) struct PanoramaFigure {
     settings: Settings,
     own: Own<MAX_PHOTOS>,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl PanoramaFigure {
@@ -144,7 +144,7 @@ impl Declared for PanoramaFigure {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.ask();
         model

@@ -4,7 +4,7 @@ use super::question::{NUM_OPTIONS, NUM_ROUNDS, Question, Round};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model, Problem, Settings,
 };
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 /// Panel ids of the options of each round.
 pub(super) const OPTIONS: [[&str; NUM_OPTIONS]; NUM_ROUNDS] = [
@@ -39,7 +39,7 @@ static KNOBS: [Knob; NUM_ROUNDS] = [
 /// The model of `patch-match`.
 pub(crate) struct PatchMatch {
     settings: Settings,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl PatchMatch {
@@ -88,7 +88,7 @@ impl Declared for PatchMatch {
     fn new() -> Self {
         Self {
             settings: Settings::new(&KNOBS),
-            asked: Asked::about(Question),
+            asked: Computation::of(Question),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `ransac-budget`: the number of samples needed, against the inlier ratio.
 
+mod guess;
 mod model;
 mod view;
 mod words;

@@ -1,8 +1,9 @@
 //! The number of samples that RANSAC needs, N = log(1 − p) / log(1 − wˢ), for samples of several
 //! sizes.
 
+use super::guess::{self, Guess, PLOT};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number, knobs,
 };
 use epipole::robust::num_trials_with_replacement;
@@ -18,15 +19,45 @@ const CONFIDENCE: Slider = Slider::new("p", "Confidence p")
     .range(0.5, 0.999, 0.001)
     .at(0.99)
     .digits(3);
-const KNOBS: &[Knob] = knobs![CONFIDENCE];
+const SHOW: Choice = Choice::new(
+    "show",
+    "Show",
+    &[
+        ("curves", "Curves"),
+        ("guess", "Your guess"),
+        ("both", "Both"),
+    ],
+);
+const KNOBS: &[Knob] = knobs![SHOW, CONFIDENCE];
+
+/// Sample size whose curve the reader guesses.
+pub(super) const GUESSED: usize = 8;
 
 /// The model of `ransac-budget`.
 pub struct RansacBudget {
     settings: Settings,
     pub(super) inlier_ratio: f64,
+    guess: Guess,
 }
 
 impl RansacBudget {
+    /// Whether the curves are shown, not the guess alone.
+    pub(super) fn shows_curves(&self) -> bool {
+        self.settings.chosen(&SHOW) != 1
+    }
+
+    /// Returns the guess, if it is shown.
+    pub(super) fn guess(&self) -> Option<&Guess> {
+        (self.settings.chosen(&SHOW) != 0).then_some(&self.guess)
+    }
+
+    /// Returns the largest factor by which the guess is off, if it is compared with the curve.
+    pub(super) fn guess_factor(&self) -> Option<f64> {
+        let truth = guess::RATIOS.map(|w| self.trials(GUESSED, w).unwrap_or(u64::MAX));
+        let guess = self.guess().filter(|_| self.shows_curves())?;
+        Some(guess.worst_factor(truth))
+    }
+
     pub(super) fn confidence(&self) -> f64 {
         self.settings.number(&CONFIDENCE)
     }
@@ -43,7 +74,7 @@ impl RansacBudget {
     fn handle(&self) -> Handle {
         let (place, ranges) = ((self.inlier_ratio, 0.0), [RATIOS, [0.0; 2]]);
         let percent = format_number(100.0 * self.inlier_ratio, 0);
-        Handle::new("share", "plot", "Inlier ratio w", place, ranges)
+        Handle::new("share", PLOT, "Inlier ratio w", place, ranges)
             .told(format!("{percent}% inliers"))
             .step([0.01, 0.0], 2)
     }
@@ -53,13 +84,14 @@ impl Declared for RansacBudget {
     const NAME: &'static str = "ransac-budget";
     const TITLE: &'static str = "How many samples?";
     const HELP: &'static str = "Drag the dashed line to an inlier ratio, or click where it should be, and \
-        change the confidence.";
+        change the confidence. Or choose Your guess, drag its points, and compare.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
             inlier_ratio: RATIO,
+            guess: Guess::new(),
         }
     }
 }
@@ -70,12 +102,22 @@ impl Model for RansacBudget {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.handle()]
+        let mut handles = match self.shows_curves() {
+            true => vec![self.handle()],
+            false => Vec::new(),
+        };
+        handles.extend(self.guess().into_iter().flat_map(Guess::handles));
+        handles
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        if let Some((ratio, _)) = self.handle().moved_by(event) {
+        // With the curves, a click is for their dashed line.
+        let is_click = matches!(event, Event::Clicked { .. });
+        let is_guess = self.guess().is_some()
+            && !(is_click && self.shows_curves())
+            && self.guess.update(event);
+        if !is_guess && let Some((ratio, _)) = self.handle().moved_by(event) {
             self.inlier_ratio = ratio;
         }
         Ok(())
@@ -83,6 +125,27 @@ impl Model for RansacBudget {
 }
 
 const CHALLENGES: &[Challenge<RansacBudget>] = &[
+    Challenge {
+        id: "guess",
+        goal: "Guess the curve of samples of 8. Compare: be off by less than a factor of 3 everywhere.",
+        hint: "A sample of 8 is clean with probability w⁸. What is 0.3⁸?",
+        why: "N grows like 1/w⁸: a third of the inliers costs 6561 times the samples.",
+        check: |model| model.guess_factor().is_some_and(|factor| factor < 3.0),
+        solution: || {
+            let guesses = [
+                ("guess30", 4.9),
+                ("guess45", 3.4),
+                ("guess60", 2.4),
+                ("guess75", 1.6),
+                ("guess90", 1.0),
+            ];
+            let moves = guesses.map(|(id, decade)| Event::moved(id, 0.0, decade));
+            let mut events = vec![Event::set(&SHOW, "guess")];
+            events.extend(moves);
+            events.push(Event::set(&SHOW, "both"));
+            events
+        },
+    },
     Challenge {
         id: "dear",
         goal: "Make samples of 8 a thousand times as expensive as samples of 2.",

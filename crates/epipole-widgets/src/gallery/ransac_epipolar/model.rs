@@ -13,7 +13,7 @@ use crate::contract::{
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::picture::{Own, pair_slots};
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, Question as _, carry_out};
+use crate::kit::question::{Computation, Question as _, carry_out};
 use crate::kit::running::Running;
 use crate::kit::samples::{Drawn, Rules};
 use image::RgbImage;
@@ -76,8 +76,8 @@ pub(super) enum Show {
 pub struct RansacEpipolar {
     settings: Settings,
     own: Own<2>,
-    matched: Asked<Question>,
-    votes: Asked<Question>,
+    matched: Computation<Question>,
+    votes: Computation<Question>,
     running: Running,
     probe: Probe,
 }
@@ -243,8 +243,8 @@ impl Declared for RansacEpipolar {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             own: Own::new(SLOTS, MIN_SIDE_PX),
-            matched: Asked::default(),
-            votes: Asked::default(),
+            matched: Computation::default(),
+            votes: Computation::default(),
             running: Running::at(SAMPLES_PER_SECOND),
             probe: PROBE,
         };

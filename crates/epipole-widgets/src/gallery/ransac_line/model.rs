@@ -6,7 +6,7 @@ use crate::contract::{
     Settings, Slider, Toggle, knobs,
 };
 use crate::kit::line_points::{COUNT, EPSILON, Scatter, angle_between_deg};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::running::Running;
 use crate::kit::samples::Rules;
 use crate::kit::tally::Tally;
@@ -42,7 +42,7 @@ pub(crate) struct RansacLine {
     settings: Settings,
     pub(super) scattered: Scatter,
     tally: Result<Tally, String>,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     running: Running,
     /// Samples drawn when it last began to run.
     run_from: usize,
@@ -139,7 +139,7 @@ impl Declared for RansacLine {
             scattered: Scatter::by(&settings, &SEED, &OUTLIERS),
             settings,
             tally: Err(String::new()),
-            asked: Asked::default(),
+            asked: Computation::default(),
             running: Running::at(SAMPLES_PER_SECOND),
             run_from: 0,
         };

@@ -8,7 +8,7 @@ use crate::contract::{
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 pub(super) const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
     .range(0.4, 1.0, 0.01)
@@ -27,7 +27,7 @@ const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
 /// The model of `ratio-test`.
 pub(crate) struct RatioTest {
     settings: Settings,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     pub(super) probe: Probe,
     /// Precision and recall, from the smallest τ to the largest; without the mutual check, then
     /// with it.
@@ -89,7 +89,7 @@ impl Declared for RatioTest {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            asked: Asked::about(Question),
+            asked: Computation::of(Question),
             probe: PROBE,
             curves: Default::default(),
         }

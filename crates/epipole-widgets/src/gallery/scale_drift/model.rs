@@ -6,7 +6,7 @@ use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, Toggle, knobs,
 };
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 const CLOSURE: Choice = Choice::new(
     "closure",
@@ -54,7 +54,7 @@ pub(crate) struct ScaleDrift {
     pub(super) drive: Drive,
     /// Odometry's estimate of the path traveled so far.
     pub(super) before: Judged,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl ScaleDrift {
@@ -155,7 +155,7 @@ impl Declared for ScaleDrift {
             stop: None,
             before: before(&drive, num_steps, None),
             drive,
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.refresh();
         model

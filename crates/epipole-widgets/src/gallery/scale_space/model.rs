@@ -7,7 +7,7 @@ use crate::contract::{
 };
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 const SIGMA: Slider = Slider::new("sigma", "Blur σ")
     .range(2.0, 25.0, 0.1)
@@ -32,7 +32,7 @@ pub(super) struct Extremum {
 /// The model of `scale-space`.
 pub(crate) struct ScaleSpace {
     settings: Settings,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     pub(super) probe: Probe,
 }
 
@@ -102,7 +102,7 @@ impl Declared for ScaleSpace {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            asked: Asked::about(Question),
+            asked: Computation::of(Question),
             probe: PROBE,
         }
     }

@@ -1,8 +1,9 @@
 //! A keypoint's window before and after a change of the photograph, and the distance of each
 //! descriptor from its original.
 
-use super::prints::{Change, MIDDLE, Prints, SIGMA_PX};
+use super::prints::{Prints, SIGMA_PX};
 use crate::contract::{Problem, Progress};
+use crate::kit::changed::{Change, MIDDLE};
 use crate::kit::features::Pair;
 use crate::kit::patch::Spot;
 use crate::kit::question::tell;

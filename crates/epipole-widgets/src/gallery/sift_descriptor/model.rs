@@ -1,15 +1,15 @@
 //! A keypoint, a change of the photograph, and the response of three descriptors.
 
 use super::comparison::{Comparison, Subject};
-use super::prints::Change;
 use super::question::{Answer, Question};
 use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
     Slider, Toggle, knobs,
 };
+use crate::kit::changed::Change;
 use crate::kit::features::SIZE;
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use image::RgbImage;
 
 const TURN: Slider = Slider::new("turn", "Turn")
@@ -40,8 +40,8 @@ const KEYPOINT: Probe = Probe::new("keypoint", "photograph", "Keypoint")
 /// The model of `sift-descriptor`.
 pub(crate) struct SiftDescriptor {
     settings: Settings,
-    photograph: Asked<Question>,
-    comparison: Asked<Question>,
+    photograph: Computation<Question>,
+    comparison: Computation<Question>,
     pub(super) keypoint: Probe,
 }
 
@@ -110,8 +110,8 @@ impl Declared for SiftDescriptor {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            photograph: Asked::about(Question::Photograph),
-            comparison: Asked::default(),
+            photograph: Computation::of(Question::Photograph),
+            comparison: Computation::default(),
             keypoint: KEYPOINT,
         };
         model.ask();

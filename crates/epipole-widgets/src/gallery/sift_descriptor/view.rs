@@ -2,10 +2,11 @@
 
 use super::comparison::{Look, SHOWN_PX};
 use super::model::SiftDescriptor;
-use super::prints::{MIDDLE, SIGMA_PX, WAYS};
+use super::prints::{SIGMA_PX, WAYS};
 use super::question::Question;
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
+use crate::kit::changed::MIDDLE;
 use crate::kit::features::SIZE;
 use crate::kit::grid::{self, Grid, SMALL, TEXT};
 use crate::kit::heat::Heat;

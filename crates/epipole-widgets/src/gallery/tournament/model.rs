@@ -5,7 +5,7 @@ use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, Knob, Model,
     Problem, Settings, Slider, knobs,
 };
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 
 const SUBJECT: Choice = Choice::new(
     "fit",
@@ -28,7 +28,7 @@ const AGAIN: Button = Button::new("again", "Run again", ButtonRole::Restart);
 /// The model of `tournament`.
 pub(crate) struct Tournament {
     settings: Settings,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
     wins: Wins,
     num_batches: usize,
 }
@@ -96,7 +96,7 @@ impl Declared for Tournament {
     fn new() -> Self {
         let mut model = Self {
             settings: Settings::new(KNOBS),
-            asked: Asked::default(),
+            asked: Computation::default(),
             wins: Wins::none(),
             num_batches: 0,
         };

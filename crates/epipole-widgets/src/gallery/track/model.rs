@@ -5,7 +5,7 @@ use crate::contract::{
     Asking, Challenge, Compute, Control, Declared, Event, Handle, Knob, Model, Problem, Settings,
     Slider, Toggle, knobs,
 };
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::timeline::Timeline;
 
 const STRIDE: Slider = Slider::new("stride", "Every nth frame")
@@ -28,7 +28,7 @@ pub(super) const WRONG_PX: f64 = 2.0;
 pub(crate) struct TrackFigure {
     settings: Settings,
     timeline: Timeline,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 /// Points of one frame.
@@ -111,7 +111,7 @@ impl Declared for TrackFigure {
         let mut model = Self {
             settings: Settings::new(KNOBS),
             timeline: Timeline::of_frames(),
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.asked.ask(model.question());
         model

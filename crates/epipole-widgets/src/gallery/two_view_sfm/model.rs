@@ -7,7 +7,7 @@ use crate::contract::{
 use crate::kit::geometry::symbols_of_one;
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::picture::{Own, Picture, pair_slots};
-use crate::kit::question::{Asked, carry_out};
+use crate::kit::question::{Computation, carry_out};
 use crate::kit::reconstruction::{Answer, CloudPoint, Question, Source, Stage};
 use epipole::stereo::PointCloud;
 use epipole_io::cloud::write_ply;
@@ -97,7 +97,7 @@ pub(crate) struct TwoViewSfm {
     pub(super) orbit: Orbit,
     own: Own<2>,
     focal_from: FocalFrom,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<Question>,
 }
 
 impl TwoViewSfm {
@@ -224,7 +224,7 @@ impl Declared for TwoViewSfm {
             orbit: Orbit::new(-56.0, 22.0),
             own: Own::new(SLOTS, MIN_SIDE_PX),
             focal_from: FocalFrom::Known,
-            asked: Asked::default(),
+            asked: Computation::default(),
         };
         model.ask();
         model

@@ -1,7 +1,6 @@
 //! `window-search`: the cost of one window along its row, and the minimum between whole pixels.
 
 mod model;
-mod question;
 mod search;
 mod view;
 mod words;

@@ -1,14 +1,13 @@
 //! A window of the left photograph, the costs along its row, and a candidate.
 
-use super::question::Question;
 use super::search::{Curve, LARGEST_HALF, REACH, Refinement};
 use crate::contract::{
     Asking, Challenge, Choice, Compute, Control, Declared, Event, Handle, Knob, Model, Problem,
     Settings, Slider, format_number, knobs,
 };
 use crate::kit::probe::Probe;
-use crate::kit::question::{Asked, carry_out};
-use crate::kit::rectified::SIZE;
+use crate::kit::question::{Computation, carry_out};
+use crate::kit::rectified::{PairQuestion, SIZE};
 
 const WINDOW: Slider = Slider::new("window", "Window")
     .range(5.0, (2 * LARGEST_HALF + 1) as f64, 2.0)
@@ -43,7 +42,7 @@ pub(crate) struct WindowSearch {
     settings: Settings,
     pub(super) place: Probe,
     candidate: Probe,
-    pub(super) asked: Asked<Question>,
+    pub(super) asked: Computation<PairQuestion>,
     curve: Option<Curve>,
 }
 
@@ -126,7 +125,7 @@ impl Declared for WindowSearch {
     const TITLE: &'static str = "Along the row";
     const HELP: &'static str = "Drag the window over the left photograph, or move it with the arrow keys. Then \
         drag the candidate along its row in the right photograph, and watch its cost.";
-    const COMPUTE: Compute = carry_out::<Question>;
+    const COMPUTE: Compute = carry_out::<PairQuestion>;
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
@@ -134,7 +133,7 @@ impl Declared for WindowSearch {
             settings: Settings::new(KNOBS),
             place: PLACE,
             candidate: CANDIDATE,
-            asked: Asked::about(Question),
+            asked: Computation::of(PairQuestion),
             curve: None,
         }
     }

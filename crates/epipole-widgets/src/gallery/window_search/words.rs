@@ -1,9 +1,9 @@
 //! Readouts and description of `window-search`.
 
 use super::model::WindowSearch;
-use super::question::depth_m;
 use super::search::{Curve, Refinement};
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::rectified::{BASELINE_M, depth_m};
 
 impl Words for WindowSearch {
     fn readouts(&self) -> Vec<Readout> {
@@ -12,6 +12,7 @@ impl Words for WindowSearch {
             Readout::number(id, label, value, digits, unit).or(missing)
         };
         let (found, truth) = (self.found_px(), self.truth_px());
+        let depth_m = |disparity_px| depth_m(BASELINE_M, disparity_px);
         let whole = self.curve().map(|curve| curve.winner() as f64);
         let cost = |disparity: usize| self.curve()?.costs().get(disparity).copied();
         let lowest = self.curve().and_then(|curve| cost(curve.winner()));
