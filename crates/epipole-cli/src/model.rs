@@ -27,7 +27,7 @@ pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
     }
     for folder in FOLDERS {
         let folder = path.join(folder);
-        let found = read_model_folder(&|name| beside(&folder, name));
+        let found = read_model_folder(&|name: &str| beside(&folder, name));
         if let Some(read) = found.map_err(|error| Failure::from(error).about(path))? {
             return Ok(read);
         }
@@ -56,5 +56,5 @@ pub(crate) fn of_file(path: &Path, bytes: &[u8]) -> Result<ReadModel, Failure> {
             return Ok(read);
         }
     }
-    read_model_file(&name, bytes, &|name| beside(&folder, name)).map_err(about)
+    read_model_file(&name, bytes, &|name: &str| beside(&folder, name)).map_err(about)
 }

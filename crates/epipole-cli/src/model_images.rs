@@ -103,3 +103,17 @@ pub(crate) fn in_frame_of_camera(
     );
     Err(Failure::new("size-mismatch", message).about(path))
 }
+
+/// The camera for an image of another size.
+///
+/// # Errors
+/// A sentence for a camera or an image without pixels.
+pub(crate) fn resized(camera: &Camera, to: (u32, u32)) -> Result<Camera, Failure> {
+    let from = (camera.width, camera.height);
+    Ok(Camera {
+        intrinsics: camera.intrinsics.resized(from, to)?,
+        lens: camera.lens,
+        width: to.0,
+        height: to.1,
+    })
+}

@@ -38,7 +38,7 @@ pub(crate) struct Photo {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct KeptLens {
     pub(crate) lens: Lens,
-    /// By how many quarters of a turn the photograph became upright.
+    /// By how many quarters of a turn the photograph became upright, from the frame of its camera.
     pub(crate) quarters: u8,
 }
 
@@ -86,7 +86,8 @@ impl Photo {
     ) -> Result<Self, Failure> {
         let prepared = prepare(size.into(), path, None, context)?;
         let its_own = (prepared.camera(camera)).map_err(|e| Failure::from(e).about(path))?;
-        let quarters = prepared.quarters.unwrap_or(0);
+        let is_of_sensor = (camera.width, camera.height) == prepared.sensor_size;
+        let quarters = prepared.quarters.filter(|_| is_of_sensor).unwrap_or(0);
         let mut photo = Self::from(prepared);
         if let Some(camera) = its_own {
             photo.k = Some(camera.intrinsics);
@@ -172,7 +173,7 @@ impl Photo {
     }
 }
 
-/// Reads a photograph.
+/// Reads a photograph, with a warning if nothing can be found in it.
 fn prepare(
     size: SizeArguments,
     path: &Path,
@@ -188,7 +189,20 @@ fn prepare(
     let photo = prepare_photo(&bytes(path)?, &options)
         .map_err(|error| size.reading.failure(error, path))?;
     size.reading.tell_of_range(photo.range, path, context);
+    if is_flat(&photo.image) {
+        let path = path.display();
+        context.warn(&format!(
+            "{path} shows no texture, so nothing can be found or matched in it"
+        ));
+    }
     Ok(photo)
+}
+
+/// Whether all gray levels are next to each other.
+fn is_flat(image: &RgbImage) -> bool {
+    let levels = rgb_to_gray(image).into_raw();
+    let ends = levels.iter().min().zip(levels.iter().max());
+    ends.is_none_or(|(darkest, brightest)| brightest - darkest <= 2)
 }
 
 /// Refuses a pair of which one is smaller.

@@ -56,6 +56,7 @@ impl ReadArguments {
             return;
         };
         if !IS_TOLD.swap(true, Ordering::Relaxed) {
+            let [low, high] = [low, high].map(six_digits);
             context.warn(&format!(
                 "{} has more than 8 bits, of which the values from {low} to {high} are in use: these become black and \
                  white. Each such image has its own range; --range {low},{high} is one for all",
@@ -63,6 +64,11 @@ impl ReadArguments {
             ));
         }
     }
+}
+
+/// The number with six significant digits.
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Reads "auto", "full" or two numbers.

@@ -3,7 +3,7 @@
 use clap::{Arg, Command};
 
 /// Options that `-h` shows, by their long names, in the order of their definition.
-const COMMON: [&str; 61] = [
+const COMMON: [&str; 62] = [
     "align",
     "baseline-m",
     "board",
@@ -34,6 +34,7 @@ const COMMON: [&str; 61] = [
     "max-iterations",
     "max-megapixels",
     "max-size",
+    "mesh",
     "method",
     "min-disparity",
     "min-views",

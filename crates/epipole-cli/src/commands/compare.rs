@@ -17,7 +17,7 @@ use crate::{files, listing};
 use clap::{Args, ValueEnum};
 use epipole::camera::RigidTransform;
 use epipole::sfm::{AlignmentKind, align_points};
-use nalgebra::{Point3, Similarity3};
+use nalgebra::{Point3, Similarity3, Vector3};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -31,6 +31,9 @@ enum Align {
     /// None: both are in one frame.
     None,
 }
+
+/// Beyond this ratio of sizes, the unit of length is another one.
+const OTHER_UNIT: f64 = 1.2;
 
 /// Compare an estimated trajectory with the true one.
 #[derive(Debug, Args)]
@@ -107,6 +110,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let estimates: Vec<RigidTransform> =
         (pairs.iter().map(|&(_, j)| estimate.world_from_cam[j])).collect();
     let alignment = align(&estimates, &truths, arguments.align)?;
+    warn_of_scale(&estimates, &truths, arguments.align, context);
     let aligned: Vec<RigidTransform> = (estimates.iter())
         .map(|pose| {
             let center = alignment * Point3::from(pose.translation.vector);
@@ -184,6 +188,36 @@ fn rows(report: Report, name: &str, errors: &PoseErrors) -> Report {
 
 fn centers(poses: &[RigidTransform]) -> Vec<Point3<f64>> {
     (poses.iter().map(|pose| pose.translation.vector.into())).collect()
+}
+
+/// Warns of an estimate in another unit, which no rigid alignment brings near.
+fn warn_of_scale(
+    estimates: &[RigidTransform],
+    truths: &[RigidTransform],
+    how: Align,
+    context: &Context,
+) {
+    if how == Align::Sim3 {
+        return;
+    }
+    let Ok(similar) = align(estimates, truths, Align::Sim3) else {
+        return;
+    };
+    let size = |poses: &[RigidTransform]| -> f64 {
+        let all = centers(poses);
+        let sum = all.iter().fold(Vector3::zeros(), |sum, at| sum + at.coords);
+        let middle = Point3::from(sum / all.len() as f64);
+        all.iter().map(|at| (at - middle).norm()).sum()
+    };
+    // The ratio of the sizes counts the errors, too: both must say so.
+    let (scale, ratio) = (similar.scaling(), size(truths) / size(estimates));
+    let is_other = |x: f64| x.is_finite() && !(1.0 / OTHER_UNIT..OTHER_UNIT).contains(&x);
+    if is_other(scale) && is_other(ratio) {
+        context.warn(&format!(
+            "the estimate has {:.3} times the size of the truth: --align sim3 aligns the scale, too",
+            1.0 / ratio
+        ));
+    }
 }
 
 /// `truth_from_estimate`.

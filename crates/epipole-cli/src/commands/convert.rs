@@ -24,8 +24,8 @@ use std::path::{Path, PathBuf};
     after_help = "Example: epipole convert reconstruction/ model/ --to colmap-binary\n\n\
     A may be a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) or a\n\
     PLY file; cameras of any format that --camera takes; or a trajectory (TUM, KITTI, EuRoC). B names the format:\n\
-    model.glb, points.ply, transforms.json, sfm_data.json, bundle.out; cameras.yml (OpenCV), camera.json,\n\
-    cameras.txt; path.txt (TUM, or KITTI of KITTI), path.csv (EuRoC). A folder is COLMAP's, binary unless A is.\n\
+    model.html (a page to turn and measure it), model.glb, points.ply, transforms.json, sfm_data.json, bundle.out;\n\
+    cameras.yml (OpenCV), camera.json, cameras.txt; path.txt (TUM, or KITTI of KITTI), path.csv (EuRoC). A folder is COLMAP's, binary unless A is.\n\
     Files of an earlier conversion to the same format are removed, others stay.\n\n\
     A model may also become cameras or a trajectory: the poses of its images in their order, without times.\n\n\
     COLMAP cuts names at their first blank in text files, not in binary ones.\n\n\
@@ -183,18 +183,10 @@ fn cameras_of(content: Content) -> Result<Cameras, Failure> {
 fn trajectory_of(content: Content) -> Result<Trajectory, Failure> {
     match content {
         Content::Trajectory(_, path) => Ok(path),
-        Content::Model(read) => {
-            let poses = read
-                .model
-                .images
-                .iter()
-                .map(|image| image.cam_from_world.inverse());
-            Ok(Trajectory {
-                world_from_cam: poses.collect(),
-                notes: read.notes,
-                ..Trajectory::default()
-            })
-        }
+        Content::Model(read) => Ok(Trajectory {
+            notes: read.notes,
+            ..read.model.trajectory()
+        }),
         Content::Cameras(..) => Err(Failure::usage("cameras have no path to write")),
     }
 }

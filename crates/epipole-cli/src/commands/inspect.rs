@@ -9,7 +9,7 @@ use crate::files;
 use crate::report::Report;
 use clap::Args;
 use epipole::camera::Camera;
-use epipole_io::camera::{Cameras, is_camera_file};
+use epipole_io::camera::{CameraFormat, Cameras, is_camera_file, read_cameras};
 use epipole_io::model::{ReadModel, format_of_file};
 use epipole_io::trajectory::{Trajectory, is_trajectory};
 use serde_json::{Value, json};
@@ -22,9 +22,10 @@ use std::path::PathBuf;
     PLY files; cameras of any format that --camera takes; trajectories of TUM, KITTI and EuRoC; photographs, PFM\n\
     files, g2o, BAL, tables of points and matches.\n\n\
     JSON: kind (the format), counts, notes. Of a model also convention (frames and pixels of the file),\n\
-    mean_reprojection_px (null without observations), cameras (width, height, lens, k and distortion of each), notes\n\
-    (what was left out or is odd: names with blanks, images without points, points behind cameras, NaN). Of cameras:\n\
-    cameras, right_from_left (translation of a rig, or null). Of a trajectory: length, seconds (or null).")]
+    mean_reprojection_px (null without observations), cameras (lens, k and distortion of each; width and height,\n\
+    null if not in the file), notes (what was left out or is odd: names with blanks, images without points, points\n\
+    behind cameras, NaN). Of cameras: convention, cameras, right_from_left (translation of a rig, or null). Of a\n\
+    trajectory: length, seconds (or null).")]
 pub(crate) struct Arguments {
     /// A file, or a folder with a model.
     input: PathBuf,
@@ -43,6 +44,9 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
             format_of_file(&bytes).is_some() || is_camera_file(&bytes) || is_trajectory(&bytes);
         match Content::of_bytes(path, &bytes) {
             Err(failure) if !is_named => return other::table(&bytes).ok_or(failure),
+            Err(_) if is_camera_file(&bytes) && format_of_file(&bytes).is_none() => {
+                without_size(&bytes).map_err(|error| Failure::from(error).about(path))?
+            }
             content => content?,
         }
     };
@@ -51,9 +55,20 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
         .row("kind", content.format());
     match &content {
         Content::Model(read) => of_model(report, read),
-        Content::Cameras(_, cameras) => Ok(of_cameras(report, cameras)),
+        Content::Cameras(format, cameras) => Ok(of_cameras(report, *format, cameras)),
         Content::Trajectory(_, trajectory) => Ok(of_trajectory(report, trajectory)),
     }
+}
+
+/// Cameras of a file that leaves the image size out.
+///
+/// # Errors
+/// Another fault of the file.
+fn without_size(bytes: &[u8]) -> epipole_io::Result<Content> {
+    let (format, mut cameras) = read_cameras(bytes, Some((0, 0)))?;
+    let note = "the file has no image size: --camera takes that of the image";
+    cameras.notes.push(note.to_owned());
+    Ok(Content::Cameras(format, cameras))
 }
 
 fn of_model(report: Report, read: &ReadModel) -> Result<Report, Failure> {
@@ -97,14 +112,15 @@ fn of_model(report: Report, read: &ReadModel) -> Result<Report, Failure> {
 
 fn of_camera(camera: &Camera) -> Value {
     let (k, center) = (&camera.intrinsics, camera.intrinsics.principal_point());
+    let known = |side: u32| (side > 0).then_some(side);
     json!({
-        "width": camera.width, "height": camera.height,
+        "width": known(camera.width), "height": known(camera.height),
         "k": [k.fu_px(), k.fv_px(), center.x, center.y],
         "lens": camera.lens.kind().name(), "distortion": camera.lens.coefficients(),
     })
 }
 
-fn of_cameras(report: Report, cameras: &Cameras) -> Report {
+fn of_cameras(report: Report, format: CameraFormat, cameras: &Cameras) -> Report {
     let each = cameras.cameras.iter().map(|named| {
         let mut fields = of_camera(&named.camera);
         fields["name"] = json!(named.name);
@@ -114,21 +130,25 @@ fn of_cameras(report: Report, cameras: &Cameras) -> Report {
         .right_from_left
         .map(|motion| motion.translation.vector);
     let mut report = report
+        .row("convention", format.convention())
+        .field("convention", format.convention())
         .field("counts", json!({ "cameras": cameras.cameras.len() }))
         .field("cameras", each.collect::<Vec<_>>())
         .field("notes", &cameras.notes)
         .field("right_from_left", translation.map(|t| [t.x, t.y, t.z]));
     for named in &cameras.cameras {
         let (camera, k) = (&named.camera, &named.camera.intrinsics);
+        let size = match camera.width {
+            0 => "size unknown".to_owned(),
+            width => format!("{width} × {}", camera.height),
+        };
         let words = format!(
-            "{} × {}, focal lengths {:.2} and {:.2} px, principal point ({:.2}, {:.2}), {}",
-            camera.width,
-            camera.height,
+            "{size}, focal lengths {:.2} and {:.2} px, principal point ({:.2}, {:.2}), {}",
             k.fu_px(),
             k.fv_px(),
             k.principal_point().x,
             k.principal_point().y,
-            camera.lens.kind().name(),
+            lens(camera),
         );
         report = report.row(&named.name, words);
     }
@@ -142,6 +162,16 @@ fn of_cameras(report: Report, cameras: &Cameras) -> Report {
         ),
         None => report,
     }
+}
+
+/// Kind and coefficients of a lens.
+fn lens(camera: &Camera) -> String {
+    if camera.is_pinhole() {
+        return "no distortion".to_owned();
+    }
+    let numbers = camera.lens.coefficients().into_iter();
+    let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
+    format!("{} lens {}", camera.lens.kind().name(), numbers.join(", "))
 }
 
 fn of_trajectory(report: Report, trajectory: &Trajectory) -> Report {

@@ -5,6 +5,7 @@ mod input;
 
 pub(crate) use self::arguments::Arguments;
 
+use self::arguments::MeshFormat;
 use self::input::Input;
 use crate::context::Context;
 use crate::failure::Failure;
@@ -12,17 +13,21 @@ use crate::model;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::report::Report;
-use epipole::mvs::{DepthMap, MvsView, estimate_depth_maps, fuse_depth_maps, prepare_views};
+use epipole::mvs::{
+    DepthMap, Mesh, MvsView, estimate_depth_maps, fuse_depth_maps, mesh_depth_maps, prepare_views,
+};
 use epipole::progress::Part;
 use epipole::stereo::PointCloud;
 use epipole_io::cloud::write_ply;
 use epipole_io::depth_map::{write_colmap_depth, write_colmap_normals};
+use epipole_io::mesh::{write_mesh_glb, write_mesh_obj, write_mesh_ply};
 use epipole_io::model::{Model, ModelFormat, ModelImage};
 use serde_json::{Value, json};
 
-/// Shares of the work after which views are prepared and depth maps estimated.
+/// Shares of the work after which views are prepared, depth maps estimated and fused.
 const PREPARED: f32 = 0.02;
-const ESTIMATED: f32 = 0.96;
+const ESTIMATED: f32 = 0.9;
+const FUSED: f32 = 0.94;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let options = arguments.options(context);
@@ -35,9 +40,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     drop(input.photos);
     let part = &mut Part::new(watch, PREPARED, ESTIMATED);
     let maps = estimate_depth_maps(&views, &options, part)?;
-    let part = &mut Part::new(watch, ESTIMATED, 1.0);
+    let part = &mut Part::new(watch, ESTIMATED, FUSED);
     let cloud = fuse_depth_maps(&views, &maps, &options, part)?;
-    drop(progress);
     if cloud.points.is_empty() {
         let message = format!(
             "no pixel has a depth on which {} photos agree: are the images those of the model?",
@@ -45,6 +49,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         );
         return Err(Failure::new("no-consensus", message).about(&arguments.model));
     }
+    let part = &mut Part::new(watch, FUSED, 1.0);
+    let mesh = (arguments.mesh.is_some())
+        .then(|| mesh_depth_maps(&views, &maps, &arguments.mesh_options(), part))
+        .transpose()?;
+    drop(progress);
     let name = |view: &MvsView| &*input.names[view.photo];
     let left_out = (0..input.names.len()).filter(|&n| {
         input.reconstruction.cameras[n].is_some() && views.iter().all(|v| v.photo != n)
@@ -57,8 +66,18 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             input.names.len()
         ));
     }
+    if mesh.as_ref().is_some_and(|mesh| mesh.triangles.is_empty()) {
+        context.warn(
+            "the mesh is empty: no connected piece has enough triangles; try a smaller --voxel-size or \
+             --min-triangles",
+        );
+    }
     let mut output = OutputFolder::new(&arguments.output, "mvs");
     let fused = output.write("fused.ply", &write_ply(&cloud))?;
+    let surface = match (&mesh, arguments.mesh) {
+        (Some(mesh), Some(format)) => Some(output.write(format.file(), &format.write(mesh))?),
+        _ => None,
+    };
     for file in undistorted(&views, &name).to_files(ModelFormat::ColmapText)? {
         output.write(&format!("sparse/{}", file.name), &file.bytes)?;
     }
@@ -73,10 +92,41 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let rows: Vec<Value> = rows
         .map(|(view, map)| fields(name(view), view, map))
         .collect();
-    Ok(report(&maps, &cloud, input.names.len())
+    let mut report = report(&maps, &cloud, input.names.len())
         .field("images", rows)
         .row("written", fused.display())
-        .field("file", fused.display().to_string()))
+        .field("file", fused.display().to_string());
+    if let (Some(mesh), Some(surface)) = (&mesh, &surface) {
+        let (num_triangles, num_vertices) = (mesh.triangles.len(), mesh.vertices.points.len());
+        report = report
+            .row(
+                "mesh",
+                format!("{num_triangles} triangles, {num_vertices} vertices"),
+            )
+            .row("written", surface.display())
+            .field("num_triangles", num_triangles)
+            .field("num_vertices", num_vertices)
+            .field("mesh", surface.display().to_string());
+    }
+    Ok(report)
+}
+
+impl MeshFormat {
+    fn file(self) -> &'static str {
+        match self {
+            Self::Ply => "mesh.ply",
+            Self::Glb => "mesh.glb",
+            Self::Obj => "mesh.obj",
+        }
+    }
+
+    fn write(self, mesh: &Mesh) -> Vec<u8> {
+        match self {
+            Self::Ply => write_mesh_ply(mesh),
+            Self::Glb => write_mesh_glb(mesh),
+            Self::Obj => write_mesh_obj(mesh).into_bytes(),
+        }
+    }
 }
 
 /// Cameras of the depth maps, without points.

@@ -1,89 +1,38 @@
 //! `epipole sfm`: cameras and points from photographs.
 
+mod arguments;
 pub(crate) mod growth;
 mod input;
+mod known_poses;
 mod output;
 pub(crate) mod positions;
 pub(crate) mod refined;
 
-use self::growth::GrowthArguments;
-use self::input::InputArguments;
-use self::output::{Pictures, check_models, component_folder, write_model};
-use self::positions::{PositionArguments, rms_m};
+pub(crate) use self::arguments::Arguments;
+
+use self::output::{LeftOut, Pictures, check_models, component_folder, images_json, write_model};
+use self::positions::rms_m;
 use crate::camera::{sentence, some_unknown};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
-use crate::matrices::Motion;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::report::Report;
-use crate::robust::{PHOTO_MAX_ERROR, RobustArguments};
-use clap::Args;
 use epipole::camera::Camera;
 use epipole::progress::{Monitor, Part};
-use epipole::robust::SamplerKind;
 use epipole::sfm::{
-    IncrementalReconstruction, PhotoOptions, Reconstruction, SfmInput, SfmOptions, SfmResult,
-    WhyUnregistered, match_photos, why_unregistered,
+    IncrementalReconstruction, SfmInput, SfmOptions, SfmResult, WhyUnregistered, match_photos,
+    why_unregistered,
 };
-use serde::Serialize;
 use serde_json::json;
-use std::path::PathBuf;
-
-/// Reconstruct a scene from photos.
-#[derive(Debug, Args)]
-#[command(
-    mut_arg("max_error_px", |argument| argument.help(
-        "The largest error of a match of two photographs, pixels: Sampson error of E; \"auto\" finds it \
-         for each pair from the noise of its matches"
-    ).default_value(PHOTO_MAX_ERROR)),
-    after_help = "Example: epipole sfm photos/ --focal-px 2400 -o reconstruction\n\n\
-    Writes cameras.txt, images.txt and points3D.txt (COLMAP's text model) and points.ply, with --images also the\n\
-    photographs, in images/. If names have blanks, where COLMAP cuts them in text, its binary model is added. Files\n\
-    of an earlier run in OUT are removed, others stay.\n\n\
-    cameras.txt has PINHOLE cameras, or OPENCV, FULL_OPENCV, OPENCV_FISHEYE or DIVISION, as the lens is: that of\n\
-    --camera, or one whose distortion was refined. Give --undistort for programs that know PINHOLE alone.\n\n\
-    Where a photograph's EXIF data do not tell its focal length, 1.2 times the longer side is where to\n\
-    begin, and one factor for all focal lengths is refined. Where nothing is given of the cameras, focal length\n\
-    and radial distortion are refined at the end, if five photographs or more show that this lowers the error by 5%.\n\n\
-    JSON: num_registered, num_images, num_points, mean_reprojection_px, images (name, focal_px, lens: brown,\n\
-    rational, fisheye or division, distortion: its coefficients as in the file of a camera, of a usual lens k1,\n\
-    k2, p1, p2 and k3, cam_from_world with rotation and translation), all of the largest\n\
-    component; focal_refined (whether the focal lengths were), focal_determined (whether the photographs tell them;\n\
-    null if they were not refined), lens_refined (whether the radial distortion was, too), with --positions placed (whether it stands where they\n\
-    say, in meters), position_rms_m, origin (where zero is, if positions are degrees), unregistered (name and reason of each photograph that is not in the largest\n\
-    component), components (num_registered and num_points of each), complete (false after Ctrl-C)."
-)]
-pub(crate) struct Arguments {
-    /// The folder for the result.
-    #[arg(short, long, value_name = "OUT")]
-    output: PathBuf,
-    /// Also write the images that cameras.txt describes (upright, downscaled, undistorted by
-    /// --undistort) to OUT/images. Changed images become JPEG files.
-    #[arg(long)]
-    images: bool,
-    #[command(flatten)]
-    input: InputArguments,
-    #[command(flatten)]
-    features: FeatureArguments,
-    #[command(flatten)]
-    matching: MatchArguments,
-    /// Match each photograph with so many after it, for frames in order of time; 0 for all.
-    #[arg(long, default_value_t = 0, value_name = "N", help_heading = "Matches")]
-    neighbors: usize,
-    #[command(flatten)]
-    robust: RobustArguments,
-    #[command(flatten)]
-    growth: GrowthArguments,
-    #[command(flatten)]
-    positions: PositionArguments,
-}
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let mut output = OutputFolder::new(&arguments.output, "sfm");
     check_models(&output)?;
+    if let Some(model) = &arguments.input.poses {
+        return known_poses::run(arguments, model, output, context);
+    }
     let input::Input {
         mut photos,
         cameras,
@@ -105,11 +54,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         let then = if refine_focal { ", to be refined" } else { "" };
         context.warn(&format!("{sentence}{then}"));
     }
-    let photo_options = PhotoOptions::default()
-        .with_features(arguments.features.options())
-        .with_matching(arguments.matching.options())
-        .with_neighbors(arguments.neighbors)
-        .with_best_first(options.ransac.sampler == SamplerKind::Prosac);
+    let photo_options = arguments.photo_options(&options);
     let progress = Progress::new(context, "structure from motion");
     let watch = &mut |status| progress.show(status);
     let (images, pairs) =
@@ -148,23 +93,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let unregistered = unregistered(&input, &options, &result)?;
     let mean_px = largest.mean_reprojection_px(&input.images);
-    let registered = |component: &Reconstruction| -> Vec<serde_json::Value> {
-        let images = input.images.iter().zip(&component.cameras);
-        images
-            .filter_map(|(image, camera)| {
-                let camera = camera.as_ref()?;
-                let lens = camera.camera.lens;
-                Some(json!({
-                    "name": image.name,
-                    "focal_px": camera.camera.intrinsics.fu_px(),
-                    "lens": lens.kind().name(),
-                    "distortion": lens.coefficients(),
-                    "cam_from_world": Motion::from(&camera.cam_from_world),
-                }))
-            })
-            .collect()
-    };
-    let registered = registered(largest);
+    let registered = images_json(&input.images, largest);
     if let Some(pictures) = &pictures {
         pictures.write(&photos, &mut output)?;
         for (image, name) in input.images.iter_mut().zip(&pictures.names) {
@@ -284,13 +213,6 @@ fn grown(
             Err(error) => return Err(error),
         }
     }
-}
-
-/// A photograph that is not in the largest component.
-#[derive(Debug, Serialize)]
-struct LeftOut {
-    name: String,
-    reason: String,
 }
 
 /// Why there is nothing, by the photograph that came farthest.

@@ -16,7 +16,6 @@ use crate::report::Report;
 use clap::{Args, ValueEnum};
 use epipole::stereo::{DisparityImage, fill_gaps};
 use epipole_io::disparity::{write_pfm, write_png16};
-use image::GrayImage;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -110,15 +109,6 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     check_same_size(&photos)?;
     let q = arguments.cloud.matrix(photos[0].color.dimensions())?;
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
-    let outcome = match arguments.method {
-        Method::Sgm => "answers come from smoothness alone",
-        Method::Bm => "there will hardly be an answer",
-    };
-    for (picture, path) in [(&left, &arguments.left), (&right, &arguments.right)] {
-        if is_flat(picture) {
-            context.warn(&format!("{} shows no texture: {outcome}", path.display()));
-        }
-    }
     let range = (arguments.min_disparity, arguments.max_disparity);
     // Nobody would read it.
     if !context.quiet {
@@ -149,13 +139,6 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         arguments.cloud.write(&disparity, q, &photos[0].color)?;
     }
     Ok(report(&disparity, arguments))
-}
-
-/// Whether all gray levels are next to each other: nothing can be matched.
-fn is_flat(picture: &GrayImage) -> bool {
-    let levels = || picture.pixels().map(|pixel| pixel.0[0]);
-    let (darkest, brightest) = (levels().min(), levels().max());
-    brightest.unwrap_or(0).abs_diff(darkest.unwrap_or(0)) <= 2
 }
 
 fn report(disparity: &DisparityImage, arguments: &Arguments) -> Report {

@@ -13,7 +13,7 @@ use serde_json::json;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kept {
+enum KeepArgument {
     /// All that was photographed, with black borders.
     All,
     /// Only what was photographed: no black borders, something at the edges is lost.
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     right: bool,
     /// Area to keep.
     #[arg(long, value_enum, default_value = "valid")]
-    keep: Kept,
+    keep: KeepArgument,
     /// The folder for the result.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
@@ -54,8 +54,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let keep = match arguments.keep {
-        Kept::All => Keep::All,
-        Kept::Valid => Keep::Valid,
+        KeepArgument::All => Keep::All,
+        KeepArgument::Valid => Keep::Valid,
     };
     let listed = arguments.listing.photos(&arguments.photos, context)?;
     let first = listed.first().map(|one| one.path.as_path());

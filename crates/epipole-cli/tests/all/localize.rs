@@ -47,7 +47,7 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
         path(&out),
     ]);
     assert_eq!(result["num_registered"], 5);
-    let read = read_model_folder(&|name| std::fs::read(out.join(name)).ok());
+    let read = read_model_folder(&|name: &str| std::fs::read(out.join(name)).ok());
     let model = read.unwrap().unwrap().model;
     let place = model
         .images

@@ -121,6 +121,10 @@ fn a_model_is_converted_and_back() {
         std::fs::read(folder.file("model.glb")).unwrap()[..4],
         *b"glTF"
     );
+    let page = json(&["convert", &binary, &place("model.html")]);
+    assert_eq!(page["kind"], "html");
+    let text = std::fs::read_to_string(folder.file("model.html")).unwrap();
+    assert!(text.contains("<title>3-D model: "), "{text}");
 }
 
 #[test]
@@ -262,13 +266,34 @@ fn a_damaged_model_is_not_taken_for_a_table() {
     ] {
         fails(&folder, &arguments, 1, "compressed (bzip2): unpack it");
     }
+}
+
+#[test]
+fn cameras_without_an_image_size_are_inspected() {
+    let folder = Folder::new("without-size");
     let matrix = folder.write("K.txt", "500 0 320\n0 500 240\n0 0 1\n");
-    fails(
-        &folder,
-        &["inspect", path(&matrix)],
-        1,
-        "--k 500,500,320,240",
-    );
+    let found = json(&["inspect", path(&matrix)]);
+    assert_eq!(found["cameras"][0]["width"], Value::Null);
+    assert_eq!(found["cameras"][0]["k"][0], 500.0);
+    let note = found["notes"][0].as_str().unwrap();
+    assert!(note.starts_with("the file has no image size"), "{note}");
+    let damaged = folder.write("camera.yml", "camera_matrix: [[500, 0], [0, 500]]\n");
+    fails(&folder, &["inspect", path(&damaged)], 1, "camera_matrix");
+}
+
+#[test]
+fn cameras_are_inspected_with_convention_and_lens() {
+    let folder = Folder::new("inspect-cameras");
+    let lines = "1 PINHOLE 640 480 500 501 320 240\n2 RADIAL 640 480 500 320 240 -0.1 0.02\n";
+    let file = folder.write("cameras.txt", lines);
+    let told = String::from_utf8(crate::common::epipole(&["inspect", path(&file)]).stdout).unwrap();
+    for words in [
+        "pixel centers at halves in the file, converted to integers",
+        "principal point (319.50, 239.50), no distortion",
+        "brown lens -0.1, 0.02, 0, 0, 0",
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
 }
 
 #[test]

@@ -74,6 +74,14 @@ fn model(photos: &[Photograph]) -> Model {
     model
 }
 
+/// Distance along the axis of a camera from a point to the surface at its pixel; `None` for points
+/// outside of the picture or hidden.
+fn miss(photo: &Photograph, camera: &PosedCamera, point: &Point3<f64>) -> Option<f64> {
+    let depth = depth_at(photo, &camera.project(point).ok()?)?;
+    let miss = ((camera.cam_from_world * point).z - depth).abs();
+    (miss < 0.05 * depth).then_some(miss)
+}
+
 #[test]
 fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     let folder = Folder::new("mvs");
@@ -116,11 +124,48 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     let median = errors[errors.len() / 2];
     println!("median error {median:.5} of the depth");
     assert!(median < 0.003, "{median}");
-    let sparse = read_model_folder(&|name| std::fs::read(out.join("sparse").join(name)).ok());
+    let sparse = read_model_folder(&|name: &str| std::fs::read(out.join("sparse").join(name)).ok());
     let sparse = sparse.unwrap().unwrap().model;
     assert_eq!(
         sparse.images[1].cam_from_world,
         model.images[1].cam_from_world
+    );
+
+    // A surface.
+    let surface = json(&[&base[..], &["--mesh", "ply"]].concat());
+    assert!(
+        surface["num_triangles"].as_u64().unwrap() > 2000,
+        "{surface}"
+    );
+    let (vertices, notes) = read_ply(&std::fs::read(out.join("mesh.ply")).unwrap()).unwrap();
+    assert_eq!(
+        vertices.points.len() as u64,
+        surface["num_vertices"].as_u64().unwrap()
+    );
+    assert!(notes[0].contains("faces are not read"), "{notes:?}");
+    let mut misses: Vec<f64> = (vertices.points.iter())
+        .filter_map(|point| miss(&photos[1], &around(1), point))
+        .collect();
+    misses.sort_by(f64::total_cmp);
+    println!(
+        "median distance of vertices {:.5} m",
+        misses[misses.len() / 2]
+    );
+    assert!(misses.len() > 500 && misses[misses.len() / 2] < 0.004);
+    let few = json(&[&base[..], &["--mesh", "glb", "--voxel-size", "0.05"]].concat());
+    assert!(few["num_triangles"].as_u64() < surface["num_triangles"].as_u64());
+    assert!(
+        std::fs::read(out.join("mesh.glb"))
+            .unwrap()
+            .starts_with(b"glTF")
+    );
+    assert!(!out.join("mesh.ply").exists());
+    let coarse = ["--mesh", "ply", "--voxel-size", "100"];
+    let empty = epipole(&[&base[..], &coarse].concat());
+    let told = String::from_utf8(empty.stderr).unwrap();
+    assert!(
+        empty.status.success() && told.contains("the mesh is empty"),
+        "{told}"
     );
 
     // Twice the same, and at half the size.

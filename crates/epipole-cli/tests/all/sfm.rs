@@ -6,6 +6,7 @@ use epipole::sfm::{AlignmentKind, absolute_trajectory_error};
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 const SIZE: (u32, u32) = (400, 300);
 
@@ -311,4 +312,128 @@ fn photographs_that_do_not_fit_together_are_refused() {
     fails(&folder, &["sfm", path(&photo)], 2, "--output");
     let wrong = ["sfm", path(&photo), "-o", path(&out), "--focal-px", "-3"];
     fails(&folder, &wrong, 2, "-3");
+}
+
+/// Four photographs, and the model of them that a run found.
+struct Known {
+    folder: Folder,
+    photos: PathBuf,
+    model: PathBuf,
+    num_points: u64,
+}
+
+impl Known {
+    fn new(name: &str) -> Self {
+        let folder = Folder::new(name);
+        let cameras: Vec<PosedCamera> = (0..4).map(around).collect();
+        folder.photographs("photos", &cameras, SIZE);
+        let (photos, model) = (folder.file("photos"), folder.file("model"));
+        let focal_px = cameras[0].camera.intrinsics.fu_px().to_string();
+        let words = ["sfm", path(&photos), "--focal-px", &focal_px, "-o"];
+        let found = json(&[&words[..], &[path(&model)]].concat());
+        let num_points = num_points(&found);
+        Self {
+            folder,
+            photos,
+            model,
+            num_points,
+        }
+    }
+
+    /// Arguments of a run with the poses of a model.
+    fn words(&self, photos: &Path, model: &Path) -> Vec<String> {
+        let out = self.folder.file("out");
+        let words = [
+            "sfm",
+            path(photos),
+            "--poses",
+            path(model),
+            "-o",
+            path(&out),
+        ];
+        words.map(str::to_owned).to_vec()
+    }
+
+    fn run(&self, photos: &Path, model: &Path) -> Value {
+        let words = self.words(photos, model);
+        json(&words.iter().map(String::as_str).collect::<Vec<_>>())
+    }
+
+    fn fails(&self, photos: &Path, model: &Path, more: &[&str], status: i32, expected: &str) {
+        let words = self.words(photos, model);
+        let words: Vec<&str> = words
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
+        fails(&self.folder, &words, status, expected);
+    }
+}
+
+fn num_points(result: &Value) -> u64 {
+    result["num_points"].as_u64().unwrap()
+}
+
+/// The lines of all poses of a model.
+fn poses(model: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(model.join("images.txt")).unwrap();
+    lines(&text).step_by(2).map(str::to_owned).collect()
+}
+
+/// Poses stay to the last digit, and points are many.
+#[test]
+fn points_are_found_where_a_model_has_the_cameras() {
+    let known = Known::new("sfm-poses");
+    let result = known.run(&known.photos, &known.model);
+    println!("{} points, then {}", known.num_points, num_points(&result));
+    assert_eq!(result["num_registered"], 4);
+    assert!(num_points(&result) * 10 >= known.num_points * 9);
+    assert!(result["mean_reprojection_px"].as_f64().unwrap() < 1.0);
+    assert_eq!(result["focal_determined"], Value::Null);
+    let out = known.folder.file("out");
+    assert_eq!(poses(&known.model), poses(&out));
+    let cameras = |folder: &Path| std::fs::read_to_string(folder.join("cameras.txt")).unwrap();
+    assert_eq!(cameras(&known.model), cameras(&out));
+}
+
+#[test]
+fn poses_of_other_photographs_are_told() {
+    let known = Known::new("sfm-other-poses");
+    let rename = |from: &str, to: &str| {
+        std::fs::rename(known.photos.join(from), known.photos.join(to)).unwrap();
+    };
+    rename("3.png", "other.png");
+    let result = known.run(&known.photos, &known.model);
+    assert_eq!(result["num_registered"], 3);
+    assert_eq!(result["unregistered"][0]["name"], "other.png");
+    let reason = result["unregistered"][0]["reason"].as_str().unwrap();
+    assert!(reason.starts_with("it has no pose in "), "{reason}");
+    // Cameras that move ahead see points move away from the middle, these move to the side.
+    let ahead = known.folder.file("ahead");
+    std::fs::create_dir(&ahead).unwrap();
+    let pose = |n: usize| format!("{} 1 0 0 0 0 0 -0.{n} 1 {n}.png\n\n", n + 1);
+    let text: String = (0..3).map(pose).collect();
+    std::fs::write(ahead.join("images.txt"), text).unwrap();
+    std::fs::copy(known.model.join("cameras.txt"), ahead.join("cameras.txt")).unwrap();
+    let few = num_points(&known.run(&known.photos, &ahead));
+    assert!(few * 3 < known.num_points, "{few}");
+    // One photograph, points without images, a focal length beside the model's, no name in common.
+    let (photos, model) = (&known.photos, &known.model);
+    let one = "points need two photographs at least, and 1 is given";
+    known.fails(&photos.join("0.png"), model, &[], 1, one);
+    let cloud = model.join("points.ply");
+    known.fails(
+        photos,
+        &cloud,
+        &[],
+        1,
+        "it has no images with poses, only points",
+    );
+    let more = ["--focal-px", "500"];
+    known.fails(photos, model, &more, 2, "cannot be used with");
+    for n in 0..3 {
+        rename(&format!("{n}.png"), &format!("y{n}.png"));
+    }
+    let none = "it has poses of 0 of the 4 photographs, and two are needed";
+    known.fails(photos, model, &[], 1, none);
 }

@@ -312,3 +312,34 @@ fn a_camera_that_moved_is_told() {
         "{told}"
     );
 }
+
+/// A sign that hangs at both ends of the panorama.
+#[test]
+fn matches_that_contradict_all_others_are_no_parallax() {
+    let folder = Folder::new("stitch-repeats");
+    let mut photos: Vec<RgbImage> = (0..4)
+        .map(|n| {
+            let yaw = Rotation3::from_scaled_axis(Vector3::y() * (-0.35 * f64::from(n)));
+            photo(&(k().matrix() * yaw.matrix()), 1.0, world)
+        })
+        .collect();
+    let sign = image::imageops::crop_imm(&photos[0], 0, 60, 90, 120).to_image();
+    image::imageops::replace(&mut photos[3], &sign, 225, 70);
+    let names = ["a.png", "b.png", "c.png", "d.png"].map(|name| folder.file(name));
+    for (photo, name) in photos.iter().zip(&names) {
+        photo.save(name).unwrap();
+    }
+    let out = folder.file("out.png");
+    let [a, b, c, d] = names.each_ref().map(|name| path(name));
+    let arguments = ["stitch", a, b, c, d, "-o", path(&out)];
+    let output = epipole(&[&arguments[..], &["--json"]].concat());
+    let result = parse(&output);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        told.contains("matches of a.png and d.png contradict all others")
+            && !told.contains("moved"),
+        "{told}"
+    );
+    assert_eq!(result["num_stitched"], 4);
+    assert!(result["mean_error_px"].as_f64().unwrap() < 0.5, "{result}");
+}

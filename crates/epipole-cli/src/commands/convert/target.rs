@@ -18,6 +18,7 @@ pub(super) enum Format {
     Openmvg,
     Ply,
     Glb,
+    Html,
     /// Cameras: JSON as `epipole calibrate` writes it.
     Epipole,
     /// Cameras: YAML.
@@ -52,6 +53,7 @@ impl From<Format> for Target {
             Format::Openmvg => Self::Model(ModelFormat::OpenMvg),
             Format::Ply => Self::Model(ModelFormat::Ply),
             Format::Glb => Self::Model(ModelFormat::Glb),
+            Format::Html => Self::Model(ModelFormat::Html),
             Format::Epipole => Self::Cameras(CameraFormat::Epipole),
             Format::Opencv => Self::Cameras(CameraFormat::OpenCv),
             Format::Ros => Self::Cameras(CameraFormat::Ros),
@@ -85,6 +87,7 @@ impl Target {
             ("txt", Content::Trajectory(..)) => Format::Tum,
             ("ply", _) => Format::Ply,
             ("glb", _) => Format::Glb,
+            ("html" | "htm", _) => Format::Html,
             ("out", _) => Format::Bundler,
             ("json", _) if name.contains("sfm_data") => Format::Openmvg,
             ("json", _) => Format::Transforms,

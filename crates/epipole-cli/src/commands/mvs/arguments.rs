@@ -3,14 +3,25 @@
 use crate::context::Context;
 use crate::matrices::{number, positive};
 use crate::reading::ReadArguments;
-use clap::Args;
-use epipole::mvs::MvsOptions;
+use clap::{Args, ValueEnum};
+use epipole::mvs::{MeshOptions, MvsOptions};
 use std::path::PathBuf;
 
 const EXAMPLE: &str = "Example: epipole mvs reconstruction/ photos/ -o dense";
 
 fn default() -> MvsOptions {
     MvsOptions::default()
+}
+
+/// File of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum MeshFormat {
+    /// `mesh.ply`: binary, for CloudCompare and MeshLab.
+    Ply,
+    /// `mesh.glb`: binary glTF, for Blender and viewers.
+    Glb,
+    /// `mesh.obj`: text.
+    Obj,
 }
 
 /// Compute depth maps and a dense cloud of a model and its photos.
@@ -21,10 +32,11 @@ fn default() -> MvsOptions {
     The model is one of `epipole sfm`, COLMAP (text, binary), Bundler or openMVG, with observations of its points.\n\
     They tell which photos are compared, and in which range of depths. Lens distortion is removed.\n\n\
     Writes fused.ply, points with normals, colors and confidence, which is the number of photos that agree;\n\
-    stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/, the cameras of these maps.\n\n\
+    stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/, the cameras of these maps. --mesh\n\
+    adds a surface of triangles with colors, which has holes where no photo sees it.\n\n\
     JSON: num_images, num_depth_maps, density (share of pixels with a depth), num_points, mean_views (photos that\n\
     agree on a point, on average), images (name, width, height, num_neighbors, density, min_depth and max_depth of\n\
-    each depth map, null if it is empty), file."
+    each depth map, null if it is empty), file; with --mesh also num_triangles, num_vertices, mesh (its file)."
 )]
 pub(crate) struct Arguments {
     /// A file or folder with a model.
@@ -64,6 +76,15 @@ pub(crate) struct Arguments {
     /// Largest angle between the normals of photos that agree, degrees.
     #[arg(long, value_name = "DEG", default_value_t = default().max_normal_angle_deg, value_parser = positive)]
     max_normal_angle_deg: f64,
+    /// Also write a mesh of triangles.
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    pub(super) mesh: Option<MeshFormat>,
+    /// Edge of a voxel of the mesh, in the unit of the model [default: 1.5 pixels].
+    #[arg(long, value_name = "SIZE", value_parser = positive, requires = "mesh")]
+    voxel_size: Option<f64>,
+    /// Fewest triangles of a connected piece of the mesh.
+    #[arg(long, value_name = "N", default_value_t = MeshOptions::default().min_triangles, requires = "mesh")]
+    min_triangles: usize,
     #[command(flatten)]
     pub(super) reading: ReadArguments,
 }
@@ -82,5 +103,11 @@ impl Arguments {
             .with_max_depth_difference(self.max_depth_difference)
             .with_max_normal_angle_deg(self.max_normal_angle_deg)
             .with_seed(context.seed)
+    }
+
+    pub(super) fn mesh_options(&self) -> MeshOptions {
+        MeshOptions::default()
+            .with_voxel_size(self.voxel_size)
+            .with_min_triangles(self.min_triangles)
     }
 }

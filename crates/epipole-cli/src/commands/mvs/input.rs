@@ -4,7 +4,7 @@ use super::arguments::Arguments;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::model_images::{ImageFolder, in_frame_of_camera};
+use crate::model_images::{ImageFolder, in_frame_of_camera, resized};
 use crate::progress::Progress;
 use crate::reading::SizeArguments;
 use epipole::camera::Camera;
@@ -88,15 +88,4 @@ fn size(arguments: &Arguments, camera: &Camera) -> SizeArguments {
         max_megapixels: Some(1e-6 * num_pixels),
         ..arguments.reading.into()
     }
-}
-
-/// The camera for an image of another size.
-fn resized(camera: &Camera, to: (u32, u32)) -> Result<Camera, Failure> {
-    let from = (camera.width, camera.height);
-    Ok(Camera {
-        intrinsics: camera.intrinsics.resized(from, to)?,
-        lens: camera.lens,
-        width: to.0,
-        height: to.1,
-    })
 }

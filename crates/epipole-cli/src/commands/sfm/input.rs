@@ -20,7 +20,7 @@ use std::path::PathBuf;
 pub(super) struct InputArguments {
     /// Photographs, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
-    photos: Vec<PathBuf>,
+    pub(super) photos: Vec<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
     /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for
@@ -36,10 +36,15 @@ pub(super) struct InputArguments {
     /// that know no others. The border of a fisheye is lost.
     #[arg(long, requires = "camera_file")]
     undistort: bool,
+    /// Take cameras and poses from a model, by the names of its images, and only find points.
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["k", "focal_px", "focals_px", "camera_file", "images",
+        "positions", "lenses", "refine_focal", "keep_focal", "refine_principal_point", "refine_distortion",
+        "refine_tangential"])]
+    pub(super) poses: Option<PathBuf>,
     #[command(flatten)]
-    listing: ListingArguments,
+    pub(super) listing: ListingArguments,
     #[command(flatten)]
-    size: SizeArguments,
+    pub(super) size: SizeArguments,
 }
 
 /// A focal length in pixels, or none.

@@ -2,11 +2,15 @@
 
 use super::input::Used;
 use crate::failure::Failure;
+use crate::matrices::Motion;
 use crate::output_folder::OutputFolder;
 use crate::output_folder::colmap::check_foreign;
 use crate::{photo, picture};
+use epipole::camera::PosedCamera;
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use epipole_io::model::{Model, ModelFormat};
+use serde::Serialize;
+use serde_json::json;
 use std::collections::BTreeSet;
 use std::iter;
 use std::path::{Path, PathBuf};
@@ -129,4 +133,32 @@ pub(super) fn write_model(
         written.push(path.display().to_string());
     }
     Ok(written)
+}
+
+/// Name, focal length, lens and pose of each registered image.
+pub(super) fn images_json(
+    images: &[SfmImage],
+    component: &Reconstruction,
+) -> Vec<serde_json::Value> {
+    let registered = |(image, camera): (&SfmImage, &Option<PosedCamera>)| {
+        let camera = camera.as_ref()?;
+        let lens = camera.camera.lens;
+        Some(json!({
+            "name": image.name,
+            "focal_px": camera.camera.intrinsics.fu_px(),
+            "lens": lens.kind().name(),
+            "distortion": lens.coefficients(),
+            "cam_from_world": Motion::from(&camera.cam_from_world),
+        }))
+    };
+    (images.iter().zip(&component.cameras))
+        .filter_map(registered)
+        .collect()
+}
+
+/// A photograph that is not in the largest component.
+#[derive(Debug, Serialize)]
+pub(super) struct LeftOut {
+    pub(super) name: String,
+    pub(super) reason: String,
 }

@@ -1,4 +1,5 @@
-//! Warnings about a pair that is not rectified, or whose disparities are outside of the range.
+//! Warnings about a pair that is one picture twice or not rectified, or whose disparities are
+//! outside of the range.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -24,8 +25,8 @@ const MIN_MATCHES: usize = 30;
 /// From the left to the right pixel of a match.
 type Move = [f64; 2];
 
-/// Warns, from the features of both images, if rows do not agree or if most disparities are not
-/// looked for.
+/// Warns if both images are the same; from the features of both, if rows do not agree or if most
+/// disparities are not looked for.
 ///
 /// * `range`: smallest and largest disparity, pixels
 ///
@@ -36,6 +37,10 @@ pub(super) fn check(
     range: (i32, i32),
     context: &Context,
 ) -> Result<(), Failure> {
+    if photos[0].color == photos[1].color {
+        context.warn("left and right are the same picture, so every disparity is 0");
+        return Ok(());
+    }
     let (moves, scale) = moves(photos)?;
     if let Some(sentence) = sentence(&moves, TOLERANCE_PX / scale, range) {
         context.warn(&sentence);

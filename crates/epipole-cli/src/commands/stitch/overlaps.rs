@@ -12,6 +12,7 @@ use epipole::sfm::{PhotoOptions, match_photos};
 use epipole::stitch::{Overlap, OverlapOptions, Panorama, find_overlap};
 use nalgebra::{Matrix3, Point2};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// Share of the work after which all is matched.
 const MATCHED: f32 = 0.8;
@@ -21,6 +22,9 @@ const FITS_PX: f64 = 6.0;
 
 /// A smaller share of the matches of an overlap that fits is parallax.
 const MOST: f64 = 0.7;
+
+/// A smaller share is of matches of other things, where both photos have their places by others.
+const FEW: f64 = 0.1;
 
 /// All overlaps.
 pub(super) struct Overlaps {
@@ -105,30 +109,29 @@ impl Overlaps {
                 left_out.join(", ")
             ));
         }
-        let (mut rows, mut moved) = (Vec::new(), Vec::new());
-        let (mut sum_px, mut count) = (0.0, 0_usize);
-        for overlap in &self.found {
-            let [Some(first), Some(second)] =
-                overlap.images.map(|n| panorama.pixel_from_direction[n])
-            else {
-                continue;
-            };
-            let errors = errors_px(&first, &second, overlap);
-            let fitting: Vec<f64> = errors
-                .iter()
-                .copied()
-                .filter(|error| *error <= FITS_PX)
-                .collect();
-            let sum: f64 = fitting.iter().sum();
-            let is_loose = (fitting.len() as f64) < MOST * errors.len() as f64;
-            let parallax = overlap.has_parallax || is_loose;
-            if parallax {
-                moved.push(names(overlap).join(" and "));
+        let fits: Vec<Fit<'_>> = (self.found.iter())
+            .filter_map(|overlap| Fit::new(overlap, panorama))
+            .collect();
+        let mut joined = BTreeSet::new();
+        for fit in fits.iter().filter(|fit| fit.share() >= MOST) {
+            joined.extend(fit.overlap.images);
+        }
+        let (mut moved, mut elsewhere) = (Vec::new(), Vec::new());
+        let (mut rows, mut sum_px, mut count) = (Vec::new(), 0.0, 0_usize);
+        for fit in &fits {
+            let overlap = fit.overlap;
+            let are_joined = overlap.images.iter().all(|image| joined.contains(image));
+            let is_elsewhere = are_joined && fit.share() < FEW;
+            let parallax = !is_elsewhere && (overlap.has_parallax || fit.share() < MOST);
+            for (list, is_in) in [(&mut moved, parallax), (&mut elsewhere, is_elsewhere)] {
+                if is_in {
+                    list.push(names(overlap).join(" and "));
+                }
             }
-            (sum_px, count) = (sum_px + sum, count + fitting.len());
+            (sum_px, count) = (sum_px + fit.sum_px, count + fit.num_fitting);
             rows.push(json!({
-                "names": names(overlap), "num_matches": overlap.num_matches, "num_inliers": fitting.len(),
-                "mean_error_px": sum / fitting.len().max(1) as f64, "parallax": parallax,
+                "names": names(overlap), "num_matches": overlap.num_matches, "num_inliers": fit.num_fitting,
+                "mean_error_px": fit.sum_px / fit.num_fitting.max(1) as f64, "parallax": parallax,
             }));
         }
         if !moved.is_empty() {
@@ -138,10 +141,43 @@ impl Overlaps {
                 moved.join(", ")
             ));
         }
+        if !elsewhere.is_empty() {
+            context.warn(&format!(
+                "matches of {} contradict all others and are not used: the scene may repeat itself",
+                elsewhere.join(", ")
+            ));
+        }
         Judged {
             mean_error_px: sum_px / count.max(1) as f64,
             rows,
         }
+    }
+}
+
+/// Matches of an overlap after all photos are in place.
+struct Fit<'a> {
+    overlap: &'a Overlap,
+    num_fitting: usize,
+    /// Sum of the errors of those that fit.
+    sum_px: f64,
+}
+
+impl<'a> Fit<'a> {
+    /// `None` if a photo of the overlap is left out.
+    fn new(overlap: &'a Overlap, panorama: &Panorama) -> Option<Self> {
+        let [first, second] = overlap.images.map(|n| panorama.pixel_from_direction[n]);
+        let errors = errors_px(&first?, &second?, overlap);
+        let fitting = || errors.iter().filter(|error| **error <= FITS_PX);
+        Some(Self {
+            overlap,
+            num_fitting: fitting().count(),
+            sum_px: fitting().fold(0.0, |sum, error| sum + error),
+        })
+    }
+
+    /// Share of the matches that fit.
+    fn share(&self) -> f64 {
+        self.num_fitting as f64 / self.overlap.pixels[0].len().max(1) as f64
     }
 }
 
