@@ -34,7 +34,7 @@ NAMED = {
     "uint8": ("ArrayLike", "NDArray[np.uint8]"),
 } | {name: (name, name) for name in ("None", "bool", "bytes", "float", "int", "slice", "str")}
 DTYPES = {"": "float64", "float": "float64", "int": "int64", "bool": "bool_"}
-DTYPES |= {name: name for name in ("uint8", "uint16", "int32", "int64", "float32", "float64")}
+DTYPES |= {name: name for name in ("uint8", "uint16", "uint32", "int32", "int64", "float32", "float64")}
 
 # Scalars of Rust.
 RUST = {"bool": "bool", "String": "str", "str": "str", "()": "None", "char": "str"}

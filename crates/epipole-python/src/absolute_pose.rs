@@ -66,7 +66,12 @@ impl AbsolutePoseWithFocal {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.NoConsensusError
+/// epipole.TooFewError
+///     Fewer than 4 different matches.
+/// epipole.NoConsensusError
+///     No pose with 3 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, camera, *, progress=None, **options))]
 fn estimate_absolute_pose(
@@ -107,6 +112,15 @@ fn estimate_absolute_pose(
 /// -------
 /// RansacReport of AbsolutePoseWithFocal
 ///     Its model is an `AbsolutePoseWithFocal`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 5 different matches.
+/// epipole.NoConsensusError
+///     No pose with 4 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]
 fn estimate_absolute_pose_and_focal(
@@ -196,6 +210,13 @@ fn pose_p4pf(
 /// -------
 /// RigidTransform
 ///     ``cam_from_world``
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 6 points.
+/// epipole.DegenerateError
+///     Points on a plane, or otherwise critical.
 #[pyfunction]
 fn pose_dlt(
     points_in_world: &Bound<'_, PyAny>,
@@ -221,6 +242,14 @@ fn pose_dlt(
 /// -------
 /// RigidTransform
 ///     ``cam_from_world``
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 points.
+/// epipole.DegenerateError
+///     Points on one line, no pose with all of them in front of the camera, or a pixel without a
+///     ray.
 #[pyfunction]
 fn fit_absolute_pose(
     points_in_world: &Bound<'_, PyAny>,
@@ -249,6 +278,13 @@ fn fit_absolute_pose(
 /// Returns
 /// -------
 /// RigidTransform or None
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 3 points in front of the flipped camera.
+/// epipole.DegenerateError
+///     Pixel without a ray.
 #[pyfunction]
 fn find_flipped_pose(
     cam_from_world: &RigidTransform,
@@ -278,6 +314,15 @@ fn find_flipped_pose(
 /// -------
 /// RigidTransform
 ///     ``cam_from_world``
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 3 points in front of the camera.
+/// epipole.DegenerateError
+///     Pixel without a ray.
+/// ValueError
+///     Loss width not above 0.
 #[pyfunction]
 #[pyo3(signature = (cam_from_world, points_in_world, pixels, camera, loss=None))]
 fn refine_absolute_pose(

@@ -42,7 +42,14 @@ record! {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.NoConsensusError
+/// epipole.TooFewError
+///     Fewer than 4 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image on one line.
+/// epipole.NoConsensusError
+///     No homography with 4 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_homography(
@@ -78,6 +85,17 @@ fn estimate_homography(
 /// -------
 /// RansacReport of ndarray
 ///     Its model is H of rays, shape (3, 3).
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 different matches that both lenses see.
+/// epipole.DegenerateError
+///     All pixels of an image of a pinhole camera on one line.
+/// epipole.NoConsensusError
+///     No homography with 4 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_homography_calibrated(
@@ -137,6 +155,13 @@ fn homography_4point<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 matches.
+/// epipole.DegenerateError
+///     All points, or all but one, on one line.
 #[pyfunction]
 fn fit_homography<'py>(
     pixels1: &Bound<'py, PyAny>,
@@ -162,6 +187,14 @@ fn fit_homography<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 different matches.
+/// ValueError
+///     Loss width not above 0, a coordinate beyond 1e9 pixels, or a pixel that the start maps to
+///     infinity.
 #[pyfunction]
 #[pyo3(signature = (homography, pixels1, pixels2, loss=None))]
 fn refine_homography<'py>(
@@ -188,7 +221,12 @@ fn refine_homography<'py>(
 /// Returns
 /// -------
 /// ndarray of the same shape
-///     Rows of NaN for pixels mapped to infinity; a single one raises `DegenerateError`.
+///     Rows of NaN for pixels mapped to infinity.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pixel that is mapped to infinity.
 ///
 /// Examples
 /// --------
@@ -266,6 +304,11 @@ fn homography_sampson_px<'py>(
 /// Returns
 /// -------
 /// list of PlaneMotion
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Singular matrix.
 #[pyfunction]
 fn decompose_homography(
     py: Python<'_>,

@@ -69,6 +69,11 @@ impl Geodetic {
 /// -------
 /// ndarray, shape (3,)
 ///     Meters.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Latitude outside -90° to 90°, or longitude outside -180° to 180°.
 #[pyfunction]
 fn local_from_geodetic<'py>(
     py: Python<'py>,
@@ -85,6 +90,11 @@ fn local_from_geodetic<'py>(
 /// ----------
 /// line : array_like, shape (3,)
 ///     Homogeneous line, of any scale.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Line (0, 0, c).
 #[pyclass(frozen, module = "epipole.math")]
 struct Line2(math::Line2);
 
@@ -109,6 +119,11 @@ impl Line2 {
     /// ----------
     /// line : array_like, shape (3,)
     ///     Of any scale.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Line (0, 0, c).
     #[staticmethod]
     fn from_homogeneous(line: &Bound<'_, PyAny>) -> PyResult<Self> {
         Self::new(line)
@@ -119,6 +134,11 @@ impl Line2 {
     /// Parameters
     /// ----------
     /// p, q : array_like, shape (2,)
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Equal points.
     #[staticmethod]
     fn through(p: &Bound<'_, PyAny>, q: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (p, q) = (Point2::from(vector("p", p)?), Point2::from(vector("q", q)?));
@@ -270,6 +290,11 @@ impl Random {
     /// ----------
     /// bound : int
     ///     Upper end, > 0.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     ``bound`` of 0.
     fn below(&self, bound: usize) -> PyResult<usize> {
         if bound == 0 {
             return Err(PyValueError::new_err("bound must be greater than 0"));

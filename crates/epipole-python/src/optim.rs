@@ -214,6 +214,13 @@ impl Monitor for Guard<'_> {
 /// -------
 /// parameters : ndarray, shape (N,)
 /// report : LmReport
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No residuals or no parameters.
+/// ValueError
+///     Loss width not above 0, or no finite cost or gradient at the start.
 #[pyfunction]
 #[pyo3(signature = (
     residuals, jacobian, parameters, *, loss=None, held=None, progress=None, **options
@@ -279,6 +286,11 @@ fn minimize_dense<'py>(
 /// -------
 /// float
 ///     Each entry relative to the larger of 1 and its size; infinity for other shapes and NaN.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``step`` not above 0.
 ///
 /// Examples
 /// --------

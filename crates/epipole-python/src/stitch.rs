@@ -210,6 +210,13 @@ impl Panorama {
 /// Overlap or None
 ///     None if no more matches agree than wrong ones might.
 ///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     All pixels of an image on one line.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` out of range.
+///
 /// Examples
 /// --------
 /// >>> steps = np.arange(60)
@@ -265,6 +272,9 @@ fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overl
 /// Raises
 /// ------
 /// epipole.DegenerateError
+///     No overlaps, or one whose matches meet in a point.
+/// ValueError
+///     Overlap of a photo that does not exist.
 #[pyfunction]
 #[pyo3(signature = (intrinsics, overlaps, find_focal=false, *, progress=None))]
 fn estimate_panorama(
@@ -298,6 +308,9 @@ fn estimate_panorama(
 /// Raises
 /// ------
 /// epipole.DegenerateError
+///     No overlaps.
+/// ValueError
+///     Overlap of a photo that does not exist.
 #[pyfunction]
 fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Panorama> {
     let overlaps = of_images(overlaps, num_images)?;
@@ -326,6 +339,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
 /// Raises
 /// ------
 /// epipole.DegenerateError
+///     Photo that looks beyond the surface.
 #[pyfunction]
 #[pyo3(signature = (panorama, photos, *, progress=None, **options))]
 fn render_panorama<'py>(

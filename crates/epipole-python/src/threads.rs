@@ -71,9 +71,9 @@ impl Threads {
 /// Raises
 /// ------
 /// ValueError
-///     If count is out of this range.
+///     ``count`` outside 1 to 1024.
 /// OSError
-///     If the system starts no more threads.
+///     System that starts no more threads.
 ///
 /// Examples
 /// --------

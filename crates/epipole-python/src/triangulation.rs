@@ -32,8 +32,13 @@ record! {
 /// Returns
 /// -------
 /// ndarray, shape (3,) or (N, 3)
-///     Rows of NaN for parallel rays and points behind a camera; a single one raises
-///     `DegenerateError`.
+///     Rows of NaN for parallel rays and points behind a camera.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single match of parallel rays, of a point not in front of both cameras, of cameras at the
+///     same place, or of a matrix of rank below 3.
 #[pyfunction]
 fn triangulate_dlt<'py>(
     p1: &Bound<'py, PyAny>,
@@ -60,8 +65,14 @@ fn triangulate_dlt<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3,) or (N, 3)
-///     Points in the frame of camera 1. Rows of NaN for parallel rays and points behind a camera;
-///     a single one raises `DegenerateError`.
+///     Points in the frame of camera 1. Rows of NaN for parallel rays and points behind a camera.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pair of parallel or diverging rays, or cameras at the same place.
+/// ValueError
+///     Single pair with a ray of length 0.
 ///
 /// Examples
 /// --------
@@ -93,6 +104,14 @@ fn triangulate_midpoint<'py>(
 /// -------
 /// ndarray, shape (3,) or (N, 3)
 ///     As `triangulate_midpoint`.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pair of parallel or diverging rays, or cameras at the same place; among several, a
+///     row of NaN.
+/// ValueError
+///     Single pair with a ray of length 0.
 #[pyfunction]
 fn triangulate_weighted_midpoint<'py>(
     cam2_from_cam1: &RigidTransform,
@@ -117,6 +136,14 @@ fn triangulate_weighted_midpoint<'py>(
 /// -------
 /// ndarray, shape (3,) or (N, 3)
 ///     As `triangulate_midpoint`.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pair of parallel or diverging rays, or cameras at the same place; among several, a
+///     row of NaN.
+/// ValueError
+///     Single pair with a ray of length 0.
 #[pyfunction]
 fn triangulate_angular<'py>(
     cam2_from_cam1: &RigidTransform,
@@ -139,8 +166,13 @@ fn triangulate_angular<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3,) or (N, 3)
-///     Rows of NaN for parallel rays and points behind a camera; a single one raises
-///     `DegenerateError`.
+///     Rows of NaN for parallel rays and points behind a camera.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single match of parallel or diverging rays, of an epipole, of a pixel without a ray, or of
+///     cameras at the same place.
 #[pyfunction]
 fn triangulate_optimal<'py>(
     cam1: &PosedCamera,
@@ -164,8 +196,13 @@ fn triangulate_optimal<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (4,) or (N, 4)
-///     Corrected (u1, v1, u2, v2). Rows of NaN for matches at an epipole; a single one raises
-///     `DegenerateError`.
+///     Corrected (u1, v1, u2, v2). Rows of NaN for matches at an epipole.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single match of the two epipoles, one whose lines are infinitely far away, or a matrix of
+///     zeros.
 #[pyfunction]
 fn correct_matches<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -191,6 +228,14 @@ fn correct_matches<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3,)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 views.
+/// epipole.DegenerateError
+///     Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
+///     without a ray.
 #[pyfunction]
 fn triangulate_nview_dlt<'py>(
     cameras: Vec<PosedCamera>,
@@ -214,6 +259,16 @@ fn triangulate_nview_dlt<'py>(
 /// Returns
 /// -------
 /// NviewPoint
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 views.
+/// epipole.DegenerateError
+///     Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
+///     without a ray.
+/// ValueError
+///     Loss width not above 0.
 #[pyfunction]
 #[pyo3(signature = (cameras, pixels, loss=None))]
 fn triangulate_nview(
@@ -269,6 +324,13 @@ fn triangulation_angle_rad<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Camera that does not see the point, or views that leave it free to move along a ray.
+/// ValueError
+///     ``sigma_px`` not above 0.
 #[pyfunction]
 fn point_covariance<'py>(
     cameras: Vec<PosedCamera>,

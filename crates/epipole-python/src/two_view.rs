@@ -156,6 +156,17 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 /// Returns
 /// -------
 /// TwoViewReport
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image on one line.
+/// epipole.NoConsensusError
+///     No model with as many inliers as its sample has.
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_two_view(
@@ -187,6 +198,18 @@ fn estimate_two_view(
 /// Returns
 /// -------
 /// TwoViewReport
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 4 different matches that no rotation explains, or fewer than 5 through a lens
+///     with distortion.
+/// epipole.DegenerateError
+///     All pixels of an image of a pinhole camera on one line, unless a rotation explains them.
+/// epipole.NoConsensusError
+///     No model with as many inliers as its sample has.
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_two_view_calibrated(
@@ -223,6 +246,15 @@ fn estimate_two_view_calibrated(
 /// -------
 /// RansacReport of ndarray
 ///     Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 different matches.
+/// epipole.NoConsensusError
+///     No rotation with 2 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_rotation(
@@ -256,6 +288,11 @@ fn estimate_rotation(
 /// Returns
 /// -------
 /// Degeneracy or None
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, inliers, **options))]
 fn find_degeneracy(
@@ -285,6 +322,11 @@ fn find_degeneracy(
 /// Returns
 /// -------
 /// Degeneracy or None
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 ///
 /// Examples
 /// --------
@@ -318,6 +360,11 @@ fn find_unmoved(
 /// Returns
 /// -------
 /// ExplainingTurn or None
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
 fn find_explaining_turn(
@@ -355,6 +402,11 @@ fn find_explaining_turn(
 /// Returns
 /// -------
 /// TurnAndFocal or None
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
 fn find_turn_and_focal(

@@ -52,7 +52,8 @@ def test_boards():
     np.testing.assert_allclose(board.mark(10), (0.025, 0.025))
     assert board.marks().shape == (54, 2)
     charuco = Board({"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}, 7, 5, 0.03)
-    assert (charuco.columns, charuco.rows) == (6, 4)
+    assert (charuco.columns, charuco.rows) == (7, 5)
+    assert (charuco.mark_columns, charuco.mark_rows) == (6, 4)
     assert charuco.pattern["charuco"]["marker_share"] == 0.75
     drawing = Board("chessboard", 3, 3, 0.02).drawing()
     assert drawing.rectangles.shape == (8, 2, 2)

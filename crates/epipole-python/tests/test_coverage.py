@@ -37,6 +37,9 @@ LEFT_OUT = {
         optim::EdgeTerms sfm::GraphPose""",
     "robust.estimate_line runs it": "robust::LineEstimator",
     "numpy.linalg.svd does the same": "math::right_singular_vectors",
+    "steps of an algorithm that figures show": """
+        feature::sift_orientation_histograms stereo::PATH_STEPS stereo::PathCosts
+        stereo::PixelCosts""",
     "a pose graph read from a file keeps its priors": "sfm::PosePrior",
     "steps inside the eight-point method and the refinement": """
         camera::Observation epipolar::Normalization""",

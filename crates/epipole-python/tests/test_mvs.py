@@ -62,6 +62,29 @@ def test_cloud_lies_on_the_plane(result, tmp_path):
     assert np.array_equal(read.confidences, cloud.confidences)
 
 
+def test_mesh_lies_on_the_plane(result, tmp_path):
+    mesh = mvs.mesh_depth_maps(*result, voxel_size=0.03)
+    points, triangles = mesh.vertices.points, mesh.triangles
+    assert len(mesh) == len(triangles) > 500
+    assert triangles.dtype == np.uint32 and triangles.max() == len(points) - 1
+    assert abs(np.median(points[:, 2]) - DEPTH) < 0.005
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.mean(normals[:, 2] < 0) > 0.99
+    assert pickle.loads(pickle.dumps(mesh)) == mesh
+    for ending, start in [("ply", b"ply"), ("glb", b"glTF"), ("obj", b"v ")]:
+        io.write_mesh(tmp_path / f"mesh.{ending}", mesh)
+        assert (tmp_path / f"mesh.{ending}").read_bytes().startswith(start)
+    assert np.allclose(io.read_ply(tmp_path / "mesh.ply")[0].points, points, atol=1e-5)
+    with pytest.raises(ValueError, match="does not end in"):
+        io.write_mesh(tmp_path / "mesh.stl", mesh)
+    wrong = mvs.Mesh(mesh.vertices, triangles + np.uint32(1))
+    with pytest.raises(ValueError, match="there is no vertex"):
+        io.write_mesh(tmp_path / "mesh.ply", wrong)
+    with pytest.raises(ValueError, match="voxel"):
+        mvs.mesh_depth_maps(*result, voxel_size=0.0)
+
+
 def test_options_and_progress(scene, result):
     views, _ = result
     stages = []

@@ -128,6 +128,22 @@ def test_steps_of_a_reconstruction(input, result):
         work.step()
 
 
+def test_known_poses_give_points(problem, input):
+    poses = [camera.cam_from_world for camera in problem.cameras]
+    shares = []
+    found = sfm.triangulate_tracks(input, poses, progress=lambda _, share: shares.append(share))
+    assert [camera.cam_from_world for camera in found.cameras] == poses
+    assert 0 < shares[0] <= 1 and len(found.points) > 140
+    distances = np.linalg.norm(found.points[:, None] - problem.points[None], axis=2).min(axis=1)
+    assert np.median(distances) < 0.02
+    some = sfm.triangulate_tracks(input, [None, *poses[1:]], min_track_length=6)
+    assert some.cameras[0] is None and len(some.points) == 0
+    with pytest.raises(epipole.TooFewError, match="known poses"):
+        sfm.triangulate_tracks(input, [poses[0]] + [None] * 5)
+    with pytest.raises(ValueError, match="photographs and of their poses"):
+        sfm.triangulate_tracks(input, poses[:2])
+
+
 def test_unregistered_images_have_reasons(input):
     lonely = SfmImage("lonely.jpg", np.random.default_rng(1).uniform(0, 400, (40, 2)))
     more = SfmInput([*input.images, lonely], input.cameras, input.pairs)

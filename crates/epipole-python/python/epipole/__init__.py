@@ -8,6 +8,12 @@ Conventions
 * Camera frame: x right, y down, z forward; ``x_in_cam = cam_from_world @ x_in_world``.
 * Arrays in are ``(N, 2)`` or ``(N, 3)`` of any real dtype, lists included; arrays out are float64.
 * Equal seeds give equal results on every platform.
+
+Errors
+------
+* Data without a result raise a subclass of ``epipole.Error``; the sections ``Raises`` say when.
+* Wrong types, unknown options, wrong shapes, lengths that differ and non-finite numbers raise
+  ValueError or TypeError naming the argument, in every function. ``Raises`` lists what else does.
 """
 
 from epipole._epipole import (

@@ -87,7 +87,12 @@ def estimate_absolute_pose(
 
     Raises
     ------
-    epipole.TooFewError, epipole.NoConsensusError
+    epipole.TooFewError
+        Fewer than 4 different matches.
+    epipole.NoConsensusError
+        No pose with 3 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_absolute_pose_and_focal(
     points_in_world: ArrayLike,
@@ -115,6 +120,15 @@ def estimate_absolute_pose_and_focal(
     -------
     RansacReport of AbsolutePoseWithFocal
         Its model is an `AbsolutePoseWithFocal`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 5 different matches.
+    epipole.NoConsensusError
+        No pose with 4 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def pose_p3p(rays: ArrayLike, points_in_world: ArrayLike) -> list[RigidTransform]:
     """Poses of three rays and their points.
@@ -168,6 +182,13 @@ def pose_dlt(
     -------
     RigidTransform
         ``cam_from_world``
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 6 points.
+    epipole.DegenerateError
+        Points on a plane, or otherwise critical.
     """
 def fit_absolute_pose(
     points_in_world: ArrayLike,
@@ -186,6 +207,14 @@ def fit_absolute_pose(
     -------
     RigidTransform
         ``cam_from_world``
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 points.
+    epipole.DegenerateError
+        Points on one line, no pose with all of them in front of the camera, or a pixel without a
+        ray.
     """
 def find_flipped_pose(
     cam_from_world: RigidTransform,
@@ -206,6 +235,13 @@ def find_flipped_pose(
     Returns
     -------
     RigidTransform or None
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 3 points in front of the flipped camera.
+    epipole.DegenerateError
+        Pixel without a ray.
     """
 def refine_absolute_pose(
     cam_from_world: RigidTransform,
@@ -229,6 +265,15 @@ def refine_absolute_pose(
     -------
     RigidTransform
         ``cam_from_world``
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 3 points in front of the camera.
+    epipole.DegenerateError
+        Pixel without a ray.
+    ValueError
+        Loss width not above 0.
     """
 def reprojection_error_px(
     camera: PosedCamera,

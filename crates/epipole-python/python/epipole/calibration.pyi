@@ -50,6 +50,13 @@ class Board:
     square_m : float
         Side of a square or a tag, or distance of two rows of circles, meters.
 
+    Raises
+    ------
+    ValueError
+        Fewer than 3 or more than 1000 columns or rows (at least 2 columns of shifted circles, one
+        tag of an AprilGrid), ``square_m`` not above 0, a size of markers out of range, or more
+        markers than the dictionary has.
+
     Examples
     --------
     >>> Board("chessboard", 9, 6, 0.03).num_marks
@@ -72,9 +79,15 @@ class Board:
         """
     @property
     def columns(self) -> int:
-        """Marks in a row."""
+        """Columns, as in the constructor."""
     @property
     def rows(self) -> int:
+        """Rows, as in the constructor."""
+    @property
+    def mark_columns(self) -> int:
+        """Marks in a row: inner corners of squares, corners of tags, or disks."""
+    @property
+    def mark_rows(self) -> int:
         """Rows of marks."""
     @property
     def square_m(self) -> float:
@@ -89,6 +102,11 @@ class Board:
         ----------
         index : int
             Number of the mark, from 0.
+
+        Raises
+        ------
+        IndexError
+            Mark that the board does not have.
         """
     def marks(self) -> NDArray[np.float64]:
         """Places of all marks on the board, meters, shape (N, 2)."""
@@ -222,6 +240,11 @@ class BoardSearch:
         ----------
         board : Board
             Board that was searched.
+
+        Raises
+        ------
+        ValueError
+            Unknown ``kind``.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -289,6 +312,11 @@ class MarkerDictionary:
             Number of the marker.
         row, column : int
             From the upper left bit, without the border.
+
+        Raises
+        ------
+        IndexError
+            Marker or bit that the dictionary does not have.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -462,6 +490,14 @@ class Undistortion:
         Only the area that was photographed everywhere, or all with black borders.
     progress : callable, optional
         Called with the stage and the completed share.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Lens model that folds less than half-way to the border, or, with ``keep="all"``, a lens that
+        sees more than 80° to a side.
+    ValueError
+        Image of less than 2 pixels on a side, or of more than 2**32 pixels.
     """
     def __new__(
         cls,
@@ -524,6 +560,11 @@ def find_board(
     -------
     BoardSearch
         Its `view` has the marks; None if the board was not found.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5].
     """
 def detect_markers(
     image: ArrayLike,
@@ -549,6 +590,11 @@ def detect_markers(
     -------
     list of Marker
         By number.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5].
     """
 def photograph_of_board(
     board: Board,
@@ -577,6 +623,11 @@ def photograph_of_board(
     -------
     ndarray of float32, shape (H, W)
         Gray, in [0, 1].
+
+    Raises
+    ------
+    ValueError
+        Result of more than 2**32 pixels.
     """
 def calibrate(
     board: Board,
@@ -606,7 +657,12 @@ def calibrate(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        Fewer than 2 views, or a view with fewer than 4 marks.
+    epipole.DegenerateError
+        Marks of a view on one line, or boards that are parallel or fit no camera.
+    ValueError
+        Image without pixels.
     """
 def calibrate_rig(
     board: Board,
@@ -634,7 +690,12 @@ def calibrate_rig(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        No board that both cameras see, or a view with fewer than 4 marks.
+    epipole.DegenerateError
+        Marks of a view on one line, or in no plane in front of the camera.
+    ValueError
+        Camera without pixels.
     """
 def intrinsics_from_planes(pixels_from_plane: ArrayLike) -> Intrinsics:
     """K from homographies of planes, in closed form (Zhang).
@@ -650,5 +711,8 @@ def intrinsics_from_planes(pixels_from_plane: ArrayLike) -> Intrinsics:
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        Fewer than 2 homographies.
+    epipole.DegenerateError
+        Parallel planes, or noise that fits no camera.
     """

@@ -73,8 +73,12 @@ class Camera:
         Returns
         -------
         ndarray, shape (2,) or (N, 2)
-            Rows of NaN for points that the lens does not see; a single one raises
-            `DegenerateError`.
+            Rows of NaN for points that the lens does not see.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single point that the lens does not see.
         """
     def unproject(self, pixel: ArrayLike) -> NDArray[np.float64]:
         """Unit rays through pixels, in the camera frame.
@@ -86,7 +90,12 @@ class Camera:
         Returns
         -------
         ndarray, shape (3,) or (N, 3)
-            Rows of NaN for pixels without a ray; a single one raises `DegenerateError`.
+            Rows of NaN for pixels without a ray.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single pixel without a ray.
         """
     def pinhole_pixel(self, pixel: ArrayLike) -> NDArray[np.float64]:
         """Undistorted pixels: those of a camera with the same K and no distortion.
@@ -98,7 +107,12 @@ class Camera:
         Returns
         -------
         ndarray of the same shape
-            Rows of NaN for pixels without a ray; a single one raises `DegenerateError`.
+            Rows of NaN for pixels without a ray.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single pixel without a ray, or with one 90° or more off the axis.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -112,6 +126,11 @@ class Intrinsics:
         Focal lengths along u and v, pixels, > 0.
     cu_px, cv_px : float
         Principal point, pixels.
+
+    Raises
+    ------
+    ValueError
+        Focal length not above 0.
     """
     def __new__(cls, fu_px: float, fv_px: float, cu_px: float, cv_px: float) -> Intrinsics: ...
     @property
@@ -137,6 +156,11 @@ class Intrinsics:
             Focal length, pixels, > 0.
         width, height : int
             Image size, pixels.
+
+        Raises
+        ------
+        ValueError
+            Focal length not above 0.
         """
     @staticmethod
     def from_matrix(k: ArrayLike) -> Intrinsics:
@@ -145,6 +169,11 @@ class Intrinsics:
         Parameters
         ----------
         k : array_like, shape (3, 3)
+
+        Raises
+        ------
+        ValueError
+            Focal length not above 0, or a matrix of another form than K without skew.
         """
     @staticmethod
     def from_colmap(parameters: Sequence[float]) -> Intrinsics:
@@ -154,6 +183,11 @@ class Intrinsics:
         ----------
         parameters : sequence of float
             fx, fy, cx, cy, pixels.
+
+        Raises
+        ------
+        ValueError
+            Focal length not above 0.
         """
     def to_colmap(self) -> tuple[float, float, float, float]:
         """COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves."""
@@ -173,7 +207,12 @@ class Intrinsics:
         Returns
         -------
         ndarray, shape (2,) or (N, 2)
-            Rows of NaN for points behind the camera; a single one raises `DegenerateError`.
+            Rows of NaN for points behind the camera.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single point with ``z <= 0``.
         """
     def ray(self, pixel: ArrayLike) -> NDArray[np.float64]:
         """Rays through pixels, in the camera frame, with z = 1.
@@ -193,6 +232,11 @@ class Intrinsics:
         ----------
         factor : float
             Scale of the image, > 0.
+
+        Raises
+        ------
+        ValueError
+            Factor not above 0.
         """
     def zoomed(self, factor: float) -> Intrinsics:
         """Intrinsics with both focal lengths multiplied by a factor.
@@ -201,6 +245,11 @@ class Intrinsics:
         ----------
         factor : float
             Factor of the focal lengths, > 0.
+
+        Raises
+        ------
+        ValueError
+            Factor not above 0.
         """
     def resized(self, old: tuple[int, int], new: tuple[int, int]) -> Intrinsics:
         """Intrinsics after the image is resized from one (width, height) to another, pixels.
@@ -209,6 +258,11 @@ class Intrinsics:
         ----------
         old, new : tuple of int
             Width and height before and after, pixels.
+
+        Raises
+        ------
+        ValueError
+            New side of 0 pixels.
         """
     def turned(self, quarters: int, size: tuple[int, int]) -> Intrinsics:
         """Intrinsics after the image is turned clockwise by quarter turns.
@@ -231,6 +285,11 @@ class Lens:
         Model, those of OpenCV but for the last.
     coefficients : sequence of float
         5, 8, 4 or 1 numbers, in OpenCV's order. Zeros if not given.
+
+    Raises
+    ------
+    ValueError
+        Another number of coefficients than the kind has.
     """
     def __new__(
         cls,
@@ -256,8 +315,12 @@ class Lens:
         Returns
         -------
         ndarray, shape (2,) or (N, 2)
-            Rows of NaN for points that the lens does not see; a single one raises
-            `DegenerateError`.
+            Rows of NaN for points that the lens does not see.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single point that the lens does not see.
         """
     def ray(self, seen: ArrayLike) -> NDArray[np.float64]:
         """Rays of distorted image points, for a focal length of 1.
@@ -269,6 +332,11 @@ class Lens:
         Returns
         -------
         ndarray, shape (3,) or (N, 3)
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single image point without a ray; among several, a row of NaN.
         """
     def turned(self, quarters: int) -> Lens:
         """Lens after the image is turned clockwise by quarter turns.
@@ -312,8 +380,12 @@ class PosedCamera:
         Returns
         -------
         ndarray, shape (2,) or (N, 2)
-            Rows of NaN for points that the lens does not see; a single one raises
-            `DegenerateError`.
+            Rows of NaN for points that the lens does not see.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single point that the lens does not see.
         """
     def ray_in_world(self, pinhole_pixel: ArrayLike) -> NDArray[np.float64]:
         """Directions of the rays through undistorted pixels, in the world, with a depth of 1.
@@ -338,6 +410,11 @@ class RigidTransform:
         Rotation matrix. The identity if not given.
     translation : array_like, shape (3,), optional
         Zero if not given.
+
+    Raises
+    ------
+    ValueError
+        Matrix that is no rotation.
 
     Examples
     --------
@@ -375,6 +452,11 @@ class RigidTransform:
         ----------
         quaternion : array_like, shape (4,)
         translation : array_like, shape (3,), optional
+
+        Raises
+        ------
+        ValueError
+            Quaternion whose length is not 1.
         """
     def matrix(self) -> NDArray[np.float64]:
         """Homogeneous matrix, shape (4, 4)."""
@@ -451,6 +533,11 @@ def look_at(
     -------
     RigidTransform
         ``cam_from_world``
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Target at the center, or ``up_in_world`` zero or along the line of sight.
     """
 def pixel_to_colmap(pixel: ArrayLike) -> NDArray[np.float64]:
     """Pixels in COLMAP's convention, with pixel centers at halves.

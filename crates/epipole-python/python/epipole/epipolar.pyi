@@ -63,6 +63,11 @@ class RelativePose:
         R of ``cam2_from_cam1``.
     direction : array_like, shape (3,)
         t of ``cam2_from_cam1``, of length 1.
+
+    Raises
+    ------
+    ValueError
+        Matrix that is no rotation, or a direction whose length is not 1.
     """
     def __new__(cls, rotation: ArrayLike, direction: ArrayLike) -> RelativePose: ...
     @property
@@ -79,6 +84,11 @@ class RelativePose:
         Parameters
         ----------
         cam2_from_cam1 : epipole.camera.RigidTransform
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Motion without translation.
         """
     def essential(self) -> NDArray[np.float64]:
         """E, shape (3, 3)."""
@@ -247,7 +257,14 @@ def estimate_fundamental(
 
     Raises
     ------
-    epipole.TooFewError, epipole.NoConsensusError
+    epipole.TooFewError
+        Fewer than 7 different matches.
+    epipole.DegenerateError
+        All pixels of an image on one line.
+    epipole.NoConsensusError
+        No matrix with 7 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_essential(
     pixels1: ArrayLike,
@@ -277,7 +294,14 @@ def estimate_essential(
 
     Raises
     ------
-    epipole.TooFewError, epipole.NoConsensusError
+    epipole.TooFewError
+        Fewer than 5 different matches.
+    epipole.DegenerateError
+        All pixels of an image of a pinhole camera on one line.
+    epipole.NoConsensusError
+        No matrix with 5 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_relative_pose(
     pixels1: ArrayLike,
@@ -307,7 +331,14 @@ def estimate_relative_pose(
 
     Raises
     ------
-    epipole.TooFewError, epipole.NoConsensusError
+    epipole.TooFewError
+        Fewer than 5 different matches.
+    epipole.DegenerateError
+        All pixels of an image of a pinhole camera on one line.
+    epipole.NoConsensusError
+        No pose with 5 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_relative_pose_with_gravity(
     pixels1: ArrayLike,
@@ -338,6 +369,17 @@ def estimate_relative_pose_with_gravity(
     -------
     RansacReport of RelativePose
         Its model is a `RelativePose`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 5 different matches.
+    epipole.DegenerateError
+        Gravity of length 0, or all pixels of an image of a pinhole camera on one line.
+    epipole.NoConsensusError
+        No pose with 3 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_relative_pose_and_focal(
     pixels1: ArrayLike,
@@ -365,6 +407,17 @@ def estimate_relative_pose_and_focal(
     -------
     RansacReport of PoseWithFocal
         Its model is a `PoseWithFocal`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 6 different matches.
+    epipole.DegenerateError
+        All pixels of an image on one line.
+    epipole.NoConsensusError
+        No pose with 6 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def fundamental_7point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
     """Fundamental matrices of seven matches.
@@ -389,6 +442,13 @@ def fundamental_8point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.flo
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 8 matches.
+    epipole.DegenerateError
+        Matches on a plane or a line, equal ones, or those of a camera that only turned.
     """
 def fundamental_8point_explained(pixels1: ArrayLike, pixels2: ArrayLike) -> EightPoint:
     """`fundamental_8point` with its intermediate results.
@@ -401,6 +461,13 @@ def fundamental_8point_explained(pixels1: ArrayLike, pixels2: ArrayLike) -> Eigh
     Returns
     -------
     EightPoint
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 8 matches.
+    epipole.DegenerateError
+        Matches on a plane or a line, equal ones, or those of a camera that only turned.
     """
 def fundamental_8point_unnormalized(pixels1: ArrayLike, pixels2: ArrayLike) -> EightPoint:
     """Eight-point method without normalization of the pixels, for comparison.
@@ -413,6 +480,13 @@ def fundamental_8point_unnormalized(pixels1: ArrayLike, pixels2: ArrayLike) -> E
     Returns
     -------
     EightPoint
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 8 matches.
+    epipole.DegenerateError
+        Matches on a plane or a line, equal ones, or those of a camera that only turned.
     """
 def essential_5point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
     """Essential matrices of five pairs of rays.
@@ -437,6 +511,15 @@ def essential_8point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 8 pairs of rays.
+    epipole.DegenerateError
+        Rays that leave the matrix open, such as those of a camera that only turned.
+    ValueError
+        Ray of length 0.
     """
 def essential_6point(
     pixels1: ArrayLike,
@@ -495,6 +578,15 @@ def refine_fundamental(
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 7 different matches.
+    epipole.DegenerateError
+        Matrix of rank 1 or 0.
+    ValueError
+        Loss width not above 0, or a coordinate beyond 1e9 pixels.
     """
 def refine_relative_pose(
     pose: RelativePose,
@@ -517,6 +609,15 @@ def refine_relative_pose(
     Returns
     -------
     RelativePose
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 5 different matches.
+    epipole.DegenerateError
+        Pixel without a ray.
+    ValueError
+        Loss width not above 0, or a coordinate beyond 1e9 pixels.
     """
 def sampson_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
     """Sampson distances of matches from a fundamental matrix.
@@ -600,7 +701,12 @@ def epipolar_line1(fundamental: ArrayLike, pixel2: ArrayLike) -> NDArray[np.floa
     -------
     ndarray, shape (3,) or (N, 3)
         Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
-        epipoles; a single one raises `DegenerateError`.
+        epipoles.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pixel that is the epipole, or whose line is infinitely far away.
     """
 def epipolar_line2(fundamental: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
     """Epipolar lines in image 2 of pixels of image 1.
@@ -614,7 +720,12 @@ def epipolar_line2(fundamental: ArrayLike, pixel1: ArrayLike) -> NDArray[np.floa
     -------
     ndarray, shape (3,) or (N, 3)
         Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
-        epipoles; a single one raises `DegenerateError`.
+        epipoles.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pixel that is the epipole, or whose line is infinitely far away.
     """
 def epipoles(fundamental: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Epipoles of image 1 and image 2.
@@ -627,6 +738,11 @@ def epipoles(fundamental: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     -------
     epipole1, epipole2 : ndarray, shape (3,)
         (u, v, 1), or (u, v, 0) with a unit direction for an epipole at infinity.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Matrix of rank 1 or 0.
     """
 def enforce_rank2(matrix: ArrayLike) -> NDArray[np.float64]:
     """Nearest matrix of rank 2, of unit norm.
@@ -649,6 +765,11 @@ def project_to_essential(matrix: ArrayLike) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Matrix of rank 1 or 0.
     """
 def decompose_essential(essential: ArrayLike) -> list[RigidTransform]:
     """The four motions of an essential matrix.
@@ -661,6 +782,11 @@ def decompose_essential(essential: ArrayLike) -> list[RigidTransform]:
     -------
     list of RigidTransform
         Each ``cam2_from_cam1`` with a translation of length 1.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Matrix of rank 1 or 0.
     """
 def select_pose(
     motions: Sequence[RigidTransform],
@@ -682,6 +808,11 @@ def select_pose(
     Returns
     -------
     SelectedPose
+
+    Raises
+    ------
+    epipole.TooFewError
+        No motions or no matches.
     """
 def essential_from_motion(cam2_from_cam1: RigidTransform) -> NDArray[np.float64]:
     """Essential matrix of a motion, of unit norm.
@@ -693,6 +824,11 @@ def essential_from_motion(cam2_from_cam1: RigidTransform) -> NDArray[np.float64]
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Motion without translation.
     """
 def fundamental_from_cameras(cam1: PosedCamera, cam2: PosedCamera) -> NDArray[np.float64]:
     """Fundamental matrix of two cameras, of unit norm, for undistorted pixels.
@@ -704,6 +840,11 @@ def fundamental_from_cameras(cam1: PosedCamera, cam2: PosedCamera) -> NDArray[np
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Cameras at the same place.
     """
 def fundamental_from_essential(
     essential: ArrayLike,
@@ -720,6 +861,11 @@ def fundamental_from_essential(
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Matrix of zeros.
     """
 def essential_from_fundamental(
     fundamental: ArrayLike,
@@ -736,6 +882,11 @@ def essential_from_fundamental(
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Matrix of zeros.
     """
 def focal_lengths_from_fundamental(
     fundamental: ArrayLike,
@@ -753,4 +904,10 @@ def focal_lengths_from_fundamental(
     Returns
     -------
     focal1_px, focal2_px : float
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Optical axes that meet or are parallel, or so much noise that a squared focal length is
+        negative.
     """

@@ -402,6 +402,12 @@ class WindowTensor:
             Column and row.
         **options : StructureTensorOptions
             Those of `structure_tensor`.
+
+        Raises
+        ------
+        ValueError
+            Pixel outside the image, or a window of 0 or more than 255 pixels, or a Gaussian one
+            outside (0, 31].
         """
     def determinant(self) -> float:
         """Product of the eigenvalues."""
@@ -507,6 +513,11 @@ def detect_features(
     -------
     Features
         Descriptors are float32, or bits in uint8 for ORB.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], or an option out of range.
     """
 def detect_sift(
     image: ArrayLike,
@@ -530,6 +541,11 @@ def detect_sift(
     -------
     Features
         Descriptors are float32 of shape (N, 128), whole numbers from 0 to 255.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], or an option out of range.
     """
 def detect_orb(
     image: ArrayLike,
@@ -553,6 +569,11 @@ def detect_orb(
     -------
     Features
         Descriptors are bits in uint8, shape (N, 32).
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], or an option out of range.
     """
 def describe_sift(
     image: ArrayLike,
@@ -577,6 +598,12 @@ def describe_sift(
     Returns
     -------
     ndarray of float32, shape (N, 128)
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
+        above 0.
     """
 def sift_directions(
     image: ArrayLike,
@@ -602,6 +629,12 @@ def sift_directions(
     -------
     list of ndarray of float32
         Directions of each keypoint, radians, strongest first.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
+        above 0.
     """
 def describe_patches(
     image: ArrayLike,
@@ -629,6 +662,11 @@ def describe_patches(
     -------
     ndarray of float32, shape (N, size**2)
         Inner products are normalized cross-correlations.
+
+    Raises
+    ------
+    ValueError
+        ``size`` outside 2 to 64, or ``spacing_px`` not above 0.
     """
 def scale_space(
     image: ArrayLike,
@@ -651,6 +689,11 @@ def scale_space(
     -------
     ScaleSpace
         Without octaves for an image smaller than about a dozen pixels.
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], or an option out of range.
     """
 def harris_response(
     image: ArrayLike,
@@ -676,6 +719,12 @@ def harris_response(
     -------
     ndarray of float32, shape (H, W)
         Positive at corners, negative along edges.
+
+    Raises
+    ------
+    ValueError
+        ``k`` outside [0, 0.25), or a window of 0 or more than 255 pixels, or a Gaussian one outside
+        (0, 31].
     """
 def min_eigenvalue_response(
     image: ArrayLike,
@@ -697,6 +746,11 @@ def min_eigenvalue_response(
     Returns
     -------
     ndarray of float32, shape (H, W)
+
+    Raises
+    ------
+    ValueError
+        Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
     """
 def good_features_to_track(
     image: ArrayLike,
@@ -719,6 +773,12 @@ def good_features_to_track(
     Returns
     -------
     Keypoints
+
+    Raises
+    ------
+    ValueError
+        ``quality`` outside (0, 1], ``min_distance_px`` below 0, a grid without cells, or
+        ``measure`` or ``tensor`` out of range.
     """
 def non_maximum_suppression(
     response: ArrayLike,
@@ -742,6 +802,11 @@ def non_maximum_suppression(
     Returns
     -------
     Keypoints
+
+    Raises
+    ------
+    ValueError
+        ``radius`` of 0.
     """
 def refine_corners(
     image: ArrayLike,
@@ -767,6 +832,11 @@ def refine_corners(
     -------
     ndarray, shape (N, 2)
         Rows of NaN where the window holds no corner.
+
+    Raises
+    ------
+    ValueError
+        ``half_window`` outside 1 to 50, or ``tolerance_px`` not above 0.
     """
 def structure_tensor(
     image: ArrayLike,
@@ -789,6 +859,11 @@ def structure_tensor(
     Returns
     -------
     StructureTensor
+
+    Raises
+    ------
+    ValueError
+        Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
     """
 def shift_surface(
     image: ArrayLike,
@@ -815,6 +890,11 @@ def shift_surface(
     Returns
     -------
     ShiftSurface
+
+    Raises
+    ------
+    ValueError
+        ``center`` outside the image, or ``half_window`` or ``reach`` above 127.
     """
 def match_descriptors(
     descriptors1: Features | ArrayLike,
@@ -839,6 +919,13 @@ def match_descriptors(
     -------
     Matches
 
+    Raises
+    ------
+    epipole.DegenerateError
+        Numbers in one list and bits in the other.
+    ValueError
+        ``max_ratio`` outside (0, 1], or ``max_distance`` below 0.
+
     Examples
     --------
     >>> match_descriptors(np.eye(2, 4), np.eye(2, 4)).indices.tolist()
@@ -862,6 +949,11 @@ def nearest_two(
     Returns
     -------
     Neighbors
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Numbers in one list and bits in the other.
     """
 def nearest_few(
     query: ArrayLike,
@@ -910,4 +1002,9 @@ def track_lucas_kanade(
     Returns
     -------
     Tracks
+
+    Raises
+    ------
+    ValueError
+        Gray values outside [-0.5, 1.5], or an option out of range.
     """

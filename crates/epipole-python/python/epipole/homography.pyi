@@ -77,7 +77,14 @@ def estimate_homography(
 
     Raises
     ------
-    epipole.TooFewError, epipole.NoConsensusError
+    epipole.TooFewError
+        Fewer than 4 different matches.
+    epipole.DegenerateError
+        All pixels of an image on one line.
+    epipole.NoConsensusError
+        No homography with 4 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def estimate_homography_calibrated(
     pixels1: ArrayLike,
@@ -104,6 +111,17 @@ def estimate_homography_calibrated(
     -------
     RansacReport of ndarray
         Its model is H of rays, shape (3, 3).
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 different matches that both lenses see.
+    epipole.DegenerateError
+        All pixels of an image of a pinhole camera on one line.
+    epipole.NoConsensusError
+        No homography with 4 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def homography_4point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
     """Homographies of four matches.
@@ -128,6 +146,13 @@ def fit_homography(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 matches.
+    epipole.DegenerateError
+        All points, or all but one, on one line.
     """
 def refine_homography(
     homography: ArrayLike,
@@ -147,6 +172,14 @@ def refine_homography(
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 different matches.
+    ValueError
+        Loss width not above 0, a coordinate beyond 1e9 pixels, or a pixel that the start maps to
+        infinity.
     """
 def transfer(homography: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
     """Pixels of image 2 where a homography maps pixels of image 1.
@@ -159,7 +192,12 @@ def transfer(homography: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
     Returns
     -------
     ndarray of the same shape
-        Rows of NaN for pixels mapped to infinity; a single one raises `DegenerateError`.
+        Rows of NaN for pixels mapped to infinity.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pixel that is mapped to infinity.
 
     Examples
     --------
@@ -207,6 +245,11 @@ def decompose_homography(
     Returns
     -------
     list of PlaneMotion
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Singular matrix.
     """
 def homography_from_motion(
     cam2_from_cam1: RigidTransform,

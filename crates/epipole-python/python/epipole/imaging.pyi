@@ -170,6 +170,11 @@ def correlate(
     Returns
     -------
     ndarray of float32, shape (H, W)
+
+    Raises
+    ------
+    ValueError
+        Kernel with an even side.
     """
 def separable_filter(
     image: ArrayLike,
@@ -195,6 +200,11 @@ def separable_filter(
     Returns
     -------
     ndarray of float32, shape (H, W)
+
+    Raises
+    ------
+    ValueError
+        Kernel of even length.
     """
 def noise_gain(weights: ArrayLike) -> float:
     """Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
@@ -221,6 +231,11 @@ def gaussian_kernel(sigma_px: float, size: int) -> NDArray[np.float32]:
     -------
     ndarray of float32, shape (size,)
 
+    Raises
+    ------
+    ValueError
+        ``sigma_px`` outside (0, 1000], or ``size`` even or above 20001.
+
     Examples
     --------
     >>> [round(float(sample), 4) for sample in gaussian_kernel(1.0, 3)]
@@ -240,6 +255,11 @@ def gaussian_derivative_kernels(
     -------
     smooth, slope : ndarray of float32, shape (N,)
         ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+
+    Raises
+    ------
+    ValueError
+        ``sigma_px`` outside (0, 1000].
     """
 def gaussian_blur(
     image: ArrayLike,
@@ -265,6 +285,11 @@ def gaussian_blur(
     -------
     ndarray of uint8 or float32, shape (H, W)
         uint8 for uint8, else float32.
+
+    Raises
+    ------
+    ValueError
+        ``sigma_px`` outside (0, 1000].
     """
 def box_filter(
     image: ArrayLike,
@@ -290,6 +315,11 @@ def box_filter(
     -------
     ndarray of uint8 or float32, shape (H, W)
         uint8 for uint8, else float32.
+
+    Raises
+    ------
+    ValueError
+        ``size`` even or above 1001.
     """
 def derivative(
     image: ArrayLike,
@@ -365,6 +395,11 @@ def gaussian_derivative(
     Returns
     -------
     Gradient
+
+    Raises
+    ------
+    ValueError
+        ``sigma_px`` outside (0, 1000].
     """
 def pyramid_down(
     image: ArrayLike,
@@ -398,6 +433,11 @@ def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
     -------
     ndarray of uint8 or float32, shape (height, width)
         uint8 for uint8, else float32.
+
+    Raises
+    ------
+    ValueError
+        Result of more than 2**32 pixels.
     """
 def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[Any]]:
     """Image and its halves by `pyramid_down`, largest first.
@@ -468,6 +508,11 @@ def resize(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
     -------
     ndarray of uint8 or float32, shape (height, width)
         uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+
+    Raises
+    ------
+    ValueError
+        Side of 0 pixels, or more than 2**32 pixels.
     """
 def reduce_rgb(image: ArrayLike, max_pixels: int) -> NDArray[np.uint8]:
     """Color image with at most `max_pixels` pixels, downscaled only if it has more.
@@ -547,6 +592,13 @@ def warp_affine(
     -------
     ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
         uint8 for uint8, else float32.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Map without an inverse.
+    ValueError
+        Result of more than 2**32 pixels.
     """
 def warp_perspective(
     image: ArrayLike,
@@ -572,4 +624,11 @@ def warp_perspective(
     -------
     ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
         uint8 for uint8, else float32.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Map without an inverse.
+    ValueError
+        Result of more than 2**32 pixels.
     """

@@ -12,6 +12,7 @@ from epipole.camera import Camera
 from epipole.camera import Intrinsics
 from epipole.camera import RigidTransform
 from epipole.math import Geodetic
+from epipole.mvs import Mesh
 from epipole.sfm import BalProblem
 from epipole.sfm import PoseGraph
 from epipole.sfm import Reconstruction
@@ -48,6 +49,7 @@ __all__ = [
     "write_cameras",
     "write_g2o",
     "write_matches",
+    "write_mesh",
     "write_pfm",
     "write_ply",
     "write_png16",
@@ -135,6 +137,11 @@ class Cameras:
         Parameters
         ----------
         name : str
+
+        Raises
+        ------
+        KeyError
+            No camera of this name.
         """
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -157,6 +164,13 @@ def read_cameras(
     -------
     format : str
     cameras : Cameras
+
+    Raises
+    ------
+    ValueError
+        Unknown format, wrong or missing values, or a lens that the library does not have.
+    OSError
+        File that cannot be read.
     """
 def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     """Reads Q of a rectified pair, from pixels with disparities to points.
@@ -170,6 +184,13 @@ def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (4, 4)
+
+    Raises
+    ------
+    ValueError
+        No 16 finite numbers, or not the Q of a rectified pair.
+    OSError
+        File that cannot be read.
     """
 def write_cameras(
     path: str | os.PathLike[str],
@@ -183,6 +204,13 @@ def write_cameras(
     path : str or os.PathLike
     cameras : Cameras
     format : {"epipole", "opencv", "ros", "colmap"}, optional
+
+    Raises
+    ------
+    ValueError
+        Unknown format, or a lens or number of cameras that it cannot hold.
+    OSError
+        File that cannot be written.
     """
 @final
 class Decoded:
@@ -300,12 +328,13 @@ class PreparedPhoto:
         focal_px : float
             Focal length in the file, pixels.
         """
-    def camera(self, of_sensor: Camera) -> Camera | None:
-        """Camera of `image`, from that of the sensor; None for another size or a mirrored photo.
+    def camera(self, camera: Camera) -> Camera | None:
+        """Camera of `image`; None for another size or a mirrored photo.
 
         Parameters
         ----------
-        of_sensor : epipole.camera.Camera
+        camera : epipole.camera.Camera
+            That of the sensor, or of the photo upright.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -333,6 +362,14 @@ def decode_rgb(
     -------
     Decoded
         Its `image` is uint8 of shape (H, W, 3).
+
+    Raises
+    ------
+    ValueError
+        File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
+        unknown or empty.
+    OSError
+        File that cannot be read.
     """
 def decode_gray(
     source: str | os.PathLike[str] | bytes,
@@ -358,6 +395,14 @@ def decode_gray(
     -------
     Decoded
         Its `image` is float32 of shape (H, W), in [0, 1].
+
+    Raises
+    ------
+    ValueError
+        File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
+        unknown or empty.
+    OSError
+        File that cannot be read.
     """
 def sensor_size(source: str | os.PathLike[str] | bytes) -> tuple[int, int]:
     """Width and height of an image before its orientation is applied, from the header alone.
@@ -369,6 +414,13 @@ def sensor_size(source: str | os.PathLike[str] | bytes) -> tuple[int, int]:
     Returns
     -------
     tuple of int
+
+    Raises
+    ------
+    ValueError
+        File that is no image, or one with a damaged header.
+    OSError
+        File that cannot be read.
     """
 def prepare_photo(
     source: str | os.PathLike[str] | bytes,
@@ -400,6 +452,14 @@ def prepare_photo(
     Returns
     -------
     PreparedPhoto
+
+    Raises
+    ------
+    ValueError
+        File that is no image or a damaged one, more than ``max_file_pixels`` pixels, or ``range``
+        unknown or empty.
+    OSError
+        File that cannot be read.
     """
 @final
 class ModelImage:
@@ -497,6 +557,11 @@ class Model:
         The same of the points.
     rigs : list of Rig, optional
         Cameras that are fixed to each other.
+
+    Raises
+    ------
+    ValueError
+        Track of a point that does not exist.
     """
     def __new__(
         cls,
@@ -552,7 +617,13 @@ class Model:
             Images of the input.
         """
     def to_reconstruction(self) -> tuple[Reconstruction, list[SfmImage]]:
-        """Reconstruction and its images."""
+        """Reconstruction and its images.
+
+        Raises
+        ------
+        ValueError
+            Index of something that the model does not have.
+        """
     def cloud(self) -> PointCloud:
         """Points without observations.
 
@@ -563,9 +634,21 @@ class Model:
     def num_observations(self) -> int:
         """Number of observations of all points."""
     def mean_reprojection_px(self) -> float | None:
-        """Mean length of all reprojection errors, pixels; None without observations."""
+        """Mean length of all reprojection errors, pixels; None without observations.
+
+        Raises
+        ------
+        ValueError
+            Index of something that the model does not have.
+        """
     def oddities(self) -> list[str]:
-        """Oddities of the model, such as points behind cameras, a sentence each."""
+        """Oddities of the model, such as points behind cameras, a sentence each.
+
+        Raises
+        ------
+        ValueError
+            Index of something that the model does not have.
+        """
     def losses(self, format: str) -> list[str]:
         """Losses of a format, a sentence each.
 
@@ -573,6 +656,11 @@ class Model:
         ----------
         format : str
             Format of a file.
+
+        Raises
+        ------
+        ValueError
+            Unknown format.
         """
     def to_files(self, format: str) -> dict[str, Any]:
         """Files of the model.
@@ -580,12 +668,19 @@ class Model:
         Parameters
         ----------
         format : str
-            "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg", "ply" or "glb".
+            "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg", "ply", "glb" or
+            "html".
 
         Returns
         -------
         dict
             Bytes of each file by its usual name.
+
+        Raises
+        ------
+        ValueError
+            Unknown format, a camera that it cannot hold, or an index of something that the model
+            does not have.
         """
     def write(self, folder: str | os.PathLike[str], format: str) -> list[Any]:
         """Writes the files of the model into a folder, which is created if needed.
@@ -600,6 +695,14 @@ class Model:
         -------
         list of Any
             Paths of the files, `pathlib.Path`.
+
+        Raises
+        ------
+        ValueError
+            Unknown format, a camera that it cannot hold, or an index of something that the model
+            does not have.
+        OSError
+            Folder or file that cannot be written.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -644,8 +747,12 @@ def read_model_folder(folder: str | os.PathLike[str]) -> ReadModel:
 
     Raises
     ------
+    ValueError
+        Damaged or incomplete model, or a camera that the library does not have.
     FileNotFoundError
-        If there is no model.
+        No model in the folder, or no folder.
+    OSError
+        Folder that cannot be read.
     """
 def read_model_file(path: str | os.PathLike[str]) -> ReadModel:
     """Reads a model of one file; files beside it are read if the format needs them.
@@ -657,6 +764,13 @@ def read_model_file(path: str | os.PathLike[str]) -> ReadModel:
     Returns
     -------
     ReadModel
+
+    Raises
+    ------
+    ValueError
+        Unknown format, damaged model, or a camera that the library does not have.
+    OSError
+        File that cannot be read.
     """
 def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, list[str]]:
     """Reads the points of a PLY file.
@@ -670,6 +784,13 @@ def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, list[s
     cloud : epipole.stereo.PointCloud
     notes : list of str
         Sentences on what was left out: points with NaN or infinity, faces of a mesh.
+
+    Raises
+    ------
+    ValueError
+        File that is no PLY, or a damaged one.
+    OSError
+        File that cannot be read.
     """
 def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> None:
     """Writes points as a binary PLY file.
@@ -678,6 +799,25 @@ def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> No
     ----------
     path : str or os.PathLike
     cloud : epipole.stereo.PointCloud or array_like, shape (N, 3)
+
+    Raises
+    ------
+    OSError
+        File that cannot be written.
+    """
+def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
+    """Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Ends in ``.ply``, ``.glb`` or ``.obj``.
+    mesh : epipole.mvs.Mesh
+
+    Raises
+    ------
+    ValueError
+        Another extension, or a triangle of a vertex that does not exist.
     """
 def read_pfm(source: str | os.PathLike[str] | bytes) -> NDArray[np.float32]:
     """Reads the disparities of a gray PFM file.
@@ -690,6 +830,13 @@ def read_pfm(source: str | os.PathLike[str] | bytes) -> NDArray[np.float32]:
     -------
     ndarray of float32, shape (H, W)
         NaN where unknown.
+
+    Raises
+    ------
+    ValueError
+        File that is no gray PFM, or a truncated one.
+    OSError
+        File that cannot be read.
     """
 def write_pfm(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     """Writes disparities as a gray PFM file, the format of Middlebury.
@@ -699,6 +846,11 @@ def write_pfm(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     path : str or os.PathLike
     disparity : array_like of float, shape (H, W)
         NaN where unknown.
+
+    Raises
+    ------
+    OSError
+        File that cannot be written.
     """
 def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     """Writes disparities times 256 as a 16-bit PNG file, the format of KITTI.
@@ -708,6 +860,11 @@ def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     path : str or os.PathLike
     disparity : array_like of float, shape (H, W)
         NaN where unknown. Values outside [1/256, 255.996] are written as unknown.
+
+    Raises
+    ------
+    OSError
+        File that cannot be written.
     """
 def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
     """Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
@@ -721,6 +878,14 @@ def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
     Returns
     -------
     epipole.sfm.PoseGraph
+
+    Raises
+    ------
+    ValueError
+        Unknown tag, mixed kinds, vertices that are missing or double, wrong numbers, or no
+        vertices.
+    OSError
+        File that cannot be read.
     """
 def write_g2o(path: str | os.PathLike[str], graph: PoseGraph) -> None:
     """Writes a pose graph in the text format of g2o.
@@ -729,6 +894,11 @@ def write_g2o(path: str | os.PathLike[str], graph: PoseGraph) -> None:
     ----------
     path : str or os.PathLike
     graph : epipole.sfm.PoseGraph
+
+    Raises
+    ------
+    OSError
+        File that cannot be written.
     """
 def read_bal(source: str | os.PathLike[str] | bytes) -> BalProblem:
     """Reads a bundle adjustment problem of the BAL data set.
@@ -740,6 +910,13 @@ def read_bal(source: str | os.PathLike[str] | bytes) -> BalProblem:
     Returns
     -------
     epipole.sfm.BalProblem
+
+    Raises
+    ------
+    ValueError
+        Missing, surplus or infinite numbers, or an index of no camera or point.
+    OSError
+        File that cannot be read.
     """
 def write_bal(path: str | os.PathLike[str], problem: BalProblem) -> None:
     """Writes a bundle adjustment problem of the BAL data set, with all digits.
@@ -748,6 +925,11 @@ def write_bal(path: str | os.PathLike[str], problem: BalProblem) -> None:
     ----------
     path : str or os.PathLike
     problem : epipole.sfm.BalProblem
+
+    Raises
+    ------
+    OSError
+        File that cannot be written.
     """
 def read_matches(
     source: str | os.PathLike[str] | bytes,
@@ -762,6 +944,14 @@ def read_matches(
     Returns
     -------
     pixels1, pixels2 : ndarray, shape (N, 2)
+
+    Raises
+    ------
+    ValueError
+        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        rows.
+    OSError
+        File that cannot be read.
     """
 def read_points(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     r"""Reads points of an image: ``u v`` a line, pixels.
@@ -773,6 +963,14 @@ def read_points(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape (N, 2)
+
+    Raises
+    ------
+    ValueError
+        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        rows.
+    OSError
+        File that cannot be read.
 
     Examples
     --------
@@ -792,6 +990,14 @@ def read_points_with_pixels(
     -------
     pixels : ndarray, shape (N, 2)
     points : ndarray, shape (N, 3)
+
+    Raises
+    ------
+    ValueError
+        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        rows.
+    OSError
+        File that cannot be read.
     """
 def write_matches(
     path: str | os.PathLike[str],
@@ -810,6 +1016,13 @@ def write_matches(
     distances, ratios : array_like, shape (N,), optional
         Distance of the descriptors, and its ratio to that of the second nearest. 0 if not given.
     layout : {"text", "csv"}, optional
+
+    Raises
+    ------
+    ValueError
+        Unknown ``layout``.
+    OSError
+        File that cannot be written.
     """
 @final
 class Trajectory:
@@ -856,6 +1069,14 @@ def read_trajectory(
     -------
     format : {"tum", "kitti", "euroc"}
     trajectory : Trajectory
+
+    Raises
+    ------
+    ValueError
+        Unknown format, wrong numbers, zero quaternions, matrices that are no rotation, or times
+        that go backwards.
+    OSError
+        File that cannot be read.
     """
 def write_trajectory(
     path: str | os.PathLike[str],
@@ -870,4 +1091,11 @@ def write_trajectory(
     trajectory : Trajectory
     format : {"tum", "kitti", "euroc"}, optional
         "kitti" has no times, the others need them.
+
+    Raises
+    ------
+    ValueError
+        Unknown format, or no times for TUM or EuRoC.
+    OSError
+        File that cannot be written.
     """

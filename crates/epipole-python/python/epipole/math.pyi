@@ -49,6 +49,11 @@ class Line2:
     ----------
     line : array_like, shape (3,)
         Homogeneous line, of any scale.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Line (0, 0, c).
     """
     def __new__(cls, line: ArrayLike) -> Line2: ...
     @property
@@ -72,6 +77,11 @@ class Line2:
         ----------
         line : array_like, shape (3,)
             Of any scale.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Line (0, 0, c).
         """
     @staticmethod
     def through(p: ArrayLike, q: ArrayLike) -> Line2:
@@ -80,6 +90,11 @@ class Line2:
         Parameters
         ----------
         p, q : array_like, shape (2,)
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Equal points.
         """
     def homogeneous(self) -> NDArray[np.float64]:
         """(a, b, c), shape (3,)."""
@@ -147,6 +162,11 @@ def local_from_geodetic(place: Geodetic, origin: Geodetic) -> NDArray[np.float64
     -------
     ndarray, shape (3,)
         Meters.
+
+    Raises
+    ------
+    ValueError
+        Latitude outside -90° to 90°, or longitude outside -180° to 180°.
     """
 def svd3(matrix: ArrayLike) -> Svd3:
     """Singular value decomposition of a matrix.
@@ -192,6 +212,11 @@ class Random:
         ----------
         bound : int
             Upper end, > 0.
+
+        Raises
+        ------
+        ValueError
+            ``bound`` of 0.
         """
     def unit(self) -> float:
         """Number in [0, 1)."""

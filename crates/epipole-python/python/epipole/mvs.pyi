@@ -14,9 +14,11 @@ from epipole.stereo import PointCloud
 
 __all__ = [
     "DepthMap",
+    "Mesh",
     "MvsView",
     "estimate_depth_maps",
     "fuse_depth_maps",
+    "mesh_depth_maps",
     "prepare_views",
 ]
 
@@ -125,8 +127,12 @@ def prepare_views(
 
     Raises
     ------
-    DegenerateError
-        If no two photos show the same points from different places.
+    epipole.TooFewError
+        Fewer than 2 images with a camera, or no points.
+    epipole.DegenerateError
+        No two photos that show the same points from different places.
+    ValueError
+        Option out of range.
     """
 def estimate_depth_maps(
     views: Sequence[MvsView],
@@ -149,6 +155,13 @@ def estimate_depth_maps(
     Returns
     -------
     list of DepthMap
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Camera with distortion.
+    ValueError
+        Option, neighbor or depth range out of range.
     """
 def fuse_depth_maps(
     views: Sequence[MvsView],
@@ -171,4 +184,62 @@ def fuse_depth_maps(
     Returns
     -------
     epipole.stereo.PointCloud
+
+    Raises
+    ------
+    ValueError
+        Option out of range.
+    """
+@final
+class Mesh:
+    """Surface of triangles.
+
+    Parameters
+    ----------
+    vertices : epipole.stereo.PointCloud
+        Points with normals and colors.
+    triangles : ndarray of uint32, shape (M, 3)
+        Indices of the vertices, counterclockwise seen from outside.
+    """
+    def __new__(cls, vertices: PointCloud, triangles: NDArray[np.uint32]) -> Mesh: ...
+    @property
+    def vertices(self) -> PointCloud:
+        """Vertices."""
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """Indices of the vertices, uint32 of shape (M, 3), counterclockwise seen from outside."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __len__(self) -> int: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def mesh_depth_maps(
+    views: Sequence[MvsView],
+    maps: Sequence[DepthMap],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.MeshOptions],
+) -> Mesh:
+    """Joins depth maps to a mesh with normals and colors.
+
+    The surface has holes where no photo sees it.
+
+    Parameters
+    ----------
+    views : list of MvsView
+    maps : list of DepthMap
+        Those of `estimate_depth_maps`.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : MeshOptions
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    epipole.TooFewError
+        No pixel has a depth.
+    ValueError
+        Voxels too small for the scene.
     """

@@ -136,6 +136,13 @@ def minimize_dense(
     -------
     parameters : ndarray, shape (N,)
     report : LmReport
+
+    Raises
+    ------
+    epipole.TooFewError
+        No residuals or no parameters.
+    ValueError
+        Loss width not above 0, or no finite cost or gradient at the start.
     """
 def check_jacobian(
     analytic: ArrayLike,
@@ -156,6 +163,11 @@ def check_jacobian(
     -------
     float
         Each entry relative to the larger of 1 and its size; infinity for other shapes and NaN.
+
+    Raises
+    ------
+    ValueError
+        ``step`` not above 0.
 
     Examples
     --------

@@ -108,6 +108,12 @@ class MatchOptions(TypedDict, total=False):
     unique: bool  # True
 
 
+class MeshOptions(TypedDict, total=False):
+    voxel_size: float | None  # None
+    voxel_size_px: float  # 1.5
+    min_triangles: int  # 100
+
+
 class MultiViewProblemOptions(TypedDict, total=False):
     num_cameras: int  # 8
     num_points: int  # 200

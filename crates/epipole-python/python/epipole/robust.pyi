@@ -185,7 +185,9 @@ class Ransac:
     Raises
     ------
     epipole.TooFewError
-        If there are fewer data than a sample has.
+        Fewer data than a sample has.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 
     Notes
     -----
@@ -246,6 +248,15 @@ class Ransac:
         -------
         Ransac
             Its models are lines (a, b, c).
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 2 points.
+        epipole.DegenerateError
+            Equal points.
+        ValueError
+            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
         """
     @staticmethod
     def similarity(
@@ -266,6 +277,13 @@ class Ransac:
         -------
         Ransac
             Its models are `PlaneSimilarity`.
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 2 different matches.
+        ValueError
+            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
         """
     @staticmethod
     def fundamental(
@@ -286,6 +304,15 @@ class Ransac:
         -------
         Ransac
             Its models are F, shape (3, 3).
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 7 different matches.
+        epipole.DegenerateError
+            All pixels of an image on one line.
+        ValueError
+            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
         """
     @staticmethod
     def homography(
@@ -306,6 +333,15 @@ class Ransac:
         -------
         Ransac
             Its models are H, shape (3, 3).
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 4 different matches.
+        epipole.DegenerateError
+            All pixels of an image on one line.
+        ValueError
+            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
         """
     def start_from(self, model: object) -> None:
         """Improves a model that is known, such as that of the frame before, and starts from it.
@@ -314,9 +350,22 @@ class Ransac:
         ----------
         model : object
             Of the kind that the run estimates.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Line (0, 0, c), in a run of `line`.
+        RuntimeError
+            Run that is finished, or one that another thread uses.
         """
     def step(self) -> Trial | None:
-        """Draws a sample and returns a `Trial`; None once enough samples were drawn."""
+        """Draws a sample and returns a `Trial`; None once enough samples were drawn.
+
+        Raises
+        ------
+        RuntimeError
+            Run that is finished, or one that another thread uses.
+        """
     def __iter__(self, /) -> Ransac: ...
     def __next__(self, /) -> Trial: ...
     def finish(self) -> RansacReport[Any]:
@@ -330,9 +379,9 @@ class Ransac:
         Raises
         ------
         epipole.NoConsensusError
-            If no sample gave a model with support.
+            No model with as many inliers as a sample has.
         RuntimeError
-            If the run is finished already.
+            Run that is finished, or one that another thread uses.
         """
 
 @final
@@ -469,6 +518,11 @@ def num_trials_with_replacement(
     -------
     int
 
+    Raises
+    ------
+    ValueError
+        ``inlier_ratio`` outside [0, 1], ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+
     Examples
     --------
     >>> num_trials_with_replacement(0.5, 7, 0.99)
@@ -491,6 +545,13 @@ def num_trials_without_replacement(
     Returns
     -------
     int
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer data than a sample has.
+    ValueError
+        ``num_inliers`` above ``num_data``, ``sample_size`` of 0, or ``confidence`` outside (0, 1).
     """
 def log10_false_alarms(
     num_inliers: int,
@@ -523,6 +584,13 @@ def fit_line_total_least_squares(points: ArrayLike) -> NDArray[np.float64]:
     -------
     ndarray, shape (3,)
         Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 points.
+    epipole.DegenerateError
+        Equal points, or points that spread equally in all directions.
     """
 def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
     """Line with the least sum of Huber losses of the distances.
@@ -538,6 +606,15 @@ def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
     -------
     ndarray, shape (3,)
         Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 points.
+    epipole.DegenerateError
+        Equal points, or points that spread equally in all directions.
+    ValueError
+        ``width_px`` not above 0.
     """
 def estimate_line(
     points: ArrayLike,
@@ -561,6 +638,17 @@ def estimate_line(
     RansacReport of ndarray
         Its model is the line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
 
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 points.
+    epipole.DegenerateError
+        Equal points.
+    epipole.NoConsensusError
+        No line with 2 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+
     Examples
     --------
     >>> report = estimate_line([[0, 2], [1, 2], [2, 2], [3, 2], [4, 9]])
@@ -578,6 +666,15 @@ def fit_similarity(pixels1: ArrayLike, pixels2: ArrayLike) -> PlaneSimilarity:
     Returns
     -------
     PlaneSimilarity
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 matches.
+    epipole.DegenerateError
+        All points of image 1 equal.
+    ValueError
+        Coordinate beyond 1e9 pixels.
 
     Examples
     --------
@@ -606,6 +703,15 @@ def estimate_similarity(
     -------
     RansacReport of PlaneSimilarity
         Its model is a `PlaneSimilarity`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 different matches.
+    epipole.NoConsensusError
+        No similarity with 2 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def least_median(
     num_data: int,
@@ -639,6 +745,15 @@ def least_median(
     Returns
     -------
     LeastMedian of Any
+
+    Raises
+    ------
+    epipole.TooFewError
+        No more data than a sample has.
+    epipole.DegenerateError
+        No sample that gives a model.
+    ValueError
+        ``num_samples`` of 0.
 
     Notes
     -----
@@ -685,6 +800,15 @@ def ransac(
     Returns
     -------
     RansacReport of Any
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer data than a sample has.
+    epipole.NoConsensusError
+        No model with as many inliers as a sample has.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 
     Notes
     -----

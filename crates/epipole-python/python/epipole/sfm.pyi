@@ -59,6 +59,7 @@ __all__ = [
     "reconstruct_photos",
     "relative_pose_error",
     "stereo_odometry",
+    "triangulate_tracks",
     "two_view_reconstruction",
     "verify_matches",
     "why_unregistered",
@@ -74,6 +75,11 @@ class Similarity3:
         Rotation and translation. The identity if not given.
     scale : float, optional
         Greater than 0.
+
+    Raises
+    ------
+    ValueError
+        ``scale`` not above 0.
     """
     def __new__(cls, isometry: RigidTransform | None = None, scale: float = 1.0) -> Similarity3: ...
     @property
@@ -266,6 +272,11 @@ class Bundle:
         ----------
         observation : int
             Index of the observation.
+
+        Raises
+        ------
+        IndexError
+            Observation that does not exist, or whose camera or point does not.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -310,6 +321,13 @@ class BalProblem:
         ----------
         loss : str or dict, optional
             As in `adjust_bal`.
+
+        Raises
+        ------
+        ValueError
+            Loss width not above 0.
+        IndexError
+            Observation of a camera or point that does not exist.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -527,6 +545,11 @@ class Reconstruction:
         Root mean square of the reprojection errors of each point, pixels. 0 if not given.
     is_placed : bool, optional
         Whether it stands where the known positions of its images are, in their unit of length.
+
+    Raises
+    ------
+    ValueError
+        Track of a point that does not exist.
     """
     def __new__(
         cls,
@@ -588,6 +611,11 @@ class Reconstruction:
         ----------
         images : list of SfmImage
             Images of the input.
+
+        Raises
+        ------
+        IndexError
+            Track of a keypoint that ``images`` do not have.
         """
     def to_bundle(self, images: Sequence[SfmImage]) -> tuple[Bundle, NDArray[np.int64]]:
         """The same for bundle adjustment.
@@ -601,6 +629,11 @@ class Reconstruction:
         bundle : Bundle
         image_of_camera : ndarray of int64
             Index of the image of each camera.
+
+        Raises
+        ------
+        IndexError
+            Track of a keypoint that ``images`` do not have.
         """
     def localize(
         self,
@@ -631,7 +664,14 @@ class Reconstruction:
 
         Raises
         ------
-        epipole.NoConsensusError, epipole.TooFewError
+        epipole.TooFewError
+            Fewer than ``min_num_inliers`` points that match or agree with a pose.
+        epipole.DegenerateError
+            Numbers in one list of descriptors and bits in another.
+        epipole.NoConsensusError
+            No pose with 3 inliers.
+        ValueError
+            Track of a keypoint that does not exist, or an option out of range.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -684,6 +724,11 @@ class SfmStep:
         Number of points of the component.
     cost : float, optional
         Cost of the refinement, square pixels.
+
+    Raises
+    ------
+    ValueError
+        Unknown ``kind``, or arguments that do not fit it.
     """
     def __new__(
         cls,
@@ -755,6 +800,15 @@ class IncrementalReconstruction:
         Called with the stage and the completed share while pairs are tested.
     **options : SfmOptions
         Those of `reconstruct`.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 images.
+    epipole.DegenerateError
+        Images of one lens number whose cameras have different lenses.
+    ValueError
+        Option out of range, or a match of an image or keypoint that does not exist.
     """
     def __new__(
         cls,
@@ -772,11 +826,28 @@ class IncrementalReconstruction:
         ----------
         progress : callable, optional
             Called with the stage and the completed share.
+
+        Raises
+        ------
+        RuntimeError
+            Work that is finished, or that another thread uses.
         """
     def current(self) -> Reconstruction | None:
-        """Component that grows now, a `Reconstruction`; None between two components."""
+        """Component that grows now, a `Reconstruction`; None between two components.
+
+        Raises
+        ------
+        RuntimeError
+            Work that is finished, or that another thread uses.
+        """
     def finish(self) -> SfmResult:
-        """All components, including the current one. Ends the work."""
+        """All components, including the current one. Ends the work.
+
+        Raises
+        ------
+        RuntimeError
+            Work that is finished, or that another thread uses.
+        """
 
 @final
 class WhyUnregistered:
@@ -858,6 +929,16 @@ class Odometry:
             Called with the stage and the completed share.
         **options : OdometryOptions
             Those of `monocular_odometry`.
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 2 images.
+        epipole.DegenerateError
+            No two images with enough points under a sufficient angle, or images of one lens number
+            whose cameras have different lenses.
+        ValueError
+            Option out of range, or a match of an image or keypoint that does not exist.
         """
     @staticmethod
     def stereo(
@@ -883,6 +964,16 @@ class Odometry:
             Called with the stage and the completed share.
         **options : OdometryOptions
             Those of `monocular_odometry`.
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 2 images.
+        epipole.DegenerateError
+            Rig without a baseline, too few matches in the first frame, or images of one lens number
+            whose cameras have different lenses.
+        ValueError
+            Option out of range, or a match of an image or keypoint that does not exist.
         """
     def step(self, *, progress: Callable[[str, float], object] | None = None) -> SfmStep | None:
         """Takes the next step and returns an `SfmStep`; None after the last.
@@ -893,9 +984,20 @@ class Odometry:
         ----------
         progress : callable, optional
             Called with the stage and the completed share.
+
+        Raises
+        ------
+        RuntimeError
+            Work that is finished, or that another thread uses.
         """
     def finish(self) -> OdometryResult:
-        """Path so far, an `OdometryResult`. Ends the work."""
+        """Path so far, an `OdometryResult`. Ends the work.
+
+        Raises
+        ------
+        RuntimeError
+            Work that is finished, or that another thread uses.
+        """
 
 @final
 class PoseGraph:
@@ -929,6 +1031,12 @@ class PoseGraph:
         ``world_from_vertex`` as measured.
     prior_information : array_like, shape (P, D, D), optional
         Inverse covariances of these. Identities if not given.
+
+    Raises
+    ------
+    ValueError
+        Unknown ``kind``, an index of no vertex, a quaternion whose length is not 1, or a scale not
+        above 0.
     """
     def __new__(
         cls,
@@ -997,6 +1105,16 @@ class PoseGraph:
         Returns
         -------
         PoseGraph
+
+        Raises
+        ------
+        epipole.TooFewError
+            No edges and no priors.
+        epipole.DegenerateError
+            Vertex that hangs on measurements without weight.
+        ValueError
+            Edge from a vertex to itself, or an information matrix that is asymmetric or has a
+            negative eigenvalue.
         """
     def optimize(
         self,
@@ -1021,6 +1139,14 @@ class PoseGraph:
         -------
         graph : PoseGraph
         report : PoseGraphReport
+
+        Raises
+        ------
+        epipole.TooFewError
+            No edges and no priors.
+        ValueError
+            Edge from a vertex to itself, an information matrix that is asymmetric or has a negative
+            eigenvalue, or a loss width not above 0.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -1252,6 +1378,13 @@ def align_points(
     -------
     Similarity3
 
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 3 points.
+    epipole.DegenerateError
+        Points of either set equal or on one line.
+
     Examples
     --------
     >>> round(align_points(np.eye(3), 2 * np.eye(3)).scale, 6)
@@ -1276,6 +1409,13 @@ def absolute_trajectory_error(
     errors : ErrorStatistics
         In the unit of `truth`.
     truth_from_estimated : Similarity3
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 3 points.
+    epipole.DegenerateError
+        Points of either set equal or on one line.
     """
 def relative_pose_error(
     estimated: Sequence[RigidTransform],
@@ -1294,6 +1434,13 @@ def relative_pose_error(
     Returns
     -------
     RelativePoseError
+
+    Raises
+    ------
+    epipole.TooFewError
+        No more poses than ``step``.
+    ValueError
+        ``step`` of 0.
     """
 def adjust_bundle(
     bundle: Bundle,
@@ -1322,7 +1469,13 @@ def adjust_bundle(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        No observations.
+    epipole.DegenerateError
+        Cameras of one lens number with different lenses.
+    ValueError
+        Observation of a camera, point or sensor that does not exist, a lens number out of range,
+        loss width or standard deviation not above 0, or no finite cost at the start.
     """
 def adjust_bal(
     problem: BalProblem,
@@ -1349,6 +1502,14 @@ def adjust_bal(
     -------
     problem : BalProblem
     report : epipole.optim.LmReport
+
+    Raises
+    ------
+    epipole.TooFewError
+        No observations.
+    ValueError
+        Observation of a camera or point that does not exist, loss width not above 0, or no finite
+        cost at the start.
     """
 def reconstruct(
     input: SfmInput,
@@ -1377,6 +1538,11 @@ def reconstruct(
     Raises
     ------
     epipole.TooFewError
+        Fewer than 2 images.
+    epipole.DegenerateError
+        Images of one lens number whose cameras have different lenses.
+    ValueError
+        Option out of range, or a match of an image or keypoint that does not exist.
     """
 def why_unregistered(
     input: SfmInput,
@@ -1401,6 +1567,50 @@ def why_unregistered(
     -------
     list of WhyUnregistered
         One for each image of ``result.unregistered``.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 images.
+    epipole.DegenerateError
+        Images of one lens number whose cameras have different lenses.
+    ValueError
+        Option out of range, a match of an image or keypoint that does not exist, or ``result`` of
+        other images.
+    """
+def triangulate_tracks(
+    input: SfmInput,
+    cam_from_world: Sequence[RigidTransform | None],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.SfmOptions],
+) -> Reconstruction:
+    """Points from matches between images whose poses are known; cameras stay as they are.
+
+    Parameters
+    ----------
+    input : SfmInput
+    cam_from_world : list of RigidTransform or None
+        Pose of each image; one without takes no part.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : SfmOptions
+        Those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
+        ``min_track_length``.
+
+    Returns
+    -------
+    Reconstruction
+        Points in the world of the poses; few or none if the poses are not those of the images.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 images or poses.
+    epipole.DegenerateError
+        Images of one lens number whose cameras have different lenses.
+    ValueError
+        Option out of range, or a match of an image or keypoint that does not exist.
     """
 def photo_features(
     photo: Photo,
@@ -1421,6 +1631,11 @@ def photo_features(
     Returns
     -------
     PhotoFeatures
+
+    Raises
+    ------
+    ValueError
+        Option out of range.
     """
 def match_features(
     features: Sequence[PhotoFeatures],
@@ -1443,6 +1658,13 @@ def match_features(
     Returns
     -------
     list of PairMatches
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Numbers in one list of descriptors and bits in another.
+    ValueError
+        Option out of range.
     """
 def match_photos(
     photos: Sequence[Photo],
@@ -1464,6 +1686,13 @@ def match_photos(
     -------
     images : list of SfmImage
     pairs : list of PairMatches
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 photos.
+    ValueError
+        Option out of range.
     """
 def match_rectified(
     left: PhotoFeatures,
@@ -1485,6 +1714,13 @@ def match_rectified(
     Returns
     -------
     epipole.feature.Matches
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Numbers in one list of descriptors and bits in the other.
+    ValueError
+        Option out of range.
     """
 def reconstruct_photos(
     photos: Sequence[Photo],
@@ -1513,6 +1749,15 @@ def reconstruct_photos(
     input : SfmInput
         Keypoints and matches.
     result : SfmResult
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 photos.
+    epipole.DegenerateError
+        Photos of one lens number whose cameras have different lenses.
+    ValueError
+        Option out of range.
     """
 def monocular_odometry(
     input: SfmInput,
@@ -1538,7 +1783,13 @@ def monocular_odometry(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        Fewer than 2 images.
+    epipole.DegenerateError
+        No two images with enough points under a sufficient angle, or images of one lens number
+        whose cameras have different lenses.
+    ValueError
+        Option out of range, or a match of an image or keypoint that does not exist.
     """
 def stereo_odometry(
     left: SfmInput,
@@ -1573,7 +1824,13 @@ def stereo_odometry(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        Fewer than 2 images.
+    epipole.DegenerateError
+        Rig without a baseline, too few matches in the first frame, or images of one lens number
+        whose cameras have different lenses.
+    ValueError
+        Option out of range, or a match of an image or keypoint that does not exist.
     """
 def close_loops(
     world_from_cam: Sequence[RigidTransform],
@@ -1605,6 +1862,9 @@ def close_loops(
     Raises
     ------
     epipole.TooFewError
+        Fewer than 2 poses, or no loops.
+    ValueError
+        Loop of a frame that does not exist or with itself, or a weight or loss width not above 0.
     """
 def estimate_similarity_of_points(
     from_points: ArrayLike,
@@ -1628,7 +1888,12 @@ def estimate_similarity_of_points(
 
     Raises
     ------
-    epipole.NoConsensusError, epipole.TooFewError
+    epipole.TooFewError
+        Fewer than 3 finite points.
+    epipole.NoConsensusError
+        Fewer than 4 points that agree.
+    ValueError
+        ``max_distance`` not above 0.
     """
 def average_rotations(
     count: int,
@@ -1660,6 +1925,14 @@ def average_rotations(
         The first view of each connected part has the identity.
     errors_rad : ndarray, shape (M,)
         Error of each measurement, radians.
+
+    Raises
+    ------
+    epipole.TooFewError
+        No measurements.
+    ValueError
+        Index of no view, a view joined with itself, a matrix that is no rotation, or a loss width
+        not above 0.
     """
 def build_tracks(
     num_keypoints: Sequence[int],
@@ -1679,6 +1952,11 @@ def build_tracks(
     ndarray of int64, shape (K, 3)
         Index of the track, of the image, and of its keypoint, sorted. A track has at most one
         keypoint of an image.
+
+    Raises
+    ------
+    ValueError
+        Match of an image or keypoint that does not exist, or of an image with itself.
     """
 def verify_matches(
     pair: PairMatches,
@@ -1706,6 +1984,11 @@ def verify_matches(
     -------
     VerifiedPair or None
         None if too few agree.
+
+    Raises
+    ------
+    ValueError
+        Match of a keypoint that does not exist.
     """
 def two_view_reconstruction(
     pixels1: ArrayLike,
@@ -1738,5 +2021,11 @@ def two_view_reconstruction(
 
     Raises
     ------
-    epipole.TooFewError, epipole.DegenerateError
+    epipole.TooFewError
+        Fewer than ``min_num_points`` points left.
+    epipole.DegenerateError
+        Motion without translation.
+    ValueError
+        ``min_angle_rad`` below 0, ``max_error_px`` not above 0, or an option of ``bundle`` out of
+        range.
     """

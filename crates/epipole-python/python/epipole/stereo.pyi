@@ -67,6 +67,11 @@ class StereoBm:
         -------
         ndarray of float32, shape (H, W)
             Pixels; NaN where unknown.
+
+        Raises
+        ------
+        ValueError
+            Option out of range, or too many pixels times disparities for the memory.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -105,6 +110,11 @@ class StereoSgm:
         -------
         ndarray of float32, shape (H, W)
             Pixels; NaN where unknown.
+
+        Raises
+        ------
+        ValueError
+            Option out of range, or too many pixels times disparities for the memory.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -204,6 +214,13 @@ class PixelMap:
             Pixels of the source to pixels of the result, up to scale.
         progress : callable, optional
             Called with the stage and the completed share.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Matrix without an inverse.
+        ValueError
+            Result of more than 2**32 pixels.
         """
     def source(self, u: int, v: int) -> NDArray[np.float64] | None:
         """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
@@ -298,6 +315,11 @@ class Rectification:
         Size of the pictures, pixels.
     valid : tuple of PixelRect
         Part of each picture that its photo fills.
+
+    Raises
+    ------
+    ValueError
+        Matrix in ``rect_from_cam`` that is no rotation.
     """
     def __new__(
         cls,
@@ -357,8 +379,14 @@ class Rectification:
         Returns
         -------
         ndarray of the same shape
-            Rows of NaN for pixels behind the rectified camera; a single one raises
-            `DegenerateError`.
+            Rows of NaN for pixels behind the rectified camera.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single pixel without a ray, or with one behind the rectified camera.
+        ValueError
+            ``index`` not 0 or 1.
         """
     def source_pixel(self, index: int, rectified: ArrayLike) -> NDArray[np.float64]:
         """Pixels of photo 0 or 1 that rectified pixels are read from.
@@ -372,8 +400,14 @@ class Rectification:
         Returns
         -------
         ndarray of the same shape
-            Rows of NaN for pixels that the camera cannot see; a single one raises
-            `DegenerateError`.
+            Rows of NaN for pixels that the camera cannot see.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single pixel that the camera does not see.
+        ValueError
+            ``index`` not 0 or 1.
         """
     def map(
         self,
@@ -389,6 +423,11 @@ class Rectification:
             0 for the first camera, 1 for the second.
         progress : callable, optional
             Called with the stage and the completed share.
+
+        Raises
+        ------
+        ValueError
+            ``index`` not 0 or 1.
         """
     def disparity_of(self, place: ArrayLike) -> NDArray[np.float64]:
         """Pixels of the first rectified image that show points, and their disparities.
@@ -401,8 +440,12 @@ class Rectification:
         Returns
         -------
         ndarray, shape (3,) or (N, 3)
-            (u, v, disparity), pixels. Rows of NaN for points behind the camera; a single one raises
-            `DegenerateError`.
+            (u, v, disparity), pixels. Rows of NaN for points behind the camera.
+
+        Raises
+        ------
+        epipole.DegenerateError
+            Single point that a camera does not see.
         """
     def disparity_range(self, places: ArrayLike) -> tuple[int, int]:
         """Smallest and largest disparity to search, pixels, from points that both photos show.
@@ -415,6 +458,11 @@ class Rectification:
         Returns
         -------
         first, last : int
+
+        Raises
+        ------
+        epipole.TooFewError
+            Fewer than 8 points that the first image shows.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -481,6 +529,11 @@ class RectifiedPair:
         -------
         ndarray of float32, shape (h, w)
             Pixels; NaN where unknown.
+
+        Raises
+        ------
+        ValueError
+            Option of the matcher out of range, or disparities of another size than the images.
         """
     def filled(
         self,
@@ -565,7 +618,10 @@ def rectify_calibrated(
     Raises
     ------
     epipole.DegenerateError
-        If the cameras coincide, or a photo looks along the baseline.
+        Cameras at the same place, a baseline more than 60° off the image plane, a photo that looks
+        along the baseline, or a lens model that folds less than half-way to the border.
+    ValueError
+        Cameras of different image size, ``alpha`` outside [0, 1], or a side of less than 2 pixels.
     """
 def q_from_rig(
     focal_px: float,
@@ -588,6 +644,11 @@ def q_from_rig(
     -------
     ndarray, shape (4, 4)
         ``(X, Y, Z, W) = Q @ (u, v, d, 1)``
+
+    Raises
+    ------
+    ValueError
+        Focal length or baseline not above 0.
     """
 def rectify_uncalibrated(
     fundamental: ArrayLike,
@@ -612,8 +673,12 @@ def rectify_uncalibrated(
 
     Raises
     ------
+    epipole.TooFewError
+        Fewer than 3 matches.
     epipole.DegenerateError
-        If an epipole lies in or near its photo, or all matches lie on one line.
+        Epipole in or near its photo, matrix of rank 1 or 0, or all matches on one line.
+    ValueError
+        Side of less than 2 pixels.
     """
 def remove_speckles(
     disparity: ArrayLike,
@@ -638,6 +703,11 @@ def remove_speckles(
     Returns
     -------
     ndarray of float32, shape (H, W)
+
+    Raises
+    ------
+    ValueError
+        ``range_px`` below 0.
     """
 def fill_gaps(
     disparity: ArrayLike,
@@ -680,7 +750,14 @@ def depth_from_disparity(
     Returns
     -------
     float or ndarray, shape (N,)
-        Meters. NaN for disparities <= 0; a single one raises `DegenerateError`.
+        Meters. NaN for disparities <= 0.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single disparity not above 0.
+    ValueError
+        Focal length or baseline not above 0.
 
     Examples
     --------
@@ -713,7 +790,9 @@ def depth_interval(
     Raises
     ------
     epipole.DegenerateError
-        If no depth is possible: ``disparity_px + error_px <= 0``.
+        No possible depth, as ``disparity_px + error_px <= 0``.
+    ValueError
+        Focal length or baseline not above 0, or ``error_px`` below 0.
     """
 def depth_image(
     disparity: ArrayLike,
@@ -735,6 +814,11 @@ def depth_image(
     -------
     ndarray of float32, shape (H, W)
         Meters; NaN where the disparity is unknown or <= 0.
+
+    Raises
+    ------
+    ValueError
+        Focal length or baseline not above 0.
     """
 def point_cloud(
     disparity: ArrayLike,

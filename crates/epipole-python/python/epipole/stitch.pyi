@@ -131,6 +131,13 @@ def find_overlap(
     Overlap or None
         None if no more matches agree than wrong ones might.
 
+    Raises
+    ------
+    epipole.DegenerateError
+        All pixels of an image on one line.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` out of range.
+
     Examples
     --------
     >>> steps = np.arange(60)
@@ -165,6 +172,9 @@ def estimate_panorama(
     Raises
     ------
     epipole.DegenerateError
+        No overlaps, or one whose matches meet in a point.
+    ValueError
+        Overlap of a photo that does not exist.
     """
 def chain_homographies(num_images: int, overlaps: Sequence[Overlap]) -> Panorama:
     """Places of photos of one plane, by homographies from one to the next.
@@ -183,6 +193,9 @@ def chain_homographies(num_images: int, overlaps: Sequence[Overlap]) -> Panorama
     Raises
     ------
     epipole.DegenerateError
+        No overlaps.
+    ValueError
+        Overlap of a photo that does not exist.
     """
 def render_panorama(
     panorama: Panorama,
@@ -211,4 +224,5 @@ def render_panorama(
     Raises
     ------
     epipole.DegenerateError
+        Photo that looks beyond the surface.
     """

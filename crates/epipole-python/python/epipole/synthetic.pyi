@@ -26,6 +26,13 @@ class TwoViewProblem:
         ``"corner"`` likewise; ``baseline_m``, ``distance_m``, ``noise_px``,
         ``outlier_fraction``, ``seed``.
 
+    Raises
+    ------
+    epipole.DegenerateError
+        Cameras that have too little in common to see ``num_points`` points.
+    ValueError
+        Option out of range.
+
     Examples
     --------
     >>> TwoViewProblem(num_points=50, seed=1).pixels1.shape
@@ -65,6 +72,15 @@ class MultiViewProblem:
         ``{"arc": {"radius_m": 6.0, "span_rad": 1.0}}`` or
         ``{"line": {"distance_m": 6.0, "spacing_m": 0.5}}``; ``visible_fraction``, ``noise_px``,
         ``outlier_fraction``, ``seed``.
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 cameras.
+    epipole.DegenerateError
+        Too few points that two cameras see.
+    ValueError
+        Option out of range.
     """
     def __new__(
         cls,

@@ -62,8 +62,13 @@ def triangulate_dlt(
     Returns
     -------
     ndarray, shape (3,) or (N, 3)
-        Rows of NaN for parallel rays and points behind a camera; a single one raises
-        `DegenerateError`.
+        Rows of NaN for parallel rays and points behind a camera.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single match of parallel rays, of a point not in front of both cameras, of cameras at the
+        same place, or of a matrix of rank below 3.
     """
 def triangulate_midpoint(
     cam2_from_cam1: RigidTransform,
@@ -81,8 +86,14 @@ def triangulate_midpoint(
     Returns
     -------
     ndarray, shape (3,) or (N, 3)
-        Points in the frame of camera 1. Rows of NaN for parallel rays and points behind a camera;
-        a single one raises `DegenerateError`.
+        Points in the frame of camera 1. Rows of NaN for parallel rays and points behind a camera.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pair of parallel or diverging rays, or cameras at the same place.
+    ValueError
+        Single pair with a ray of length 0.
 
     Examples
     --------
@@ -108,6 +119,14 @@ def triangulate_weighted_midpoint(
     -------
     ndarray, shape (3,) or (N, 3)
         As `triangulate_midpoint`.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pair of parallel or diverging rays, or cameras at the same place; among several, a
+        row of NaN.
+    ValueError
+        Single pair with a ray of length 0.
     """
 def triangulate_angular(
     cam2_from_cam1: RigidTransform,
@@ -126,6 +145,14 @@ def triangulate_angular(
     -------
     ndarray, shape (3,) or (N, 3)
         As `triangulate_midpoint`.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single pair of parallel or diverging rays, or cameras at the same place; among several, a
+        row of NaN.
+    ValueError
+        Single pair with a ray of length 0.
     """
 def triangulate_optimal(
     cam1: PosedCamera,
@@ -143,8 +170,13 @@ def triangulate_optimal(
     Returns
     -------
     ndarray, shape (3,) or (N, 3)
-        Rows of NaN for parallel rays and points behind a camera; a single one raises
-        `DegenerateError`.
+        Rows of NaN for parallel rays and points behind a camera.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single match of parallel or diverging rays, of an epipole, of a pixel without a ray, or of
+        cameras at the same place.
     """
 def correct_matches(
     fundamental: ArrayLike,
@@ -161,8 +193,13 @@ def correct_matches(
     Returns
     -------
     ndarray, shape (4,) or (N, 4)
-        Corrected (u1, v1, u2, v2). Rows of NaN for matches at an epipole; a single one raises
-        `DegenerateError`.
+        Corrected (u1, v1, u2, v2). Rows of NaN for matches at an epipole.
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Single match of the two epipoles, one whose lines are infinitely far away, or a matrix of
+        zeros.
     """
 def triangulate_nview_dlt(
     cameras: Sequence[PosedCamera],
@@ -180,6 +217,14 @@ def triangulate_nview_dlt(
     Returns
     -------
     ndarray, shape (3,)
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 views.
+    epipole.DegenerateError
+        Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
+        without a ray.
     """
 def triangulate_nview(
     cameras: Sequence[PosedCamera],
@@ -200,6 +245,16 @@ def triangulate_nview(
     Returns
     -------
     NviewPoint
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 views.
+    epipole.DegenerateError
+        Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
+        without a ray.
+    ValueError
+        Loss width not above 0.
     """
 def triangulation_angle_rad(
     center1_in_world: ArrayLike,
@@ -236,4 +291,11 @@ def point_covariance(
     Returns
     -------
     ndarray, shape (3, 3)
+
+    Raises
+    ------
+    epipole.DegenerateError
+        Camera that does not see the point, or views that leave it free to move along a ray.
+    ValueError
+        ``sigma_px`` not above 0.
     """

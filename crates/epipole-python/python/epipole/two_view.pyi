@@ -253,6 +253,17 @@ def estimate_two_view(
     Returns
     -------
     TwoViewReport
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 different matches.
+    epipole.DegenerateError
+        All pixels of an image on one line.
+    epipole.NoConsensusError
+        No model with as many inliers as its sample has.
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
     """
 def estimate_two_view_calibrated(
     pixels1: ArrayLike,
@@ -277,6 +288,18 @@ def estimate_two_view_calibrated(
     Returns
     -------
     TwoViewReport
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 4 different matches that no rotation explains, or fewer than 5 through a lens
+        with distortion.
+    epipole.DegenerateError
+        All pixels of an image of a pinhole camera on one line, unless a rotation explains them.
+    epipole.NoConsensusError
+        No model with as many inliers as its sample has.
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
     """
 def estimate_rotation(
     pixels1: ArrayLike,
@@ -303,6 +326,15 @@ def estimate_rotation(
     -------
     RansacReport of ndarray
         Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
+
+    Raises
+    ------
+    epipole.TooFewError
+        Fewer than 2 different matches.
+    epipole.NoConsensusError
+        No rotation with 2 inliers.
+    ValueError
+        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     """
 def find_degeneracy(
     pixels1: ArrayLike,
@@ -321,6 +353,11 @@ def find_degeneracy(
     Returns
     -------
     Degeneracy or None
+
+    Raises
+    ------
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
     """
 def find_unmoved(
     pixels1: ArrayLike,
@@ -339,6 +376,11 @@ def find_unmoved(
     Returns
     -------
     Degeneracy or None
+
+    Raises
+    ------
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
 
     Examples
     --------
@@ -366,6 +408,11 @@ def find_explaining_turn(
     Returns
     -------
     ExplainingTurn or None
+
+    Raises
+    ------
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
     """
 def find_turn_and_focal(
     pixels1: ArrayLike,
@@ -387,4 +434,9 @@ def find_turn_and_focal(
     Returns
     -------
     TurnAndFocal or None
+
+    Raises
+    ------
+    ValueError
+        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
     """

@@ -28,6 +28,13 @@ use pyo3::types::PyTuple;
 /// square_m : float
 ///     Side of a square or a tag, or distance of two rows of circles, meters.
 ///
+/// Raises
+/// ------
+/// ValueError
+///     Fewer than 3 or more than 1000 columns or rows (at least 2 columns of shifted circles, one
+///     tag of an AprilGrid), ``square_m`` not above 0, a size of markers out of range, or more
+///     markers than the dictionary has.
+///
 /// Examples
 /// --------
 /// >>> Board("chessboard", 9, 6, 0.03).num_marks
@@ -65,15 +72,27 @@ impl Board {
         Ok(pythonize::pythonize(py, &self.board.pattern())?)
     }
 
-    /// Marks in a row.
+    /// Columns, as in the constructor.
     #[getter]
     fn columns(&self) -> usize {
+        self.given.0
+    }
+
+    /// Rows, as in the constructor.
+    #[getter]
+    fn rows(&self) -> usize {
+        self.given.1
+    }
+
+    /// Marks in a row: inner corners of squares, corners of tags, or disks.
+    #[getter]
+    fn mark_columns(&self) -> usize {
         self.board.columns()
     }
 
     /// Rows of marks.
     #[getter]
-    fn rows(&self) -> usize {
+    fn mark_rows(&self) -> usize {
         self.board.rows()
     }
 
@@ -95,6 +114,11 @@ impl Board {
     /// ----------
     /// index : int
     ///     Number of the mark, from 0.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     Mark that the board does not have.
     fn mark<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let count = self.board.num_marks();
         if index >= count {

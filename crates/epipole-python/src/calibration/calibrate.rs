@@ -129,7 +129,12 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     Fewer than 2 views, or a view with fewer than 4 marks.
+/// epipole.DegenerateError
+///     Marks of a view on one line, or boards that are parallel or fit no camera.
+/// ValueError
+///     Image without pixels.
 #[pyfunction]
 #[pyo3(signature = (board, views, size, *, progress=None, **options))]
 pub(super) fn calibrate(
@@ -199,7 +204,12 @@ record! {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     No board that both cameras see, or a view with fewer than 4 marks.
+/// epipole.DegenerateError
+///     Marks of a view on one line, or in no plane in front of the camera.
+/// ValueError
+///     Camera without pixels.
 #[pyfunction]
 #[pyo3(signature = (board, cameras, left, right, *, progress=None))]
 pub(super) fn calibrate_rig(
@@ -238,7 +248,10 @@ pub(super) fn calibrate_rig(
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     Fewer than 2 homographies.
+/// epipole.DegenerateError
+///     Parallel planes, or noise that fits no camera.
 #[pyfunction]
 pub(super) fn intrinsics_from_planes(pixels_from_plane: &Bound<'_, PyAny>) -> PyResult<Intrinsics> {
     let planes = pixels_from_plane.try_iter()?.enumerate();

@@ -41,6 +41,11 @@ impl BoardSearch {
     /// ----------
     /// board : Board
     ///     Board that was searched.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Unknown ``kind``.
     fn problem(&self, board: &Board) -> PyResult<Option<String>> {
         use calibration::BoardSearch as Search;
         let search = match (&*self.kind, &self.view) {
@@ -118,6 +123,11 @@ impl From<calibration::BoardSearch> for BoardSearch {
 /// -------
 /// BoardSearch
 ///     Its `view` has the marks; None if the board was not found.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5].
 #[pyfunction]
 #[pyo3(signature = (image, board, *, progress=None))]
 pub(super) fn find_board(
@@ -203,6 +213,11 @@ impl MarkerDictionary {
     ///     Number of the marker.
     /// row, column : int
     ///     From the upper left bit, without the border.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     Marker or bit that the dictionary does not have.
     fn is_white(&self, id: usize, row: usize, column: usize) -> PyResult<bool> {
         self.0.is_white(id, row, column).ok_or_else(|| {
             PyIndexError::new_err(format!("marker {id} has no bit ({row}, {column})"))
@@ -248,6 +263,11 @@ record! {
 /// -------
 /// list of Marker
 ///     By number.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5].
 #[pyfunction]
 #[pyo3(signature = (image, dictionary, *, progress=None, **options))]
 pub(super) fn detect_markers(
@@ -291,6 +311,11 @@ pub(super) fn detect_markers(
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     Gray, in [0, 1].
+///
+/// Raises
+/// ------
+/// ValueError
+///     Result of more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0, *, progress=None))]
 pub(super) fn photograph_of_board<'py>(

@@ -17,6 +17,14 @@ use pyo3::prelude::*;
 ///     Only the area that was photographed everywhere, or all with black borders.
 /// progress : callable, optional
 ///     Called with the stage and the completed share.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Lens model that folds less than half-way to the border, or, with ``keep="all"``, a lens that
+///     sees more than 80° to a side.
+/// ValueError
+///     Image of less than 2 pixels on a side, or of more than 2**32 pixels.
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct Undistortion(Content);
 

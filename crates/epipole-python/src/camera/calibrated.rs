@@ -91,8 +91,12 @@ impl Camera {
     /// Returns
     /// -------
     /// ndarray, shape (2,) or (N, 2)
-    ///     Rows of NaN for points that the lens does not see; a single one raises
-    ///     `DegenerateError`.
+    ///     Rows of NaN for points that the lens does not see.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single point that the lens does not see.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -107,7 +111,12 @@ impl Camera {
     /// Returns
     /// -------
     /// ndarray, shape (3,) or (N, 3)
-    ///     Rows of NaN for pixels without a ray; a single one raises `DegenerateError`.
+    ///     Rows of NaN for pixels without a ray.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single pixel without a ray.
     fn unproject<'py>(&self, pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let unproject = |p: &_| self.0.unproject(&Point2::from(*p));
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), unproject)
@@ -122,7 +131,12 @@ impl Camera {
     /// Returns
     /// -------
     /// ndarray of the same shape
-    ///     Rows of NaN for pixels without a ray; a single one raises `DegenerateError`.
+    ///     Rows of NaN for pixels without a ray.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single pixel without a ray, or with one 90° or more off the axis.
     fn pinhole_pixel<'py>(&self, pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let undistort = |p: &_| Ok(self.0.pinhole_pixel(&Point2::from(*p))?.coords);
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), undistort)

@@ -17,6 +17,11 @@ use pyo3::prelude::*;
 ///     Focal lengths along u and v, pixels, > 0.
 /// cu_px, cv_px : float
 ///     Principal point, pixels.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Focal length not above 0.
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct Intrinsics(pub(crate) camera::Intrinsics);
@@ -46,6 +51,11 @@ impl Intrinsics {
     ///     Focal length, pixels, > 0.
     /// width, height : int
     ///     Image size, pixels.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Focal length not above 0.
     #[staticmethod]
     fn centered(focal_px: f64, width: u32, height: u32) -> PyResult<Self> {
         Ok(Self(
@@ -58,6 +68,11 @@ impl Intrinsics {
     /// Parameters
     /// ----------
     /// k : array_like, shape (3, 3)
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Focal length not above 0, or a matrix of another form than K without skew.
     #[staticmethod]
     fn from_matrix(k: &Bound<'_, PyAny>) -> PyResult<Self> {
         let m: Matrix3<f64> = matrix("k", k)?;
@@ -76,6 +91,11 @@ impl Intrinsics {
     /// ----------
     /// parameters : sequence of float
     ///     fx, fy, cx, cy, pixels.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Focal length not above 0.
     #[staticmethod]
     fn from_colmap(parameters: [f64; 4]) -> PyResult<Self> {
         Ok(Self(
@@ -136,7 +156,12 @@ impl Intrinsics {
     /// Returns
     /// -------
     /// ndarray, shape (2,) or (N, 2)
-    ///     Rows of NaN for points behind the camera; a single one raises `DegenerateError`.
+    ///     Rows of NaN for points behind the camera.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single point with ``z <= 0``.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -162,6 +187,11 @@ impl Intrinsics {
     /// ----------
     /// factor : float
     ///     Scale of the image, > 0.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Factor not above 0.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.scaled(factor).or_raise()?))
     }
@@ -172,6 +202,11 @@ impl Intrinsics {
     /// ----------
     /// factor : float
     ///     Factor of the focal lengths, > 0.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Factor not above 0.
     fn zoomed(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.zoomed(factor).or_raise()?))
     }
@@ -182,6 +217,11 @@ impl Intrinsics {
     /// ----------
     /// old, new : tuple of int
     ///     Width and height before and after, pixels.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     New side of 0 pixels.
     #[pyo3(signature = (old, new))]
     fn resized(&self, old: (u32, u32), new: (u32, u32)) -> PyResult<Self> {
         Ok(Self(self.0.resized(old, new).or_raise()?))

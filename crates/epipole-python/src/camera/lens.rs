@@ -17,6 +17,11 @@ use pyo3::prelude::*;
 ///     Model, those of OpenCV but for the last.
 /// coefficients : sequence of float
 ///     5, 8, 4 or 1 numbers, in OpenCV's order. Zeros if not given.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Another number of coefficients than the kind has.
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct Lens(pub(crate) camera::Lens);
@@ -70,8 +75,12 @@ impl Lens {
     /// Returns
     /// -------
     /// ndarray, shape (2,) or (N, 2)
-    ///     Rows of NaN for points that the lens does not see; a single one raises
-    ///     `DegenerateError`.
+    ///     Rows of NaN for points that the lens does not see.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single point that the lens does not see.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(x).ok_or(Error::PointBehindCamera)?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -86,6 +95,11 @@ impl Lens {
     /// Returns
     /// -------
     /// ndarray, shape (3,) or (N, 3)
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single image point without a ray; among several, a row of NaN.
     fn ray<'py>(&self, seen: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let ray = |p: &_| self.0.ray(&Point2::from(*p));
         Batch::<2>::read("seen", seen)?.vectors(seen.py(), ray)

@@ -64,6 +64,11 @@ fn relative_motion(
 /// -------
 /// RigidTransform
 ///     ``cam_from_world``
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Target at the center, or ``up_in_world`` zero or along the line of sight.
 #[pyfunction]
 fn look_at(
     center_in_world: &Bound<'_, PyAny>,

@@ -68,8 +68,12 @@ impl PosedCamera {
     /// Returns
     /// -------
     /// ndarray, shape (2,) or (N, 2)
-    ///     Rows of NaN for points that the lens does not see; a single one raises
-    ///     `DegenerateError`.
+    ///     Rows of NaN for points that the lens does not see.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single point that the lens does not see.
     fn project<'py>(&self, x_in_world: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_world", x_in_world)?.vectors(x_in_world.py(), project)

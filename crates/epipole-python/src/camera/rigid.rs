@@ -24,6 +24,11 @@ const LAST_BITS: f64 = 1e-14;
 /// translation : array_like, shape (3,), optional
 ///     Zero if not given.
 ///
+/// Raises
+/// ------
+/// ValueError
+///     Matrix that is no rotation.
+///
 /// Examples
 /// --------
 /// >>> world_from_cam = RigidTransform(translation=[1, 2, 3])
@@ -62,6 +67,11 @@ impl RigidTransform {
     /// ----------
     /// quaternion : array_like, shape (4,)
     /// translation : array_like, shape (3,), optional
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Quaternion whose length is not 1.
     #[staticmethod]
     #[pyo3(signature = (quaternion, translation=None))]
     fn from_quaternion(

@@ -28,7 +28,14 @@ use pyo3::types::PyDict;
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.NoConsensusError
+/// epipole.TooFewError
+///     Fewer than 7 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image on one line.
+/// epipole.NoConsensusError
+///     No matrix with 7 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 pub(super) fn estimate_fundamental(
@@ -67,7 +74,14 @@ pub(super) fn estimate_fundamental(
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.NoConsensusError
+/// epipole.TooFewError
+///     Fewer than 5 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image of a pinhole camera on one line.
+/// epipole.NoConsensusError
+///     No matrix with 5 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 pub(super) fn estimate_essential(
@@ -109,7 +123,14 @@ pub(super) fn estimate_essential(
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.NoConsensusError
+/// epipole.TooFewError
+///     Fewer than 5 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image of a pinhole camera on one line.
+/// epipole.NoConsensusError
+///     No pose with 5 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 pub(super) fn estimate_relative_pose(
@@ -150,6 +171,17 @@ pub(super) fn estimate_relative_pose(
 /// -------
 /// RansacReport of RelativePose
 ///     Its model is a `RelativePose`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 5 different matches.
+/// epipole.DegenerateError
+///     Gravity of length 0, or all pixels of an image of a pinhole camera on one line.
+/// epipole.NoConsensusError
+///     No pose with 3 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (
     pixels1, pixels2, camera1, camera2, gravity1, gravity2, *, progress=None, **options
@@ -201,6 +233,17 @@ pub(super) fn estimate_relative_pose_with_gravity(
 /// -------
 /// RansacReport of PoseWithFocal
 ///     Its model is a `PoseWithFocal`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 6 different matches.
+/// epipole.DegenerateError
+///     All pixels of an image on one line.
+/// epipole.NoConsensusError
+///     No pose with 6 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, principal1, principal2, *, progress=None, **options))]
 pub(super) fn estimate_relative_pose_and_focal(

@@ -132,7 +132,12 @@ pub(super) fn epipolar_row<'py>(
 /// -------
 /// ndarray, shape (3,) or (N, 3)
 ///     Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
-///     epipoles; a single one raises `DegenerateError`.
+///     epipoles.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pixel that is the epipole, or whose line is infinitely far away.
 #[pyfunction]
 pub(super) fn epipolar_line1<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -154,7 +159,12 @@ pub(super) fn epipolar_line1<'py>(
 /// -------
 /// ndarray, shape (3,) or (N, 3)
 ///     Lines (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``. Rows of NaN for
-///     epipoles; a single one raises `DegenerateError`.
+///     epipoles.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single pixel that is the epipole, or whose line is infinitely far away.
 #[pyfunction]
 pub(super) fn epipolar_line2<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -175,6 +185,11 @@ pub(super) fn epipolar_line2<'py>(
 /// -------
 /// epipole1, epipole2 : ndarray, shape (3,)
 ///     (u, v, 1), or (u, v, 0) with a unit direction for an epipole at infinity.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Matrix of rank 1 or 0.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(super) fn epipoles<'py>(
@@ -215,6 +230,11 @@ pub(super) fn enforce_rank2<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Matrix of rank 1 or 0.
 #[pyfunction]
 pub(super) fn project_to_essential<'py>(
     matrix: &Bound<'py, PyAny>,
@@ -233,6 +253,11 @@ pub(super) fn project_to_essential<'py>(
 /// -------
 /// list of RigidTransform
 ///     Each ``cam2_from_cam1`` with a translation of length 1.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Matrix of rank 1 or 0.
 #[pyfunction]
 pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<RigidTransform>> {
     let motions = epipolar::decompose_essential(&matrix("essential", essential)?).or_raise()?;
@@ -252,6 +277,11 @@ pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<
 /// Returns
 /// -------
 /// SelectedPose
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No motions or no matches.
 #[pyfunction]
 pub(super) fn select_pose(
     motions: Vec<RigidTransform>,
@@ -279,6 +309,11 @@ pub(super) fn select_pose(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Motion without translation.
 #[pyfunction]
 pub(super) fn essential_from_motion<'py>(
     py: Python<'py>,
@@ -299,6 +334,11 @@ pub(super) fn essential_from_motion<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Cameras at the same place.
 #[pyfunction]
 pub(super) fn fundamental_from_cameras<'py>(
     py: Python<'py>,
@@ -321,6 +361,11 @@ pub(super) fn fundamental_from_cameras<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Matrix of zeros.
 #[pyfunction]
 pub(super) fn fundamental_from_essential<'py>(
     essential: &Bound<'py, PyAny>,
@@ -342,6 +387,11 @@ pub(super) fn fundamental_from_essential<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Matrix of zeros.
 #[pyfunction]
 pub(super) fn essential_from_fundamental<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -364,6 +414,12 @@ pub(super) fn essential_from_fundamental<'py>(
 /// Returns
 /// -------
 /// focal1_px, focal2_px : float
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Optical axes that meet or are parallel, or so much noise that a squared focal length is
+///     negative.
 #[pyfunction]
 pub(super) fn focal_lengths_from_fundamental(
     fundamental: &Bound<'_, PyAny>,

@@ -20,6 +20,11 @@ const ROUNDING: f64 = 1e-6;
 ///     R of ``cam2_from_cam1``.
 /// direction : array_like, shape (3,)
 ///     t of ``cam2_from_cam1``, of length 1.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Matrix that is no rotation, or a direction whose length is not 1.
 #[pyclass(frozen, from_py_object, module = "epipole.epipolar")]
 #[derive(Clone)]
 pub(crate) struct RelativePose(pub(crate) epipolar::RelativePose);
@@ -56,6 +61,11 @@ impl RelativePose {
     /// Parameters
     /// ----------
     /// cam2_from_cam1 : epipole.camera.RigidTransform
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Motion without translation.
     #[staticmethod]
     fn from_motion(cam2_from_cam1: &RigidTransform) -> PyResult<Self> {
         let pose = epipolar::RelativePose::from_motion(&cam2_from_cam1.0);

@@ -66,6 +66,13 @@ pub(super) fn fundamental_7point<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 8 matches.
+/// epipole.DegenerateError
+///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
 #[pyfunction]
 pub(super) fn fundamental_8point<'py>(
     pixels1: &Bound<'py, PyAny>,
@@ -87,6 +94,13 @@ pub(super) fn fundamental_8point<'py>(
 /// Returns
 /// -------
 /// EightPoint
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 8 matches.
+/// epipole.DegenerateError
+///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
 #[pyfunction]
 pub(super) fn fundamental_8point_explained(
     pixels1: &Bound<'_, PyAny>,
@@ -108,6 +122,13 @@ pub(super) fn fundamental_8point_explained(
 /// Returns
 /// -------
 /// EightPoint
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 8 matches.
+/// epipole.DegenerateError
+///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
 #[pyfunction]
 pub(super) fn fundamental_8point_unnormalized(
     pixels1: &Bound<'_, PyAny>,
@@ -149,6 +170,15 @@ pub(super) fn essential_5point<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 8 pairs of rays.
+/// epipole.DegenerateError
+///     Rays that leave the matrix open, such as those of a camera that only turned.
+/// ValueError
+///     Ray of length 0.
 #[pyfunction]
 pub(super) fn essential_8point<'py>(
     rays1: &Bound<'py, PyAny>,
@@ -234,6 +264,15 @@ pub(super) fn relative_pose_3point(
 /// Returns
 /// -------
 /// ndarray, shape (3, 3)
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 7 different matches.
+/// epipole.DegenerateError
+///     Matrix of rank 1 or 0.
+/// ValueError
+///     Loss width not above 0, or a coordinate beyond 1e9 pixels.
 #[pyfunction]
 #[pyo3(signature = (fundamental, pixels1, pixels2, loss=None))]
 pub(super) fn refine_fundamental<'py>(
@@ -263,6 +302,15 @@ pub(super) fn refine_fundamental<'py>(
 /// Returns
 /// -------
 /// RelativePose
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 5 different matches.
+/// epipole.DegenerateError
+///     Pixel without a ray.
+/// ValueError
+///     Loss width not above 0, or a coordinate beyond 1e9 pixels.
 #[pyfunction]
 #[pyo3(signature = (pose, pixels1, pixels2, camera1, camera2, loss=None))]
 pub(super) fn refine_relative_pose(

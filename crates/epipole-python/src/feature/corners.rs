@@ -27,6 +27,12 @@ use pyo3::types::PyDict;
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     Positive at corners, negative along edges.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``k`` outside [0, 0.25), or a window of 0 or more than 255 pixels, or a Gaussian one outside
+///     (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, k, *, progress=None, **options))]
 pub(super) fn harris_response<'py>(
@@ -56,6 +62,11 @@ pub(super) fn harris_response<'py>(
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn min_eigenvalue_response<'py>(
@@ -85,6 +96,12 @@ pub(super) fn min_eigenvalue_response<'py>(
 /// Returns
 /// -------
 /// Keypoints
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``quality`` outside (0, 1], ``min_distance_px`` below 0, a grid without cells, or
+///     ``measure`` or ``tensor`` out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn good_features_to_track(
@@ -114,6 +131,11 @@ pub(super) fn good_features_to_track(
 /// Returns
 /// -------
 /// Keypoints
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``radius`` of 0.
 #[pyfunction]
 #[pyo3(signature = (response, radius, threshold, *, progress=None))]
 pub(super) fn non_maximum_suppression(
@@ -146,6 +168,11 @@ pub(super) fn non_maximum_suppression(
 /// -------
 /// ndarray, shape (N, 2)
 ///     Rows of NaN where the window holds no corner.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``half_window`` outside 1 to 50, or ``tolerance_px`` not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, corners, *, progress=None, **options))]
 pub(super) fn refine_corners<'py>(

@@ -42,6 +42,11 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 /// -------
 /// Features
 ///     Descriptors are float32, or bits in uint8 for ORB.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], or an option out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_features(
@@ -72,6 +77,11 @@ pub(super) fn detect_features(
 /// -------
 /// Features
 ///     Descriptors are float32 of shape (N, 128), whole numbers from 0 to 255.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], or an option out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_sift(
@@ -102,6 +112,11 @@ pub(super) fn detect_sift(
 /// -------
 /// Features
 ///     Descriptors are bits in uint8, shape (N, 32).
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], or an option out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_orb(
@@ -132,6 +147,12 @@ pub(super) fn detect_orb(
 /// Returns
 /// -------
 /// ndarray of float32, shape (N, 128)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
+///     above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn describe_sift<'py>(
@@ -165,6 +186,12 @@ pub(super) fn describe_sift<'py>(
 /// -------
 /// list of ndarray of float32
 ///     Directions of each keypoint, radians, strongest first.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
+///     above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn sift_directions<'py>(
@@ -200,6 +227,11 @@ pub(super) fn sift_directions<'py>(
 /// -------
 /// ndarray of float32, shape (N, size**2)
 ///     Inner products are normalized cross-correlations.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``size`` outside 2 to 64, or ``spacing_px`` not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, size, spacing_px=1.0, *, progress=None))]
 pub(super) fn describe_patches<'py>(

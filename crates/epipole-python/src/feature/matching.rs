@@ -66,6 +66,13 @@ impl Neighbors {
 /// -------
 /// Matches
 ///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Numbers in one list and bits in the other.
+/// ValueError
+///     ``max_ratio`` outside (0, 1], or ``max_distance`` below 0.
+///
 /// Examples
 /// --------
 /// >>> match_descriptors(np.eye(2, 4), np.eye(2, 4)).indices.tolist()
@@ -111,6 +118,11 @@ pub(super) fn match_descriptors(
 /// Returns
 /// -------
 /// Neighbors
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Numbers in one list and bits in the other.
 #[pyfunction]
 #[pyo3(signature = (descriptors1, descriptors2, *, progress=None))]
 pub(super) fn nearest_two(

@@ -140,6 +140,11 @@ impl ScaleSpace {
 /// -------
 /// ScaleSpace
 ///     Without octaves for an image smaller than about a dozen pixels.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], or an option out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn scale_space(

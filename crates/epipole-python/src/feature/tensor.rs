@@ -86,6 +86,11 @@ impl StructureTensor {
 /// Returns
 /// -------
 /// StructureTensor
+///
+/// Raises
+/// ------
+/// ValueError
+///     Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn structure_tensor(

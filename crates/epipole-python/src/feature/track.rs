@@ -51,6 +51,11 @@ impl Tracks {
 /// Returns
 /// -------
 /// Tracks
+///
+/// Raises
+/// ------
+/// ValueError
+///     Gray values outside [-0.5, 1.5], or an option out of range.
 #[pyfunction]
 #[pyo3(signature = (first, second, points, *, progress=None, **options))]
 pub(super) fn track_lucas_kanade(

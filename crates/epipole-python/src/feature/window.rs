@@ -66,6 +66,12 @@ impl WindowTensor {
     ///     Column and row.
     /// **options : StructureTensorOptions
     ///     Those of `structure_tensor`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Pixel outside the image, or a window of 0 or more than 255 pixels, or a Gaussian one
+    ///     outside (0, 31].
     #[staticmethod]
     #[pyo3(signature = (image, pixel, **options))]
     fn at(
@@ -167,6 +173,11 @@ impl ShiftSurface {
 /// Returns
 /// -------
 /// ShiftSurface
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``center`` outside the image, or ``half_window`` or ``reach`` above 127.
 #[pyfunction]
 #[pyo3(signature = (image, center, half_window, reach, border=None))]
 pub(super) fn shift_surface(

@@ -23,6 +23,11 @@ use pyo3::prelude::*;
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Kernel with an even side.
 #[pyfunction]
 #[pyo3(signature = (image, kernel, border=None, *, progress=None))]
 pub(super) fn correlate<'py>(
@@ -56,6 +61,11 @@ pub(super) fn correlate<'py>(
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Kernel of even length.
 #[pyfunction]
 #[pyo3(signature = (image, kernel_u, kernel_v, border=None, *, progress=None))]
 pub(super) fn separable_filter<'py>(
@@ -101,6 +111,11 @@ pub(super) fn noise_gain(weights: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// -------
 /// ndarray of float32, shape (size,)
 ///
+/// Raises
+/// ------
+/// ValueError
+///     ``sigma_px`` outside (0, 1000], or ``size`` even or above 20001.
+///
 /// Examples
 /// --------
 /// >>> [round(float(sample), 4) for sample in gaussian_kernel(1.0, 3)]
@@ -126,6 +141,11 @@ pub(super) fn gaussian_kernel(
 /// -------
 /// smooth, slope : ndarray of float32, shape (N,)
 ///     ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``sigma_px`` outside (0, 1000].
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(super) fn gaussian_derivative_kernels(
@@ -156,6 +176,11 @@ pub(super) fn gaussian_derivative_kernels(
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``sigma_px`` outside (0, 1000].
 #[pyfunction]
 #[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_blur<'py>(
@@ -189,6 +214,11 @@ pub(super) fn gaussian_blur<'py>(
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
 ///     uint8 for uint8, else float32.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``size`` even or above 1001.
 #[pyfunction]
 #[pyo3(signature = (image, size, border=None, *, progress=None))]
 pub(super) fn box_filter<'py>(

@@ -147,6 +147,11 @@ pub(super) fn sobel(
 /// Returns
 /// -------
 /// Gradient
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``sigma_px`` outside (0, 1000].
 #[pyfunction]
 #[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_derivative(

@@ -44,6 +44,11 @@ pub(super) fn pyramid_down<'py>(
 /// -------
 /// ndarray of uint8 or float32, shape (height, width)
 ///     uint8 for uint8, else float32.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Result of more than 2**32 pixels.
 #[pyfunction]
 pub(super) fn pyramid_up<'py>(
     image: &Bound<'py, PyAny>,

@@ -23,6 +23,11 @@ use pyo3::types::PySlice;
 /// -------
 /// ndarray of uint8 or float32, shape (height, width)
 ///     uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Side of 0 pixels, or more than 2**32 pixels.
 #[pyfunction]
 pub(super) fn resize<'py>(
     image: &Bound<'py, PyAny>,

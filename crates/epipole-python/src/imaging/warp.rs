@@ -25,6 +25,13 @@ use pyo3::types::PyDict;
 /// -------
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Map without an inverse.
+/// ValueError
+///     Result of more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_affine<'py>(
@@ -63,6 +70,13 @@ pub(super) fn warp_affine<'py>(
 /// -------
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
 ///     uint8 for uint8, else float32.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Map without an inverse.
+/// ValueError
+///     Result of more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_perspective<'py>(

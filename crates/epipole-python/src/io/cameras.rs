@@ -145,6 +145,11 @@ impl Cameras {
     /// Parameters
     /// ----------
     /// name : str
+    ///
+    /// Raises
+    /// ------
+    /// KeyError
+    ///     No camera of this name.
     fn named(&self, name: &str) -> PyResult<Camera> {
         let camera = self.0.named(name).copied();
         let missing = || PyKeyError::new_err(name.to_owned());
@@ -170,6 +175,13 @@ impl Cameras {
 /// -------
 /// format : str
 /// cameras : Cameras
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown format, wrong or missing values, or a lens that the library does not have.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, size=None))]
 fn read_cameras(
@@ -193,6 +205,13 @@ fn read_cameras(
 /// Returns
 /// -------
 /// ndarray, shape (4, 4)
+///
+/// Raises
+/// ------
+/// ValueError
+///     No 16 finite numbers, or not the Q of a rectified pair.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let py = source.py();
@@ -209,6 +228,13 @@ fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>
 /// path : str or os.PathLike
 /// cameras : Cameras
 /// format : {"epipole", "opencv", "ros", "colmap"}, optional
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown format, or a lens or number of cameras that it cannot hold.
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, cameras, format="epipole"))]
 fn write_cameras(path: &Bound<'_, PyAny>, cameras: &Cameras, format: &str) -> PyResult<()> {

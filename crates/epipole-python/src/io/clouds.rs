@@ -5,10 +5,11 @@ use crate::arrays::{from_rows, points3};
 use crate::images::{column, disparity, from_disparity};
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
+use epipole::mvs::Mesh;
 use epipole::stereo::{DisparityImage, PointCloud};
-use epipole_io::{bundle, cloud, pose_graph};
+use epipole_io::{bundle, cloud, mesh, pose_graph};
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::PyUserWarning;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 /// Python object of a cloud, `epipole.stereo.PointCloud`.
@@ -45,6 +46,13 @@ pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<B
 /// cloud : epipole.stereo.PointCloud
 /// notes : list of str
 ///     Sentences on what was left out: points with NaN or infinity, faces of a mesh.
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no PLY, or a damaged one.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
     let py = source.py();
@@ -59,8 +67,63 @@ fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec
 /// ----------
 /// path : str or os.PathLike
 /// cloud : epipole.stereo.PointCloud or array_like, shape (N, 3)
+///
+/// Raises
+/// ------
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> {
+    write(path, &cloud::write_ply(&take_cloud("cloud", cloud)?))
+}
+
+/// Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
+///
+/// Parameters
+/// ----------
+/// path : str or os.PathLike
+///     Ends in ``.ply``, ``.glb`` or ``.obj``.
+/// mesh : epipole.mvs.Mesh
+///
+/// Raises
+/// ------
+/// ValueError
+///     Another extension, or a triangle of a vertex that does not exist.
+#[pyfunction]
+fn write_mesh(path: &Bound<'_, PyAny>, mesh: &Bound<'_, PyAny>) -> PyResult<()> {
+    let vertices = take_cloud("mesh.vertices", &mesh.getattr("vertices")?)?;
+    let triangles: Vec<[u32; 3]> = mesh
+        .getattr("triangles")?
+        .call_method0("tolist")?
+        .extract()?;
+    let count = vertices.points.len();
+    if let Some(index) = triangles
+        .as_flattened()
+        .iter()
+        .find(|&&n| n as usize >= count)
+    {
+        let message = format!("mesh.triangles: there is no vertex {index}, only {count} vertices");
+        return Err(PyValueError::new_err(message));
+    }
+    let mesh = Mesh {
+        vertices,
+        triangles,
+    };
+    let name = path.str()?.to_string();
+    let bytes = match name.rsplit('.').next().map(str::to_lowercase).as_deref() {
+        Some("ply") => mesh::write_mesh_ply(&mesh),
+        Some("glb") => mesh::write_mesh_glb(&mesh),
+        Some("obj") => mesh::write_mesh_obj(&mesh).into_bytes(),
+        _ => {
+            let message = format!("path: {name} does not end in .ply, .glb or .obj");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    write(path, &bytes)
+}
+
+/// A cloud, or an array of points.
+fn take_cloud(argument: &str, cloud: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
     let (points, is_cloud) = match cloud.getattr_opt("points")? {
         Some(points) => (points, true),
         None => (cloud.clone(), false),
@@ -73,29 +136,30 @@ fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> 
         };
         Ok(part.filter(|part| !part.is_none()))
     };
+    let of = |name: &str| format!("{argument}.{name}");
     let mut given = PointCloud {
-        points: points3("cloud", &points)?,
-        colors: colors("cloud.colors", part("colors")?.as_ref())?,
+        points: points3(argument, &points)?,
+        colors: colors(&of("colors"), part("colors")?.as_ref())?,
         ..PointCloud::default()
     };
     if let Some(normals) = part("normals")? {
-        let normals = points3("cloud.normals", &normals)?;
+        let normals = points3(&of("normals"), &normals)?;
         given.normals = normals.into_iter().map(|normal| normal.coords).collect();
     }
     if let Some(confidences) = part("confidences")? {
-        given.confidences = column("cloud.confidences", &confidences)?;
+        given.confidences = column(&of("confidences"), &confidences)?;
     }
     for (name, count) in [
-        ("cloud.colors", given.colors.len()),
-        ("cloud.normals", given.normals.len()),
-        ("cloud.confidences", given.confidences.len()),
+        ("colors", given.colors.len()),
+        ("normals", given.normals.len()),
+        ("confidences", given.confidences.len()),
     ] {
         if count > 0 {
-            require_equal(("cloud.points", given.points.len()), (name, count))?;
+            let points = (&*of("points"), given.points.len());
+            require_equal(points, (&of(name), count))?;
         }
     }
-    let cloud = given;
-    write(path, &cloud::write_ply(&cloud))
+    Ok(given)
 }
 
 fn disparities(source: &Bound<'_, PyAny>, read: Reader) -> PyResult<Py<PyArray2<f32>>> {
@@ -117,6 +181,13 @@ type Reader = fn(&[u8]) -> epipole_io::Result<DisparityImage>;
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     NaN where unknown.
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no gray PFM, or a truncated one.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
     disparities(source, epipole_io::disparity::read_pfm)
@@ -129,6 +200,11 @@ fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
 /// path : str or os.PathLike
 /// disparity : array_like of float, shape (H, W)
 ///     NaN where unknown.
+///
+/// Raises
+/// ------
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
     let disparity = self::disparity("disparity", disparity)?;
@@ -142,6 +218,11 @@ fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<
 /// path : str or os.PathLike
 /// disparity : array_like of float, shape (H, W)
 ///     NaN where unknown. Values outside [1/256, 255.996] are written as unknown.
+///
+/// Raises
+/// ------
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
     let disparity = self::disparity("disparity", disparity)?;
@@ -162,6 +243,14 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 /// Returns
 /// -------
 /// epipole.sfm.PoseGraph
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown tag, mixed kinds, vertices that are missing or double, wrong numbers, or no
+///     vertices.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_g2o(py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
     let source = Source::read(source)?;
@@ -179,6 +268,11 @@ fn read_g2o(py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
 /// ----------
 /// path : str or os.PathLike
 /// graph : epipole.sfm.PoseGraph
+///
+/// Raises
+/// ------
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 fn write_g2o(path: &Bound<'_, PyAny>, graph: &PoseGraph) -> PyResult<()> {
     write(path, pose_graph::write_g2o(&graph.0).as_bytes())
@@ -193,6 +287,13 @@ fn write_g2o(path: &Bound<'_, PyAny>, graph: &PoseGraph) -> PyResult<()> {
 /// Returns
 /// -------
 /// epipole.sfm.BalProblem
+///
+/// Raises
+/// ------
+/// ValueError
+///     Missing, surplus or infinite numbers, or an index of no camera or point.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_bal(source: &Bound<'_, PyAny>) -> PyResult<BalProblem> {
     let source = Source::read(source)?;
@@ -205,6 +306,11 @@ fn read_bal(source: &Bound<'_, PyAny>) -> PyResult<BalProblem> {
 /// ----------
 /// path : str or os.PathLike
 /// problem : epipole.sfm.BalProblem
+///
+/// Raises
+/// ------
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
     write(path, bundle::write_bal(&problem.0).as_bytes())
@@ -213,6 +319,7 @@ fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(read_ply, module)?)?;
     module.add_function(wrap_pyfunction!(write_ply, module)?)?;
+    module.add_function(wrap_pyfunction!(write_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(read_pfm, module)?)?;
     module.add_function(wrap_pyfunction!(write_pfm, module)?)?;
     module.add_function(wrap_pyfunction!(write_png16, module)?)?;

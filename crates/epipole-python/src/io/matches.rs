@@ -29,6 +29,14 @@ fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> 
 /// Returns
 /// -------
 /// pixels1, pixels2 : ndarray, shape (N, 2)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     rows.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
     let py = source.py();
@@ -46,6 +54,14 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
 /// Returns
 /// -------
 /// ndarray, shape (N, 2)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     rows.
+/// OSError
+///     File that cannot be read.
 ///
 /// Examples
 /// --------
@@ -68,6 +84,14 @@ fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
 /// -------
 /// pixels : ndarray, shape (N, 2)
 /// points : ndarray, shape (N, 3)
+///
+/// Raises
+/// ------
+/// ValueError
+///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     rows.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
     let py = source.py();
@@ -90,6 +114,13 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
 /// distances, ratios : array_like, shape (N,), optional
 ///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if not given.
 /// layout : {"text", "csv"}, optional
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown ``layout``.
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, pixels1, pixels2, distances=None, ratios=None, layout="text"))]
 fn write_matches(

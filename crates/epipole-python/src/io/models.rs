@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use std::path::Path;
 
 /// Formats by their names in Python.
-const FORMATS: [ModelFormat; 7] = [
+const FORMATS: [ModelFormat; 8] = [
     ModelFormat::ColmapText,
     ModelFormat::ColmapBinary,
     ModelFormat::Bundler,
@@ -26,6 +26,7 @@ const FORMATS: [ModelFormat; 7] = [
     ModelFormat::OpenMvg,
     ModelFormat::Ply,
     ModelFormat::Glb,
+    ModelFormat::Html,
 ];
 
 fn model_format(name: &str) -> PyResult<ModelFormat> {
@@ -126,6 +127,11 @@ impl ModelImage {
 ///     The same of the points.
 /// rigs : list of Rig, optional
 ///     Cameras that are fixed to each other.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Track of a point that does not exist.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]
 pub(crate) struct Model(model::Model);
@@ -220,6 +226,11 @@ impl Model {
     }
 
     /// Reconstruction and its images.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Index of something that the model does not have.
     fn to_reconstruction(&self) -> PyResult<(Reconstruction, Vec<SfmImage>)> {
         let (reconstruction, images) = or_raise(self.0.to_reconstruction())?;
         let images = images.into_iter().map(SfmImage).collect();
@@ -307,11 +318,21 @@ impl Model {
     }
 
     /// Mean length of all reprojection errors, pixels; None without observations.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Index of something that the model does not have.
     fn mean_reprojection_px(&self) -> PyResult<Option<f64>> {
         or_raise(self.0.mean_reprojection_px())
     }
 
     /// Oddities of the model, such as points behind cameras, a sentence each.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Index of something that the model does not have.
     fn oddities(&self) -> PyResult<Vec<String>> {
         or_raise(self.0.oddities())
     }
@@ -322,6 +343,11 @@ impl Model {
     /// ----------
     /// format : str
     ///     Format of a file.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Unknown format.
     fn losses(&self, format: &str) -> PyResult<Vec<String>> {
         Ok(model_format(format)?.losses(&self.0))
     }
@@ -331,12 +357,19 @@ impl Model {
     /// Parameters
     /// ----------
     /// format : str
-    ///     "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg", "ply" or "glb".
+    ///     "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg", "ply", "glb" or
+    ///     "html".
     ///
     /// Returns
     /// -------
     /// dict
     ///     Bytes of each file by its usual name.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Unknown format, a camera that it cannot hold, or an index of something that the model
+    ///     does not have.
     fn to_files(&self, format: &str) -> PyResult<std::collections::BTreeMap<String, Vec<u8>>> {
         let files = or_raise(self.0.to_files(model_format(format)?))?;
         Ok(files
@@ -357,6 +390,14 @@ impl Model {
     /// -------
     /// list of Any
     ///     Paths of the files, `pathlib.Path`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Unknown format, a camera that it cannot hold, or an index of something that the model
+    ///     does not have.
+    /// OSError
+    ///     Folder or file that cannot be written.
     fn write<'py>(
         &self,
         folder: &Bound<'py, PyAny>,
@@ -414,8 +455,12 @@ impl From<model::ReadModel> for ReadModel {
 ///
 /// Raises
 /// ------
+/// ValueError
+///     Damaged or incomplete model, or a camera that the library does not have.
 /// FileNotFoundError
-///     If there is no model.
+///     No model in the folder, or no folder.
+/// OSError
+///     Folder that cannot be read.
 #[pyfunction]
 fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     let path = path(folder)?;
@@ -441,6 +486,13 @@ fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 /// Returns
 /// -------
 /// ReadModel
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown format, damaged model, or a camera that the library does not have.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     let place = super::source::path(path)?;

@@ -78,6 +78,14 @@ fn decode_options(
 /// -------
 /// Decoded
 ///     Its `image` is uint8 of shape (H, W, 3).
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
+///     unknown or empty.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
 fn decode_rgb(
@@ -118,6 +126,14 @@ fn decode_rgb(
 /// -------
 /// Decoded
 ///     Its `image` is float32 of shape (H, W), in [0, 1].
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
+///     unknown or empty.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
 fn decode_gray(
@@ -150,6 +166,13 @@ fn decode_gray(
 /// Returns
 /// -------
 /// tuple of int
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no image, or one with a damaged header.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
     let source = Source::read(source)?;
@@ -276,13 +299,14 @@ impl PreparedPhoto {
         self.0.reduced_focal_px(focal_px)
     }
 
-    /// Camera of `image`, from that of the sensor; None for another size or a mirrored photo.
+    /// Camera of `image`; None for another size or a mirrored photo.
     ///
     /// Parameters
     /// ----------
-    /// of_sensor : epipole.camera.Camera
-    fn camera(&self, of_sensor: &Camera) -> PyResult<Option<Camera>> {
-        let camera = or_raise(self.0.camera(&of_sensor.0))?;
+    /// camera : epipole.camera.Camera
+    ///     That of the sensor, or of the photo upright.
+    fn camera(&self, camera: &Camera) -> PyResult<Option<Camera>> {
+        let camera = or_raise(self.0.camera(&camera.0))?;
         Ok(camera.map(Camera::from))
     }
 }
@@ -308,6 +332,14 @@ impl PreparedPhoto {
 /// Returns
 /// -------
 /// PreparedPhoto
+///
+/// Raises
+/// ------
+/// ValueError
+///     File that is no image or a damaged one, more than ``max_file_pixels`` pixels, or ``range``
+///     unknown or empty.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (
     source, *, max_pixels=None, max_file_pixels=None, range=None, sensor_width_mm=None,

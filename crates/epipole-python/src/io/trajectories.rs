@@ -84,6 +84,14 @@ impl Trajectory {
 /// -------
 /// format : {"tum", "kitti", "euroc"}
 /// trajectory : Trajectory
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown format, wrong numbers, zero quaternions, matrices that are no rotation, or times
+///     that go backwards.
+/// OSError
+///     File that cannot be read.
 #[pyfunction]
 fn read_trajectory(source: &Bound<'_, PyAny>) -> PyResult<(&'static str, Trajectory)> {
     let source = Source::read(source)?;
@@ -100,6 +108,13 @@ fn read_trajectory(source: &Bound<'_, PyAny>) -> PyResult<(&'static str, Traject
 /// trajectory : Trajectory
 /// format : {"tum", "kitti", "euroc"}, optional
 ///     "kitti" has no times, the others need them.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown format, or no times for TUM or EuRoC.
+/// OSError
+///     File that cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, trajectory, format="tum"))]
 fn write_trajectory(

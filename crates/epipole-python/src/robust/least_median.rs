@@ -57,6 +57,15 @@ impl LeastMedian {
 /// -------
 /// LeastMedian of Any
 ///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No more data than a sample has.
+/// epipole.DegenerateError
+///     No sample that gives a model.
+/// ValueError
+///     ``num_samples`` of 0.
+///
 /// Notes
 /// -----
 /// An exception in a callable ends the run and is raised.

@@ -20,6 +20,13 @@ use pyo3::types::PyDict;
 /// -------
 /// ndarray, shape (3,)
 ///     Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 points.
+/// epipole.DegenerateError
+///     Equal points, or points that spread equally in all directions.
 #[pyfunction]
 pub(super) fn fit_line_total_least_squares<'py>(
     points: &Bound<'py, PyAny>,
@@ -41,6 +48,15 @@ pub(super) fn fit_line_total_least_squares<'py>(
 /// -------
 /// ndarray, shape (3,)
 ///     Line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 points.
+/// epipole.DegenerateError
+///     Equal points, or points that spread equally in all directions.
+/// ValueError
+///     ``width_px`` not above 0.
 #[pyfunction]
 pub(super) fn fit_line_huber<'py>(
     points: &Bound<'py, PyAny>,
@@ -65,6 +81,17 @@ pub(super) fn fit_line_huber<'py>(
 /// -------
 /// RansacReport of ndarray
 ///     Its model is the line (a, b, c): ``a*u + b*v + c == 0`` with ``a**2 + b**2 == 1``.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 points.
+/// epipole.DegenerateError
+///     Equal points.
+/// epipole.NoConsensusError
+///     No line with 2 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 ///
 /// Examples
 /// --------

@@ -28,6 +28,11 @@ use pyo3::prelude::*;
 /// -------
 /// int
 ///
+/// Raises
+/// ------
+/// ValueError
+///     ``inlier_ratio`` outside [0, 1], ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+///
 /// Examples
 /// --------
 /// >>> num_trials_with_replacement(0.5, 7, 0.99)
@@ -52,6 +57,13 @@ fn num_trials_with_replacement(
 /// Returns
 /// -------
 /// int
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer data than a sample has.
+/// ValueError
+///     ``num_inliers`` above ``num_data``, ``sample_size`` of 0, or ``confidence`` outside (0, 1).
 #[pyfunction]
 fn num_trials_without_replacement(
     num_inliers: usize,

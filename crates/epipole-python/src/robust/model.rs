@@ -193,6 +193,15 @@ impl Estimator for Callables {
 /// -------
 /// RansacReport of Any
 ///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer data than a sample has.
+/// epipole.NoConsensusError
+///     No model with as many inliers as a sample has.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///
 /// Notes
 /// -----
 /// An exception in a callable ends the run and is raised. `Ransac` runs step by step.

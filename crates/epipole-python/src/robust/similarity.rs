@@ -91,6 +91,15 @@ impl PlaneSimilarity {
 /// -------
 /// PlaneSimilarity
 ///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 matches.
+/// epipole.DegenerateError
+///     All points of image 1 equal.
+/// ValueError
+///     Coordinate beyond 1e9 pixels.
+///
 /// Examples
 /// --------
 /// >>> fit_similarity([[0, 0], [1, 0]], [[3, 1], [3, 3]]).scale()
@@ -121,6 +130,15 @@ pub(super) fn fit_similarity(
 /// -------
 /// RansacReport of PlaneSimilarity
 ///     Its model is a `PlaneSimilarity`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 different matches.
+/// epipole.NoConsensusError
+///     No similarity with 2 inliers.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 pub(super) fn estimate_similarity(

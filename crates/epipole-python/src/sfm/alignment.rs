@@ -63,6 +63,13 @@ fn alignment_kind(kind: Option<&Bound<'_, PyAny>>) -> PyResult<AlignmentKind> {
 /// -------
 /// Similarity3
 ///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 3 points.
+/// epipole.DegenerateError
+///     Points of either set equal or on one line.
+///
 /// Examples
 /// --------
 /// >>> round(align_points(np.eye(3), 2 * np.eye(3)).scale, 6)
@@ -94,6 +101,13 @@ pub(super) fn align_points(
 /// errors : ErrorStatistics
 ///     In the unit of `truth`.
 /// truth_from_estimated : Similarity3
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 3 points.
+/// epipole.DegenerateError
+///     Points of either set equal or on one line.
 #[pyfunction]
 #[pyo3(signature = (estimated, truth, kind=None))]
 pub(super) fn absolute_trajectory_error(
@@ -120,6 +134,13 @@ pub(super) fn absolute_trajectory_error(
 /// Returns
 /// -------
 /// RelativePoseError
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No more poses than ``step``.
+/// ValueError
+///     ``step`` of 0.
 #[pyfunction]
 #[pyo3(signature = (estimated, truth, step=1))]
 pub(super) fn relative_pose_error(

@@ -89,6 +89,13 @@ impl BalProblem {
     /// ----------
     /// loss : str or dict, optional
     ///     As in `adjust_bal`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Loss width not above 0.
+    /// IndexError
+    ///     Observation of a camera or point that does not exist.
     #[pyo3(signature = (loss=None))]
     fn cost(&self, loss: Option<&Bound<'_, PyAny>>) -> PyResult<f64> {
         let loss = options::loss(loss)?;
@@ -121,6 +128,14 @@ impl BalProblem {
 /// -------
 /// problem : BalProblem
 /// report : epipole.optim.LmReport
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No observations.
+/// ValueError
+///     Observation of a camera or point that does not exist, loss width not above 0, or no finite
+///     cost at the start.
 #[pyfunction]
 #[pyo3(signature = (problem, *, loss=None, progress=None, **options))]
 pub(super) fn adjust_bal(

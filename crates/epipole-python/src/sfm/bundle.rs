@@ -168,6 +168,11 @@ impl Bundle {
     /// ----------
     /// observation : int
     ///     Index of the observation.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     Observation that does not exist, or whose camera or point does not.
     fn residual_px<'py>(
         &self,
         py: Python<'py>,
@@ -263,7 +268,13 @@ pub(super) fn plain_options<'py>(
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     No observations.
+/// epipole.DegenerateError
+///     Cameras of one lens number with different lenses.
+/// ValueError
+///     Observation of a camera, point or sensor that does not exist, a lens number out of range,
+///     loss width or standard deviation not above 0, or no finite cost at the start.
 #[pyfunction]
 #[pyo3(signature = (bundle, *, progress=None, **options))]
 pub(super) fn adjust_bundle(

@@ -25,6 +25,11 @@ use std::sync::Mutex;
 ///     Number of points of the component.
 /// cost : float, optional
 ///     Cost of the refinement, square pixels.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown ``kind``, or arguments that do not fit it.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(super) struct SfmStep(pub(super) sfm::SfmStep);
@@ -197,6 +202,11 @@ impl SfmResult {
 /// Raises
 /// ------
 /// epipole.TooFewError
+///     Fewer than 2 images.
+/// epipole.DegenerateError
+///     Images of one lens number whose cameras have different lenses.
+/// ValueError
+///     Option out of range, or a match of an image or keypoint that does not exist.
 #[pyfunction]
 #[pyo3(signature = (input, *, progress=None, **options))]
 pub(super) fn reconstruct(
@@ -222,6 +232,15 @@ pub(super) fn reconstruct(
 ///     Called with the stage and the completed share while pairs are tested.
 /// **options : SfmOptions
 ///     Those of `reconstruct`.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 images.
+/// epipole.DegenerateError
+///     Images of one lens number whose cameras have different lenses.
+/// ValueError
+///     Option out of range, or a match of an image or keypoint that does not exist.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct IncrementalReconstruction(Mutex<Option<sfm::IncrementalReconstruction>>);
 
@@ -251,6 +270,11 @@ impl IncrementalReconstruction {
     /// ----------
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Work that is finished, or that another thread uses.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
         with(&self.0, |work| {
@@ -259,11 +283,21 @@ impl IncrementalReconstruction {
     }
 
     /// Component that grows now, a `Reconstruction`; None between two components.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Work that is finished, or that another thread uses.
     fn current(&self) -> PyResult<Option<Reconstruction>> {
         with(&self.0, |work| Ok(work.current().map(Reconstruction)))
     }
 
     /// All components, including the current one. Ends the work.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Work that is finished, or that another thread uses.
     fn finish(&self) -> PyResult<SfmResult> {
         Ok(SfmResult(take(&self.0)?.finish()))
     }
@@ -316,6 +350,16 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
 /// -------
 /// list of WhyUnregistered
 ///     One for each image of ``result.unregistered``.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 images.
+/// epipole.DegenerateError
+///     Images of one lens number whose cameras have different lenses.
+/// ValueError
+///     Option out of range, a match of an image or keypoint that does not exist, or ``result`` of
+///     other images.
 #[pyfunction]
 #[pyo3(signature = (input, result, *, progress=None, **options))]
 pub(super) fn why_unregistered(

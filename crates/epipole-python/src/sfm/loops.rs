@@ -104,6 +104,9 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
+///     Fewer than 2 poses, or no loops.
+/// ValueError
+///     Loop of a frame that does not exist or with itself, or a weight or loss width not above 0.
 #[pyfunction]
 #[pyo3(signature = (world_from_cam, loops, motion=None, *, loss=None, progress=None))]
 pub(super) fn close_loops(
@@ -148,7 +151,12 @@ pub(super) fn close_loops(
 ///
 /// Raises
 /// ------
-/// epipole.NoConsensusError, epipole.TooFewError
+/// epipole.TooFewError
+///     Fewer than 3 finite points.
+/// epipole.NoConsensusError
+///     Fewer than 4 points that agree.
+/// ValueError
+///     ``max_distance`` not above 0.
 #[pyfunction]
 #[pyo3(signature = (from_points, to_points, max_distance, seed=0))]
 pub(super) fn estimate_similarity_of_points<'py>(
@@ -189,6 +197,14 @@ pub(super) fn estimate_similarity_of_points<'py>(
 ///     The first view of each connected part has the identity.
 /// errors_rad : ndarray, shape (M,)
 ///     Error of each measurement, radians.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No measurements.
+/// ValueError
+///     Index of no view, a view joined with itself, a matrix that is no rotation, or a loss width
+///     not above 0.
 #[pyfunction]
 #[pyo3(signature = (count, pairs, to_from_from, *, loss=None, progress=None))]
 #[allow(clippy::type_complexity)]

@@ -5,6 +5,7 @@ mod bal;
 mod bundle;
 mod images;
 mod incremental;
+mod known_poses;
 mod loops;
 mod odometry;
 mod photo_features;
@@ -70,6 +71,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(bal::adjust_bal, module)?)?;
     module.add_function(wrap_pyfunction!(incremental::reconstruct, module)?)?;
     module.add_function(wrap_pyfunction!(incremental::why_unregistered, module)?)?;
+    module.add_function(wrap_pyfunction!(known_poses::triangulate_tracks, module)?)?;
     module.add_function(wrap_pyfunction!(photos::photo_features, module)?)?;
     module.add_function(wrap_pyfunction!(photos::match_features, module)?)?;
     module.add_function(wrap_pyfunction!(photos::match_photos, module)?)?;

@@ -115,7 +115,13 @@ impl Right {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     Fewer than 2 images.
+/// epipole.DegenerateError
+///     No two images with enough points under a sufficient angle, or images of one lens number
+///     whose cameras have different lenses.
+/// ValueError
+///     Option out of range, or a match of an image or keypoint that does not exist.
 #[pyfunction]
 #[pyo3(signature = (input, *, progress=None, **options))]
 pub(super) fn monocular_odometry(
@@ -155,7 +161,13 @@ pub(super) fn monocular_odometry(
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     Fewer than 2 images.
+/// epipole.DegenerateError
+///     Rig without a baseline, too few matches in the first frame, or images of one lens number
+///     whose cameras have different lenses.
+/// ValueError
+///     Option out of range, or a match of an image or keypoint that does not exist.
 #[pyfunction]
 #[pyo3(signature = (
     left, right, left_right, right_from_left, right_camera, *, progress=None, **options
@@ -203,6 +215,16 @@ impl Odometry {
     ///     Called with the stage and the completed share.
     /// **options : OdometryOptions
     ///     Those of `monocular_odometry`.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 2 images.
+    /// epipole.DegenerateError
+    ///     No two images with enough points under a sufficient angle, or images of one lens number
+    ///     whose cameras have different lenses.
+    /// ValueError
+    ///     Option out of range, or a match of an image or keypoint that does not exist.
     #[staticmethod]
     #[pyo3(signature = (input, *, progress=None, **options))]
     fn monocular(
@@ -232,6 +254,16 @@ impl Odometry {
     ///     Called with the stage and the completed share.
     /// **options : OdometryOptions
     ///     Those of `monocular_odometry`.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 2 images.
+    /// epipole.DegenerateError
+    ///     Rig without a baseline, too few matches in the first frame, or images of one lens number
+    ///     whose cameras have different lenses.
+    /// ValueError
+    ///     Option out of range, or a match of an image or keypoint that does not exist.
     #[staticmethod]
     #[pyo3(signature = (
         left, right, left_right, right_from_left, right_camera, *, progress=None, **options
@@ -272,6 +304,11 @@ impl Odometry {
     /// ----------
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Work that is finished, or that another thread uses.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
         with(&self.0, |work| {
@@ -280,6 +317,11 @@ impl Odometry {
     }
 
     /// Path so far, an `OdometryResult`. Ends the work.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Work that is finished, or that another thread uses.
     fn finish(&self) -> PyResult<OdometryResult> {
         Ok(OdometryResult(take(&self.0)?.finish()))
     }

@@ -86,6 +86,11 @@ impl Photo {
 /// Returns
 /// -------
 /// PhotoFeatures
+///
+/// Raises
+/// ------
+/// ValueError
+///     Option out of range.
 #[pyfunction]
 #[pyo3(signature = (photo, *, progress=None, **options))]
 pub(super) fn photo_features(
@@ -116,6 +121,13 @@ pub(super) fn photo_features(
 /// Returns
 /// -------
 /// list of PairMatches
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Numbers in one list of descriptors and bits in another.
+/// ValueError
+///     Option out of range.
 #[pyfunction]
 #[pyo3(signature = (features, /, *, progress=None, **options))]
 pub(super) fn match_features(
@@ -145,6 +157,13 @@ pub(super) fn match_features(
 /// Returns
 /// -------
 /// epipole.feature.Matches
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Numbers in one list of descriptors and bits in the other.
+/// ValueError
+///     Option out of range.
 #[pyfunction]
 #[pyo3(signature = (left, right, *, progress=None, **options))]
 pub(super) fn match_rectified<'py>(
@@ -176,6 +195,13 @@ pub(super) fn match_rectified<'py>(
 /// -------
 /// images : list of SfmImage
 /// pairs : list of PairMatches
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 photos.
+/// ValueError
+///     Option out of range.
 #[pyfunction]
 #[pyo3(signature = (photos, *, progress=None, **options))]
 pub(super) fn match_photos(
@@ -212,6 +238,15 @@ pub(super) fn match_photos(
 /// input : SfmInput
 ///     Keypoints and matches.
 /// result : SfmResult
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 photos.
+/// epipole.DegenerateError
+///     Photos of one lens number whose cameras have different lenses.
+/// ValueError
+///     Option out of range.
 #[pyfunction]
 #[pyo3(signature = (photos, cameras, *, photo_options=None, progress=None, **options))]
 pub(super) fn reconstruct_photos(

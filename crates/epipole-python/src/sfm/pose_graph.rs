@@ -45,6 +45,12 @@ use pyo3::types::PyDict;
 ///     ``world_from_vertex`` as measured.
 /// prior_information : array_like, shape (P, D, D), optional
 ///     Inverse covariances of these. Identities if not given.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Unknown ``kind``, an index of no vertex, a quaternion whose length is not 1, or a scale not
+///     above 0.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
 
@@ -367,6 +373,16 @@ impl PoseGraph {
     /// Returns
     /// -------
     /// PoseGraph
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     No edges and no priors.
+    /// epipole.DegenerateError
+    ///     Vertex that hangs on measurements without weight.
+    /// ValueError
+    ///     Edge from a vertex to itself, or an information matrix that is asymmetric or has a
+    ///     negative eigenvalue.
     #[pyo3(signature = (*, progress=None))]
     fn initialize(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
         let mut graph = self.0.clone();
@@ -390,6 +406,14 @@ impl PoseGraph {
     /// -------
     /// graph : PoseGraph
     /// report : PoseGraphReport
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     No edges and no priors.
+    /// ValueError
+    ///     Edge from a vertex to itself, an information matrix that is asymmetric or has a negative
+    ///     eigenvalue, or a loss width not above 0.
     #[pyo3(signature = (*, loss=None, progress=None, **options))]
     fn optimize(
         &self,

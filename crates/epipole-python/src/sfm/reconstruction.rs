@@ -36,6 +36,11 @@ use pyo3::types::PyDict;
 ///     Root mean square of the reprojection errors of each point, pixels. 0 if not given.
 /// is_placed : bool, optional
 ///     Whether it stands where the known positions of its images are, in their unit of length.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Track of a point that does not exist.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(crate) struct Reconstruction(pub(crate) sfm::Reconstruction);
@@ -171,6 +176,11 @@ impl Reconstruction {
     /// ----------
     /// images : list of SfmImage
     ///     Images of the input.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     Track of a keypoint that ``images`` do not have.
     fn mean_reprojection_px(&self, images: Vec<SfmImage>) -> PyResult<f64> {
         let images = self.images(images)?;
         Ok(self.0.mean_reprojection_px(&images))
@@ -187,6 +197,11 @@ impl Reconstruction {
     /// bundle : Bundle
     /// image_of_camera : ndarray of int64
     ///     Index of the image of each camera.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     Track of a keypoint that ``images`` do not have.
     fn to_bundle<'py>(
         &self,
         py: Python<'py>,
@@ -216,7 +231,14 @@ impl Reconstruction {
     ///
     /// Raises
     /// ------
-    /// epipole.NoConsensusError, epipole.TooFewError
+    /// epipole.TooFewError
+    ///     Fewer than ``min_num_inliers`` points that match or agree with a pose.
+    /// epipole.DegenerateError
+    ///     Numbers in one list of descriptors and bits in another.
+    /// epipole.NoConsensusError
+    ///     No pose with 3 inliers.
+    /// ValueError
+    ///     Track of a keypoint that does not exist, or an option out of range.
     #[pyo3(signature = (features, photo, camera, *, progress=None, **options))]
     fn localize(
         &self,

@@ -16,6 +16,11 @@ use pyo3::prelude::*;
 ///     Rotation and translation. The identity if not given.
 /// scale : float, optional
 ///     Greater than 0.
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``scale`` not above 0.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(crate) struct Similarity3(pub(crate) nalgebra::Similarity3<f64>);

@@ -65,6 +65,11 @@ pub(crate) fn give_tracks<'py, 'a>(
 /// ndarray of int64, shape (K, 3)
 ///     Index of the track, of the image, and of its keypoint, sorted. A track has at most one
 ///     keypoint of an image.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Match of an image or keypoint that does not exist, or of an image with itself.
 #[pyfunction]
 pub(super) fn build_tracks(
     py: Python<'_>,
@@ -109,6 +114,11 @@ record! {
 /// -------
 /// VerifiedPair or None
 ///     None if too few agree.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Match of a keypoint that does not exist.
 #[pyfunction]
 #[pyo3(signature = (pair, images, cameras, *, progress=None, **options))]
 pub(super) fn verify_matches(

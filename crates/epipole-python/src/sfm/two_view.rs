@@ -56,7 +56,13 @@ record! {
 ///
 /// Raises
 /// ------
-/// epipole.TooFewError, epipole.DegenerateError
+/// epipole.TooFewError
+///     Fewer than ``min_num_points`` points left.
+/// epipole.DegenerateError
+///     Motion without translation.
+/// ValueError
+///     ``min_angle_rad`` below 0, ``max_error_px`` not above 0, or an option of ``bundle`` out of
+///     range.
 #[pyfunction]
 #[pyo3(signature = (
     pixels1, pixels2, camera1, camera2, cam2_from_cam1, *, progress=None, **options

@@ -83,7 +83,14 @@ impl PointCloud {
 /// Returns
 /// -------
 /// float or ndarray, shape (N,)
-///     Meters. NaN for disparities <= 0; a single one raises `DegenerateError`.
+///     Meters. NaN for disparities <= 0.
+///
+/// Raises
+/// ------
+/// epipole.DegenerateError
+///     Single disparity not above 0.
+/// ValueError
+///     Focal length or baseline not above 0.
 ///
 /// Examples
 /// --------
@@ -129,7 +136,9 @@ pub(super) fn depth_from_disparity<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     If no depth is possible: ``disparity_px + error_px <= 0``.
+///     No possible depth, as ``disparity_px + error_px <= 0``.
+/// ValueError
+///     Focal length or baseline not above 0, or ``error_px`` below 0.
 #[pyfunction]
 pub(super) fn depth_interval(
     focal_px: f64,
@@ -160,6 +169,11 @@ pub(super) fn depth_interval(
 /// -------
 /// ndarray of float32, shape (H, W)
 ///     Meters; NaN where the disparity is unknown or <= 0.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Focal length or baseline not above 0.
 #[pyfunction]
 pub(super) fn depth_image<'py>(
     disparity: &Bound<'py, PyAny>,

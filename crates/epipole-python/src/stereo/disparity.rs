@@ -22,6 +22,11 @@ use pyo3::prelude::*;
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
+///
+/// Raises
+/// ------
+/// ValueError
+///     ``range_px`` below 0.
 #[pyfunction]
 #[pyo3(signature = (disparity, min_size, range_px, *, progress=None))]
 pub(super) fn remove_speckles<'py>(

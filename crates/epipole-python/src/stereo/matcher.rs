@@ -113,6 +113,11 @@ macro_rules! matcher {
             /// -------
             /// ndarray of float32, shape (H, W)
             ///     Pixels; NaN where unknown.
+            ///
+            /// Raises
+            /// ------
+            /// ValueError
+            ///     Option out of range, or too many pixels times disparities for the memory.
             #[pyo3(signature = (left, right, *, progress=None))]
             fn compute<'py>(
                 &self,

@@ -8,6 +8,8 @@ mod pixel_map;
 mod rectify;
 mod uncalibrated;
 
+pub(crate) use depth::PointCloud;
+
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

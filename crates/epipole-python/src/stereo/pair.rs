@@ -109,6 +109,11 @@ impl RectifiedPair {
     /// -------
     /// ndarray of float32, shape (h, w)
     ///     Pixels; NaN where unknown.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Option of the matcher out of range, or disparities of another size than the images.
     #[pyo3(signature = (matching, *, progress=None))]
     fn disparity<'py>(
         &self,

@@ -55,6 +55,13 @@ impl PixelMap {
     ///     Pixels of the source to pixels of the result, up to scale.
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Matrix without an inverse.
+    /// ValueError
+    ///     Result of more than 2**32 pixels.
     #[staticmethod]
     #[pyo3(signature = (width, height, out_from_source, *, progress=None))]
     fn from_homography(

@@ -72,6 +72,11 @@ impl PixelRect {
 ///     Size of the pictures, pixels.
 /// valid : tuple of PixelRect
 ///     Part of each picture that its photo fills.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Matrix in ``rect_from_cam`` that is no rotation.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct Rectification(pub(super) stereo::Rectification);
 
@@ -185,8 +190,14 @@ impl Rectification {
     /// Returns
     /// -------
     /// ndarray of the same shape
-    ///     Rows of NaN for pixels behind the rectified camera; a single one raises
-    ///     `DegenerateError`.
+    ///     Rows of NaN for pixels behind the rectified camera.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single pixel without a ray, or with one behind the rectified camera.
+    /// ValueError
+    ///     ``index`` not 0 or 1.
     fn rectify_pixel<'py>(
         &self,
         index: usize,
@@ -208,8 +219,14 @@ impl Rectification {
     /// Returns
     /// -------
     /// ndarray of the same shape
-    ///     Rows of NaN for pixels that the camera cannot see; a single one raises
-    ///     `DegenerateError`.
+    ///     Rows of NaN for pixels that the camera cannot see.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single pixel that the camera does not see.
+    /// ValueError
+    ///     ``index`` not 0 or 1.
     fn source_pixel<'py>(
         &self,
         index: usize,
@@ -231,6 +248,11 @@ impl Rectification {
     ///     0 for the first camera, 1 for the second.
     /// progress : callable, optional
     ///     Called with the stage and the completed share.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     ``index`` not 0 or 1.
     #[pyo3(signature = (index, *, progress=None))]
     fn map(&self, py: Python<'_>, index: usize, progress: Option<Py<PyAny>>) -> PyResult<PixelMap> {
         Ok(PixelMap(progress::run(py, progress, |monitor| {
@@ -248,8 +270,12 @@ impl Rectification {
     /// Returns
     /// -------
     /// ndarray, shape (3,) or (N, 3)
-    ///     (u, v, disparity), pixels. Rows of NaN for points behind the camera; a single one raises
-    ///     `DegenerateError`.
+    ///     (u, v, disparity), pixels. Rows of NaN for points behind the camera.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Single point that a camera does not see.
     fn disparity_of<'py>(&self, place: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let disparity = |x: &_| match self.0.disparity_of(&Point3::from(*x)) {
             Some((pixel, disparity)) => Ok(Vector3::new(pixel.x, pixel.y, disparity)),
@@ -268,6 +294,11 @@ impl Rectification {
     /// Returns
     /// -------
     /// first, last : int
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 8 points that the first image shows.
     fn disparity_range(&self, places: &Bound<'_, PyAny>) -> PyResult<(i32, i32)> {
         let range = self.0.disparity_range(&points3("places", places)?);
         Ok(range.or_raise()?.into())
@@ -308,7 +339,10 @@ fn unseen(what: &'static str) -> Error {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     If the cameras coincide, or a photo looks along the baseline.
+///     Cameras at the same place, a baseline more than 60° off the image plane, a photo that looks
+///     along the baseline, or a lens model that folds less than half-way to the border.
+/// ValueError
+///     Cameras of different image size, ``alpha`` outside [0, 1], or a side of less than 2 pixels.
 #[pyfunction]
 #[pyo3(signature = (camera1, camera2, cam2_from_cam1, **options))]
 pub(super) fn rectify_calibrated(
@@ -341,6 +375,11 @@ pub(super) fn rectify_calibrated(
 /// -------
 /// ndarray, shape (4, 4)
 ///     ``(X, Y, Z, W) = Q @ (u, v, d, 1)``
+///
+/// Raises
+/// ------
+/// ValueError
+///     Focal length or baseline not above 0.
 #[pyfunction]
 pub(super) fn q_from_rig(
     py: Python<'_>,

@@ -39,8 +39,12 @@ record! {
 ///
 /// Raises
 /// ------
+/// epipole.TooFewError
+///     Fewer than 3 matches.
 /// epipole.DegenerateError
-///     If an epipole lies in or near its photo, or all matches lie on one line.
+///     Epipole in or near its photo, matrix of rank 1 or 0, or all matches on one line.
+/// ValueError
+///     Side of less than 2 pixels.
 #[pyfunction]
 pub(super) fn rectify_uncalibrated(
     fundamental: &Bound<'_, PyAny>,

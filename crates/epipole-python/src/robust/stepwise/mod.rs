@@ -45,7 +45,9 @@ use std::sync::Arc;
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     If there are fewer data than a sample has.
+///     Fewer data than a sample has.
+/// ValueError
+///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
 ///
 /// Notes
 /// -----
@@ -107,6 +109,15 @@ impl Ransac {
     /// -------
     /// Ransac
     ///     Its models are lines (a, b, c).
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 2 points.
+    /// epipole.DegenerateError
+    ///     Equal points.
+    /// ValueError
+    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     #[staticmethod]
     #[pyo3(signature = (points, **options))]
     fn line(points: &Bound<'_, PyAny>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -139,6 +150,13 @@ impl Ransac {
     /// -------
     /// Ransac
     ///     Its models are `PlaneSimilarity`.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 2 different matches.
+    /// ValueError
+    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn similarity(
@@ -179,6 +197,15 @@ impl Ransac {
     /// -------
     /// Ransac
     ///     Its models are F, shape (3, 3).
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 7 different matches.
+    /// epipole.DegenerateError
+    ///     All pixels of an image on one line.
+    /// ValueError
+    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn fundamental(
@@ -210,6 +237,15 @@ impl Ransac {
     /// -------
     /// Ransac
     ///     Its models are H, shape (3, 3).
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     Fewer than 4 different matches.
+    /// epipole.DegenerateError
+    ///     All pixels of an image on one line.
+    /// ValueError
+    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn homography(
@@ -234,11 +270,23 @@ impl Ransac {
     /// ----------
     /// model : object
     ///     Of the kind that the run estimates.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.DegenerateError
+    ///     Line (0, 0, c), in a run of `line`.
+    /// RuntimeError
+    ///     Run that is finished, or one that another thread uses.
     fn start_from(&self, model: &Bound<'_, PyAny>) -> PyResult<()> {
         with(&self.0, |run| run.start_from(model))
     }
 
     /// Draws a sample and returns a `Trial`; None once enough samples were drawn.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     Run that is finished, or one that another thread uses.
     fn step(&self, py: Python<'_>) -> PyResult<Option<Trial>> {
         with(&self.0, |run| run.step(py))
     }
@@ -297,9 +345,9 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.NoConsensusError
-    ///     If no sample gave a model with support.
+    ///     No model with as many inliers as a sample has.
     /// RuntimeError
-    ///     If the run is finished already.
+    ///     Run that is finished, or one that another thread uses.
     fn finish(&self, py: Python<'_>) -> PyResult<RansacReport> {
         take(&self.0)?.finish(py)
     }

@@ -1,0 +1,55 @@
+//! Points from matches between images whose poses are known.
+
+use super::images::SfmInput;
+use super::reconstruction::Reconstruction;
+use crate::camera::RigidTransform;
+use crate::{options, progress};
+use epipole::sfm;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Points from matches between images whose poses are known; cameras stay as they are.
+///
+/// Parameters
+/// ----------
+/// input : SfmInput
+/// cam_from_world : list of RigidTransform or None
+///     Pose of each image; one without takes no part.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options : SfmOptions
+///     Those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
+///     ``min_track_length``.
+///
+/// Returns
+/// -------
+/// Reconstruction
+///     Points in the world of the poses; few or none if the poses are not those of the images.
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     Fewer than 2 images or poses.
+/// epipole.DegenerateError
+///     Images of one lens number whose cameras have different lenses.
+/// ValueError
+///     Option out of range, or a match of an image or keypoint that does not exist.
+#[pyfunction]
+#[pyo3(signature = (input, cam_from_world, *, progress=None, **options))]
+pub(super) fn triangulate_tracks(
+    py: Python<'_>,
+    input: &SfmInput,
+    cam_from_world: Vec<Option<RigidTransform>>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Reconstruction> {
+    let options = options::read(options)?;
+    let input = &input.0;
+    let poses: Vec<_> = (cam_from_world.into_iter())
+        .map(|pose| pose.map(|pose| pose.0))
+        .collect();
+    let found = progress::run(py, progress, |monitor| {
+        sfm::triangulate_tracks(input, &poses, &options, monitor)
+    })?;
+    Ok(Reconstruction(found))
+}
