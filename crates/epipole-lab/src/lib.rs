@@ -5,7 +5,7 @@
 //! ```text
 //! project    →    tasks          →    session         →    panels        →    app
 //! Project:        Task: input,        update(Event)        Panel: a file      bar, steps,
-//! document,       output, code        pending()            per step with      arrivals, files
+//! document,       output, code        pending()            per step with      events, files
 //! view, cache     Query: key,         done(output)         its view state
 //!                 inputs              Jobs, Host                              native, web
 //! ```

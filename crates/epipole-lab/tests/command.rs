@@ -16,7 +16,7 @@ use epipole_lab::project::{
     Sample, Saved, SavedPhoto, VERSION,
 };
 use epipole_lab::session::Event;
-use epipole_lab::tasks::{MatchesOf, Shows, TwoViewsOf};
+use epipole_lab::tasks::{ExportFormat, MatchesOf, Shows, TwoViewsOf};
 use epipole_scenes::{Sampling, Scene, still_life_camera};
 use image::RgbImage;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -59,7 +59,7 @@ fn programs() -> PathBuf {
 
 /// Unpacks what the Lab exports, as a reader would.
 fn unpacked(project: &Project, folder: &Path) {
-    let mut export = project.export_request().unwrap();
+    let mut export = project.export_request(ExportFormat::default()).unwrap();
     let bytes = output(export.clone()).unwrap();
     // Pixels that were let go of are read once more, and are the same.
     for photograph in &mut export.photographs {

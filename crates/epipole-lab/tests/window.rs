@@ -9,7 +9,7 @@ mod common;
 
 use common::desk::{Bench, Desk, click, open_with, rest};
 use egui_kittest::kittest::Queryable;
-use epipole_lab::session::Arrival;
+use epipole_lab::session::HostEvent;
 use image::RgbImage;
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader};
@@ -232,8 +232,8 @@ fn save_places(files: &[PathBuf]) -> [egui::Pos2; 2] {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         (name, std::fs::read(path).unwrap().into())
     });
-    let arrival = Arrival::Photographs(photographs.collect());
-    bench.state_mut().host().arrivals.push(arrival);
+    let host_event = HostEvent::Photographs(photographs.collect());
+    bench.state_mut().host().host_events.push(host_event);
     bench.run_steps(3);
     rest(&mut bench);
     let menu = middle(&bench, "Project");

@@ -1,7 +1,7 @@
 //! The bar above all steps: photographs, samples, projects, undo and redo, running jobs.
 
 use super::App;
-use super::arrivals::megabytes;
+use super::host_events::megabytes;
 use crate::panels::Action;
 use crate::panels::widgets::menu::{item, menu, toggle};
 use crate::project::{Sample, Step};
@@ -20,7 +20,7 @@ impl<H: Host> App<H> {
                 _ => "Add photographs…",
             };
             if ui.button(add).clicked() && !self.host.ask_for_photographs() {
-                self.news = Some("Drop photographs onto this window.".to_owned());
+                self.notice = Some("Drop photographs onto this window.".to_owned());
             }
             menu(ui, "Samples", |ui| {
                 for sample in Sample::ALL {
@@ -31,7 +31,7 @@ impl<H: Host> App<H> {
             });
             menu(ui, "Project", |ui| {
                 if item(ui, "Open…") && !self.host.ask_for_project() {
-                    self.news = Some("Drop a project onto this window.".to_owned());
+                    self.notice = Some("Drop a project onto this window.".to_owned());
                 }
                 if item(ui, "Save") {
                     let request = self.project.save_request();
@@ -69,8 +69,8 @@ impl<H: Host> App<H> {
             } else if paused {
                 ui.weak("Stopped");
             }
-            if let Some(news) = &self.news {
-                ui.weak(news);
+            if let Some(notice) = &self.notice {
+                ui.weak(notice);
                 // The way back to how the Lab opens for everyone.
                 if self.storage.is_restored && ui.button("Start over").clicked() {
                     self.erase_stored();

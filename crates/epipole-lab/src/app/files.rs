@@ -3,7 +3,10 @@
 use super::App;
 use crate::project::Blob;
 use crate::session::{Event, FileJob, Host, count};
-use crate::tasks::{ChooseFrame, Export, OpenProject, Opened, SaveProject, Task, WritePicture};
+use crate::tasks::{
+    CamerasRead, ChooseFrame, Export, OpenProject, Opened, ReadCameras, SaveProject, Task,
+    WriteCamera, WritePicture,
+};
 
 impl<H: Host> App<H> {
     /// Handles the result of a file job.
@@ -16,13 +19,25 @@ impl<H: Host> App<H> {
                 self.open(opened);
                 "The project is open.".to_owned()
             }),
+            FileJob::SaveCamera(format) => self.save::<WriteCamera>(format.file_name(), result),
+            FileJob::OpenCameras => read::<ReadCameras>(result).map(|read| match read {
+                CamerasRead::Camera(camera) => {
+                    self.project.update(Event::UseCamera(Some(camera)));
+                    self.project.use_words().trim().to_owned()
+                }
+                CamerasRead::Poses(poses) => {
+                    let notice = format!("{} is in use.", poses.file);
+                    self.project.update(Event::UsePoses(Some(poses)));
+                    notice
+                }
+            }),
             FileJob::Frames(video) => return self.take_frames(video, read::<ChooseFrame>(result)),
             FileJob::Store => return self.take_written(read::<SaveProject>(result)),
             FileJob::Restore => return self.restore(read::<OpenProject>(result)),
         };
         self.storage.is_restored = false;
         let (Ok(sentence) | Err(sentence)) = done;
-        self.news = Some(sentence);
+        self.notice = Some(sentence);
     }
 
     /// Saves the file that a task has written. Returns the message to show.
@@ -46,7 +61,7 @@ impl<H: Host> App<H> {
             Ok(frames) => frames,
             Err(sentence) => {
                 self.videos.give_up(video, &mut self.host);
-                self.news = Some(sentence);
+                self.notice = Some(sentence);
                 return;
             }
         };
@@ -54,12 +69,12 @@ impl<H: Host> App<H> {
             return;
         };
         if chosen.is_empty() {
-            self.news = Some("No frame of the video can be read.".to_owned());
+            self.notice = Some("No frame of the video can be read.".to_owned());
             return;
         }
         let verb = if chosen.len() == 1 { "was" } else { "were" };
         let frames = count(chosen.len(), "frame");
-        self.news = Some(format!("{frames} {verb} taken from the video."));
+        self.notice = Some(format!("{frames} {verb} taken from the video."));
         self.add_photographs(chosen);
     }
 
@@ -83,13 +98,13 @@ impl<H: Host> App<H> {
                 // The state before the restore was never visible.
                 self.project.clear_history();
                 self.storage.restored(self.project.saved_key());
-                self.news = Some(
+                self.notice = Some(
                     "The project kept in this browser is open again. Nothing was uploaded."
                         .to_owned(),
                 );
             }
             Err(sentence) => {
-                self.news = Some(format!(
+                self.notice = Some(format!(
                     "The kept project does not open: {sentence}. It stays until you forget it in the Project menu."
                 ));
             }

@@ -2,11 +2,11 @@
 
 use crate::panels::{self, Action, Panel, Screen, Views};
 use crate::project::{Project, Sample, Step};
-use crate::session::{Arrival, Event, FileJob, Host, Jobs, Storage, Videos};
-use crate::tasks::{Request, WritePicture};
-mod arrivals;
+use crate::session::{Event, FileJob, Host, HostEvent, Jobs, Storage, Videos};
+use crate::tasks::{CalibrationOfBoards, Request, WriteCamera, WritePicture};
 mod bar;
 mod files;
+mod host_events;
 mod steps;
 
 use crate::panels::widgets::{controls, look};
@@ -26,12 +26,12 @@ pub struct App<H> {
     videos: Videos,
     /// Project in the storage of the browser.
     storage: Storage,
-    /// Queue of arrivals.
-    arrivals: VecDeque<Arrival>,
+    /// Queue of host events.
+    host_events: VecDeque<HostEvent>,
     /// Whether the results of the sample are still to arrive.
     waits_for_sample: bool,
     /// Message about the last file.
-    news: Option<String>,
+    notice: Option<String>,
     panels: [(Step, Box<dyn Panel>); 9],
     views: Views,
     /// Step in the middle of the row of steps.
@@ -40,7 +40,7 @@ pub struct App<H> {
     description: String,
     /// Link last set.
     link: String,
-    /// Revision and news at the last announcement.
+    /// Revision and notice at the last announcement.
     announced: Option<(u64, Option<String>)>,
 }
 
@@ -66,10 +66,10 @@ impl<H: Host> App<H> {
             jobs: Jobs::default(),
             videos: Videos::default(),
             storage: Storage::default(),
-            arrivals: VecDeque::new(),
+            host_events: VecDeque::new(),
             waits_for_sample: host.brings_sample(),
             host,
-            news: None,
+            notice: None,
             panels: panels::all(),
             views: Views::default(),
             centered_step: None,
@@ -91,15 +91,15 @@ impl<H: Host> App<H> {
 
     /// Does the work between two frames. True while something is running.
     pub fn advance(&mut self) -> bool {
-        self.arrivals.extend(self.host.arrivals());
-        // Arrivals after a project wait until it is open.
+        self.host_events.extend(self.host.host_events());
+        // Events after a project wait until it is open.
         while !self.jobs.is_opening()
-            && let Some(arrival) = self.arrivals.pop_front()
+            && let Some(host_event) = self.host_events.pop_front()
         {
-            self.take(arrival);
+            self.take(host_event);
         }
         self.run_jobs();
-        let now = (self.project.revision(), self.news.clone());
+        let now = (self.project.revision(), self.notice.clone());
         if self.announced.as_ref() != Some(&now) {
             self.announced = Some(now);
             self.announce();
@@ -120,8 +120,8 @@ impl<H: Host> App<H> {
     /// Passes description and link to the environment, if they have changed.
     fn announce(&mut self) {
         let mut description = self.project.describe();
-        if let Some(news) = &self.news {
-            description = format!("{description} {news}");
+        if let Some(notice) = &self.notice {
+            description = format!("{description} {notice}");
         }
         if description != self.description {
             self.host.say(&description);
@@ -235,15 +235,31 @@ impl<H: Host> App<H> {
                     self.views = Views::default();
                     self.centered_step = None;
                 }
+                // The sentence on the opened file no longer holds.
+                if matches!(event, Event::UsePoses(None) | Event::UseCamera(None)) {
+                    self.notice = None;
+                }
                 self.project.update(event);
             }
             Action::TakePhotographs => {
                 if !self.host.ask_for_camera() {
-                    self.news = Some("Only the Lab in a browser can take photographs.".to_owned());
+                    self.notice =
+                        Some("Only the Lab in a browser can take photographs.".to_owned());
                 }
             }
-            Action::SaveReconstruction => {
-                if let Some(request) = self.project.export_request() {
+            Action::OpenCameras => {
+                if !self.host.ask_for_camera_files() {
+                    self.notice = Some("There is no file dialog here.".to_owned());
+                }
+            }
+            Action::SaveCameraAs(format) => {
+                if let Some(found) = self.project.get(CalibrationOfBoards) {
+                    let camera = found.camera.clone();
+                    self.run(FileJob::SaveCamera(format), WriteCamera { camera, format });
+                }
+            }
+            Action::SaveReconstruction(format) => {
+                if let Some(request) = self.project.export_request(format) {
                     self.run(FileJob::SaveReconstruction, request);
                 }
             }
@@ -256,7 +272,7 @@ impl<H: Host> App<H> {
                 if let Some(text) = self.project.camera_json() {
                     let saved = self.host.save("camera.json", text.into_bytes());
                     let (Ok(sentence) | Err(sentence)) = saved;
-                    self.news = Some(sentence);
+                    self.notice = Some(sentence);
                 }
             }
         }
@@ -265,7 +281,7 @@ impl<H: Host> App<H> {
     /// Starts a file job, unless one of its kind is running.
     fn run(&mut self, job: FileJob, task: impl Into<Request>) {
         if !self.jobs.runs(job) {
-            self.news = None;
+            self.notice = None;
             self.storage.is_restored = false;
             self.jobs.start_file(job, &task.into(), &mut self.host);
         }

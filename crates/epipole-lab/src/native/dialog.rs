@@ -11,6 +11,8 @@ pub(super) enum FileKind {
     Photographs,
     /// One project.
     Project,
+    /// Files of cameras: one, or those of a model.
+    Cameras,
 }
 
 impl FileKind {
@@ -18,25 +20,32 @@ impl FileKind {
         match self {
             Self::Photographs => "Add photographs",
             Self::Project => "Open a project",
+            Self::Cameras => "Open cameras",
         }
     }
 
-    /// Label and extensions of the files.
-    fn kind(self) -> (&'static str, &'static [&'static str]) {
+    fn label(self) -> &'static str {
         match self {
-            Self::Photographs => (
-                "Photographs",
-                &[
-                    "jpg", "jpeg", "png", "webp", "tif", "tiff", "bmp", "pgm", "ppm",
-                ],
-            ),
-            Self::Project => ("Projects", &["zip"]),
+            Self::Photographs => "Photographs",
+            Self::Project => "Projects",
+            Self::Cameras => "Cameras",
+        }
+    }
+
+    /// Extensions of the files, lower case.
+    pub(super) fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Photographs => &[
+                "jpg", "jpeg", "png", "webp", "tif", "tiff", "bmp", "pgm", "ppm",
+            ],
+            Self::Project => &["zip"],
+            Self::Cameras => &["yml", "yaml", "json", "xml", "txt", "bin", "out"],
         }
     }
 
     /// `*.jpg *.JPG …`
     fn patterns(self) -> String {
-        let endings = self.kind().1.iter();
+        let endings = self.endings().iter();
         let both =
             endings.flat_map(|end| [format!("*.{end}"), format!("*.{}", end.to_uppercase())]);
         both.collect::<Vec<_>>().join(" ")
@@ -45,11 +54,11 @@ impl FileKind {
     /// Dialog programs with their arguments; they print one path per line.
     fn programs(self) -> Vec<(&'static str, Vec<String>)> {
         let title = self.title();
-        let name = self.kind().0;
+        let name = self.label();
         if cfg!(target_os = "macos") {
             let many = match self {
                 Self::Photographs => " with multiple selections allowed",
-                Self::Project => "",
+                Self::Project | Self::Cameras => "",
             };
             // A list of one is made of one, so that both are gone through alike.
             let script = format!(
@@ -60,7 +69,7 @@ impl FileKind {
         }
         if cfg!(windows) {
             let patterns = self.patterns().replace(' ', ";");
-            let many = self == Self::Photographs;
+            let many = self != Self::Project;
             let script = format!(
                 "Add-Type -AssemblyName System.Windows.Forms; [Console]::OutputEncoding = [Text.Encoding]::UTF8; \
                  $d = New-Object System.Windows.Forms.OpenFileDialog; $d.Title = '{title}'; $d.Multiselect = ${many}; \
@@ -76,7 +85,7 @@ impl FileKind {
             format!("--file-filter={name} | {patterns}"),
         ];
         let mut kdialog = vec!["--title".to_owned(), title.to_owned()];
-        if self == Self::Photographs {
+        if self != Self::Project {
             zenity.extend(["--multiple".to_owned(), "--separator=\n".to_owned()]);
             kdialog.extend(["--multiple", "--separate-output"].map(str::to_owned));
         }

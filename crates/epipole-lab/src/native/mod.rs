@@ -7,7 +7,7 @@ mod memory;
 use dialog::FileKind;
 use epipole_lab::app::{App, prepare};
 use epipole_lab::project::Explanation;
-use epipole_lab::session::{Arrival, Host, JobId, Report};
+use epipole_lab::session::{Host, HostEvent, JobId, Report};
 use epipole_lab::tasks::{Branch, Progress, compute};
 pub(crate) use memory::give_back;
 use std::collections::HashMap;
@@ -42,34 +42,47 @@ pub(crate) fn run(files: Vec<PathBuf>) -> eframe::Result {
 }
 
 /// Reads files; an unreadable photograph shows its error in place of the image.
-fn read(paths: &[PathBuf]) -> Vec<Arrival> {
-    let mut arrivals = Vec::new();
-    let mut photographs = Vec::new();
+fn read(paths: &[PathBuf]) -> Vec<HostEvent> {
+    let mut host_events = Vec::new();
+    let (mut photographs, mut cameras) = (Vec::new(), Vec::new());
     for path in paths {
         if is_video(path) {
             let sentence =
                 "Videos open in the Lab in a browser: their frames become photographs there.";
-            arrivals.push(Arrival::News(sentence.to_owned()));
+            host_events.push(HostEvent::Notice(sentence.to_owned()));
             continue;
         }
         let bytes = std::fs::read(path).unwrap_or_default();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if name.to_lowercase().ends_with(".zip") {
-            arrivals.push(Arrival::Project(bytes.into()));
+            host_events.push(HostEvent::Project(bytes.into()));
+        } else if is_camera(path) {
+            cameras.push((name.into_owned(), bytes.into()));
         } else {
             photographs.push((name.into_owned(), bytes.into()));
         }
     }
     if !photographs.is_empty() {
-        arrivals.push(Arrival::Photographs(photographs));
+        host_events.push(HostEvent::Photographs(photographs));
     }
-    arrivals
+    // Poses are looked for by the names of photographs that came with them.
+    if !cameras.is_empty() {
+        host_events.push(HostEvent::Cameras(cameras));
+    }
+    host_events
 }
 
 fn is_video(path: &Path) -> bool {
-    const ENDINGS: [&str; 7] = ["mp4", "m4v", "mov", "webm", "mkv", "ogv", "avi"];
+    has_ending(path, &["mp4", "m4v", "mov", "webm", "mkv", "ogv", "avi"])
+}
+
+fn is_camera(path: &Path) -> bool {
+    has_ending(path, FileKind::Cameras.endings())
+}
+
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
-    ENDINGS.contains(&ending.to_lowercase().as_str())
+    endings.contains(&ending.to_lowercase().as_str())
 }
 
 struct Window {
@@ -77,16 +90,16 @@ struct Window {
     sender: Sender<Report>,
     receiver: Receiver<Report>,
     canceled: HashMap<JobId, Arc<AtomicBool>>,
-    arrivals: Vec<Arrival>,
+    host_events: Vec<HostEvent>,
     /// Channel for the results of dialogs.
-    chosen_sender: Sender<Vec<Arrival>>,
-    chosen: Receiver<Vec<Arrival>>,
+    chosen_sender: Sender<Vec<HostEvent>>,
+    chosen: Receiver<Vec<HostEvent>>,
     /// Whether a dialog is open: one is enough.
     asks: Arc<AtomicBool>,
 }
 
 impl Window {
-    fn new(context: egui::Context, arrivals: Vec<Arrival>) -> Self {
+    fn new(context: egui::Context, host_events: Vec<HostEvent>) -> Self {
         let (sender, receiver) = channel();
         let (chosen_sender, chosen) = channel();
         Self {
@@ -94,7 +107,7 @@ impl Window {
             sender,
             receiver,
             canceled: HashMap::new(),
-            arrivals,
+            host_events,
             chosen_sender,
             chosen,
             asks: Arc::default(),
@@ -112,16 +125,16 @@ impl Window {
             self.context.clone(),
         );
         std::thread::spawn(move || {
-            let arrivals = match dialog::ask(kind) {
+            let host_events = match dialog::ask(kind) {
                 Some(paths) => read(&paths),
                 None => {
                     let sentence = "There is no file dialog here: drop files onto this window, or name them when you start the Lab.";
-                    vec![Arrival::News(sentence.to_owned())]
+                    vec![HostEvent::Notice(sentence.to_owned())]
                 }
             };
             asks.store(false, Ordering::Relaxed);
             // The window may be gone by now.
-            drop(chosen.send(arrivals));
+            drop(chosen.send(host_events));
             context.request_repaint();
         });
     }
@@ -177,9 +190,9 @@ impl Host for Window {
         reports
     }
 
-    fn arrivals(&mut self) -> Vec<Arrival> {
-        self.arrivals.extend(self.chosen.try_iter().flatten());
-        std::mem::take(&mut self.arrivals)
+    fn host_events(&mut self) -> Vec<HostEvent> {
+        self.host_events.extend(self.chosen.try_iter().flatten());
+        std::mem::take(&mut self.host_events)
     }
 
     fn brings_sample(&self) -> bool {
@@ -193,6 +206,11 @@ impl Host for Window {
 
     fn ask_for_project(&mut self) -> bool {
         self.ask(FileKind::Project);
+        true
+    }
+
+    fn ask_for_camera_files(&mut self) -> bool {
+        self.ask(FileKind::Cameras);
         true
     }
 
@@ -255,7 +273,7 @@ impl eframe::App for Frames {
             .into_iter()
             .map(|file| file.path().to_path_buf())
             .collect();
-        self.0.host().arrivals.extend(read(&paths));
+        self.0.host().host_events.extend(read(&paths));
         self.0.advance();
         self.0.ui(ui);
     }

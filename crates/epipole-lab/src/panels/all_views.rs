@@ -3,7 +3,7 @@
 use super::screen::Screen;
 use super::widgets::{controls, look};
 use crate::project::{ALL_VIEWS_MEGAPIXELS, Step};
-use crate::session::Event;
+use crate::session::{Event, count};
 use crate::tasks::{AllViews, DenseCloud};
 use egui::{Button, Slider, Ui};
 use epipole_canvas::theme::Role;
@@ -20,6 +20,13 @@ pub(super) fn controls(screen: &mut Screen<'_>, ui: &mut Ui) {
     }
     if let Some((_, cloud)) = project.all_views() {
         numbers(cloud, ui);
+        ui.horizontal_wrapped(|ui| {
+            ui.weak("Show as");
+            let surface = &mut screen.views.cloud.surface;
+            ui.radio_value(surface, false, "points");
+            let has_surface = cloud.triangles().len() > 0;
+            ui.add_enabled_ui(has_surface, |ui| ui.radio_value(surface, true, "surface"));
+        });
         ui.checkbox(&mut screen.views.cloud.sparse, "Show sparse points");
         ui.checkbox(&mut screen.views.cloud.photographs, "Show photographs");
         if ui.button("Reset view").clicked() {
@@ -62,4 +69,6 @@ fn numbers(cloud: &DenseCloud, ui: &mut Ui) {
     let maps = format!("{} of {}", cloud.num_maps, cloud.num_registered);
     controls::row(ui, "depth maps", maps);
     controls::row(ui, "size", format!("{width} × {height} px"));
+    let triangles = count(cloud.triangles().len(), "triangle");
+    controls::row(ui, "surface", triangles);
 }

@@ -4,10 +4,14 @@ use super::reconstruction::space;
 use super::screen::{Action, Panel, Screen};
 use super::widgets::controls;
 use crate::project::Step;
+use crate::tasks::ExportFormat;
 use egui::{Button, RichText, Ui};
 
 /// Panel of the step "Export".
-pub(super) struct Export;
+#[derive(Default)]
+pub(super) struct Export {
+    format: ExportFormat,
+}
 
 impl Panel for Export {
     fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
@@ -18,21 +22,35 @@ impl Panel for Export {
         let project = screen.project;
         ui.label(project.describe());
         let ready = project.can_export();
+        let formats = ExportFormat::ALL.map(|format| (format, format.programs()));
+        if let Some(format) = controls::choose(ui, "For", self.format, &formats) {
+            self.format = format;
+        }
         if ui
             .add_enabled(ready, Button::new("Save reconstruction.zip"))
             .clicked()
         {
-            screen.actions.push(Action::SaveReconstruction);
+            screen.actions.push(Action::SaveReconstruction(self.format));
         }
-        ui.label(
-        "Inside are images/ and sparse/0/ in COLMAP's text format, which other programs open; points.ply with colors; \
-         reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. Measures are \
-         in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/; the depth of all views \
-         adds fused.ply with normals.",
-    );
-        ui.weak(match project.scale() {
-            Some(_) => "Lengths are in meters, by the length you measured.",
-            None => "The unit is arbitrary. Measure a known length to get meters.",
+        ui.label(format!(
+            "Inside are images/ and {}; model.html, which shows the model in any browser; points.ply with colors; \
+             reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. \
+             Measures are in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/; the \
+             depth of all views adds fused.ply with normals and its surface, {}.",
+            self.format.place(),
+            self.format.mesh()
+        ));
+        ui.weak(match (project.scale(), &project.document().poses) {
+            (Some(_), _) => "Lengths are in meters, by the length you measured.".to_owned(),
+            (None, Some(poses)) => {
+                format!(
+                    "The unit is that of {}. Measure a known length to get meters.",
+                    poses.file
+                )
+            }
+            (None, None) => {
+                "The unit is arbitrary. Measure a known length to get meters.".to_owned()
+            }
         });
         if project.floor().is_some() {
             ui.weak("z points up from the floor.");

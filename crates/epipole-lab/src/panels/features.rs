@@ -64,7 +64,7 @@ impl Panel for Features {
     fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
         let current = project.view().photo;
-        if let Some(id) = controls::choose(project, ui, "Photograph", current, None) {
+        if let Some(id) = controls::choose_photograph(project, ui, "Photograph", current, None) {
             screen.send(Event::Look(id));
             self.selected = None;
         }

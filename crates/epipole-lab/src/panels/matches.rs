@@ -2,7 +2,7 @@
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look};
-use crate::project::{Given, Step};
+use crate::project::{InputPhoto, Step};
 use crate::session::Event;
 use crate::tasks::{MatchesOf, Shows, TwoViewsOf};
 use egui::{Align2, Color32, FontId, Rect, ScrollArea, Sense, Slider, Ui, pos2, vec2};
@@ -71,7 +71,7 @@ impl Panel for Matches {
     }
 }
 
-fn cell(screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, first: &Given, second: &Given) {
+fn cell(screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, first: &InputPhoto, second: &InputPhoto) {
     let project = screen.project;
     let response = ui.interact(
         rect,

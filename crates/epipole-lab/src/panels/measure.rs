@@ -2,7 +2,7 @@
 
 use super::screen::{Panel, Screen};
 use super::widgets::pick::Click;
-use super::widgets::{controls, dense_anchor, look};
+use super::widgets::{controls, dense_anchor, look, vertex_anchor};
 use crate::project::{Anchor, Measure, Step};
 use crate::session::Event;
 use egui::{DragValue, Stroke, Ui};
@@ -28,7 +28,8 @@ impl Measuring {
         self.last = match click {
             Click::Missed => None,
             Click::Point(point) => project.anchor_of(point),
-            Click::Dense(index) => dense_anchor(project, index),
+            Click::Dense(index) => dense_anchor(project, index, screen.views.cloud.surface),
+            Click::Vertex(index) => vertex_anchor(project, index),
         };
         self.has_missed = self.last.is_none();
         let Some(anchor) = self.last else { return };

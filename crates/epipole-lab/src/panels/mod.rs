@@ -35,6 +35,6 @@ pub(crate) fn all() -> [(Step, Box<dyn Panel>); 9] {
         ),
         (Step::Depth, Box::new(depth::Depth::default())),
         (Step::Measure, Box::new(measure::Measuring::default())),
-        (Step::Export, Box::new(export::Export)),
+        (Step::Export, Box::new(export::Export::default())),
     ]
 }

@@ -2,7 +2,7 @@
 
 use super::screen::{Action, Panel, Screen};
 use super::widgets::{controls, look};
-use crate::project::{Given, MAX_FRAMES, Outcome, PhotoId, Step};
+use crate::project::{InputPhoto, MAX_FRAMES, Outcome, PhotoId, Step};
 use crate::session::Event;
 use crate::tasks::FocalOrigin;
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
@@ -78,7 +78,7 @@ impl Panel for Photographs {
     }
 }
 
-fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
+fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &InputPhoto, width: f32) {
     let project = screen.project;
     let selected = project.view().photo == photo.id;
     let (whole, response) =
@@ -125,7 +125,7 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, width: f32) {
 }
 
 /// * `is_for_one`: whether a typed focal length is that of this photograph only
-fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, is_for_one: &mut bool) {
+fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &InputPhoto, is_for_one: &mut bool) {
     let project = screen.project;
     ui.strong(&photo.name);
     ui.label(project.outcome_words(photo));
@@ -142,7 +142,7 @@ fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &Given, is_for_one: &mut boo
         let origin = match project.focal_origin(photo) {
             Some(FocalOrigin::Typed) => "you typed it",
             Some(FocalOrigin::Calibration) => {
-                "from the calibration, which also removed the lens distortion"
+                "from the opened camera, whose lens distortion was removed"
             }
             Some(FocalOrigin::File) => "from the file",
             _ => "a guess: 1.2 × the longer side",

@@ -1,6 +1,6 @@
 //! Cameras and points, why photographs were left out, and how the cost fell.
 
-use super::screen::{Panel, Screen};
+use super::screen::{Action, Panel, Screen};
 use super::widgets::cloud::{CloudView, Coloring};
 use super::widgets::controls::{self, Change};
 use super::widgets::{has_dense, look, observations};
@@ -33,8 +33,13 @@ impl Panel for Reconstruction {
             view(project, &mut screen.views.cloud, ui);
             ui.separator();
         }
+        cameras(screen, ui);
+        let is_posed = project.document().poses.is_some();
         controls::edit(screen, |settings| {
             let mut change = Change::No;
+            if is_posed {
+                return change;
+            }
             ui.weak("Refine focal lengths");
             ui.horizontal_wrapped(|ui| {
                 for (when, name) in [
@@ -57,6 +62,22 @@ impl Panel for Reconstruction {
             change.max(controls::slider(ui, "Seed", seed))
         });
         controls::book(ui, Step::Reconstruction);
+    }
+}
+
+/// Source of the cameras: found, or from a model of another program.
+fn cameras(screen: &mut Screen<'_>, ui: &mut Ui) {
+    let words = screen.project.poses_words();
+    if words.is_empty() {
+        if ui.button("Open known cameras…").clicked() {
+            screen.actions.push(Action::OpenCameras);
+        }
+        ui.weak("Models of COLMAP, nerfstudio or openMVG: then only points are found.");
+        return;
+    }
+    ui.label(words);
+    if ui.button("Find the cameras instead").clicked() {
+        screen.send(Event::UsePoses(None));
     }
 }
 

@@ -4,6 +4,7 @@ use super::widgets::cloud::CloudView;
 use super::widgets::photo::{Lens, Pictures};
 use crate::project::{Project, Settings};
 use crate::session::Event;
+use crate::tasks::{CameraFormat, ExportFormat};
 use egui::Ui;
 
 /// Request of a panel to the app.
@@ -11,10 +12,14 @@ use egui::Ui;
 pub(crate) enum Action {
     /// Change the project.
     Send(Event),
-    /// Save the calibrated camera as a file.
+    /// Open files of cameras.
+    OpenCameras,
+    /// Save the calibrated camera as a file, with its uncertainty.
     SaveCamera,
-    /// Save the reconstruction as a zip file.
-    SaveReconstruction,
+    /// Save the calibrated camera for another program.
+    SaveCameraAs(CameraFormat),
+    /// Save the reconstruction as a zip file, cameras and points in this format.
+    SaveReconstruction(ExportFormat),
     /// Save an image of the point cloud as last seen.
     SaveView,
     /// Take photographs with the camera of the device.

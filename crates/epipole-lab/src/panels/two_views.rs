@@ -2,7 +2,7 @@
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look, photo};
-use crate::project::{Given, Step};
+use crate::project::{InputPhoto, Step};
 use crate::tasks::{FeaturesOf, MatchesOf, TwoViewsOf, ViewModel};
 use egui::{Align, Layout, Rect, Slider, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
@@ -228,7 +228,7 @@ const SIDE: f32 = 136.0;
 
 /// Draws both features in the windows of their descriptors, each in the orientation of its
 /// photograph.
-fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&Given; 2], features: [u32; 2]) {
+fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&InputPhoto; 2], features: [u32; 2]) {
     let project = screen.project;
     ui.horizontal(|ui| {
         for (photo, index) in photos.into_iter().zip(features) {

@@ -31,6 +31,8 @@ pub enum LensModel {
     Rational,
     /// Four numbers (Kannala and Brandt), for views of 120° and more.
     Fisheye,
+    /// One number (Fitzgibbon), of cameras from files only.
+    Division,
 }
 
 impl LensModel {
@@ -40,6 +42,7 @@ impl LensModel {
             Self::Brown => "brown",
             Self::Rational => "rational",
             Self::Fisheye => "fisheye",
+            Self::Division => "division",
         }
     }
 
@@ -49,6 +52,7 @@ impl LensModel {
             Self::Brown => &["k1", "k2", "p1", "p2", "k3"],
             Self::Rational => &["k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"],
             Self::Fisheye => &["k1", "k2", "k3", "k4"],
+            Self::Division => &["k"],
         }
     }
 }

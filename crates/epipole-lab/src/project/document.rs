@@ -3,6 +3,7 @@
 use super::board_options::LensCamera;
 use super::bytes::Blob;
 use super::key::Key;
+use super::known_poses::KnownPoses;
 use super::sample::Sample;
 use super::settings::Settings;
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,7 @@ pub enum Source {
 
 /// A photograph as it was given.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Given {
+pub struct InputPhoto {
     /// Its number.
     pub id: PhotoId,
     /// Its name, which no other one has.
@@ -36,7 +37,7 @@ pub struct Given {
     pub focal_px: Option<f64>,
 }
 
-impl Given {
+impl InputPhoto {
     /// Whether it is of a sample.
     pub fn is_rendered(&self) -> bool {
         matches!(self.source, Source::Rendered(..))
@@ -99,7 +100,7 @@ pub struct Measure {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Document {
     /// The photographs, in order.
-    pub photos: Vec<Given>,
+    pub photos: Vec<InputPhoto>,
     /// Settings of all steps.
     pub settings: Settings,
     /// Measurements.
@@ -111,14 +112,16 @@ pub struct Document {
     /// Whether the depth of all views is part of the cloud.
     pub all_views: bool,
     /// Photographs of a board, in order.
-    pub boards: Vec<Given>,
+    pub boards: Vec<InputPhoto>,
     /// The calibrated camera of those photographs that have its size.
     pub camera: Option<LensCamera>,
+    /// Cameras and poses from a model of another program.
+    pub poses: Option<KnownPoses>,
 }
 
 impl Document {
     /// The photograph of this number.
-    pub fn photo(&self, id: PhotoId) -> Option<&Given> {
+    pub fn photo(&self, id: PhotoId) -> Option<&InputPhoto> {
         self.photos.iter().find(|photo| photo.id == id)
     }
 
@@ -128,7 +131,7 @@ impl Document {
     }
 
     /// The photograph of a board of this number.
-    pub fn board(&self, id: PhotoId) -> Option<&Given> {
+    pub fn board(&self, id: PhotoId) -> Option<&InputPhoto> {
         self.boards.iter().find(|photo| photo.id == id)
     }
 
@@ -140,16 +143,16 @@ impl Document {
 
     /// Whether all photographs are of a sample.
     pub fn is_sample(&self) -> bool {
-        self.photos.iter().all(Given::is_rendered)
+        self.photos.iter().all(InputPhoto::is_rendered)
     }
 
     /// Whether all photographs of boards are of a sample.
     pub fn has_sample_boards(&self) -> bool {
-        self.boards.iter().all(Given::is_rendered)
+        self.boards.iter().all(InputPhoto::is_rendered)
     }
 
     /// Both photographs of a pair.
-    pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&Given, &Given)> {
+    pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&InputPhoto, &InputPhoto)> {
         let place = |id| self.photos.iter().position(|photo| photo.id == id);
         let (one, two) = (place(a)?, place(b)?);
         (one != two).then(|| (&self.photos[one.min(two)], &self.photos[one.max(two)]))
@@ -161,7 +164,7 @@ impl Document {
     }
 
     /// The same photograph earlier in the list, if there is one.
-    pub fn twin(&self, photo: &Given) -> Option<&Given> {
+    pub fn twin(&self, photo: &InputPhoto) -> Option<&InputPhoto> {
         let before = self.photos.iter().take_while(|other| other.id != photo.id);
         let mut before = before.filter(|other| !other.excluded);
         before.find(|other| other.content == photo.content)
@@ -169,8 +172,10 @@ impl Document {
 }
 
 /// All pairs of photographs, the first before the second in the list.
-pub fn pairs<'a>(photos: &'a [&'a Given]) -> impl Iterator<Item = (&'a Given, &'a Given)> {
-    let after = |(i, first): (usize, &'a &'a Given)| {
+pub fn pairs<'a>(
+    photos: &'a [&'a InputPhoto],
+) -> impl Iterator<Item = (&'a InputPhoto, &'a InputPhoto)> {
+    let after = |(i, first): (usize, &'a &'a InputPhoto)| {
         photos[i + 1..].iter().map(move |second| (*first, *second))
     };
     photos.iter().enumerate().flat_map(after)

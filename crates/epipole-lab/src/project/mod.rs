@@ -7,6 +7,7 @@ mod cache;
 mod computed;
 mod document;
 mod key;
+mod known_poses;
 mod options;
 mod sample;
 mod saved;
@@ -20,9 +21,10 @@ pub(crate) use bytes::to_bytes;
 pub use computed::{COMPUTED_BY, Computed};
 pub(crate) use document::content_of;
 pub use document::{
-    Anchor, CloudPoint, DensePixel, Document, Given, Measure, PhotoId, Source, pairs,
+    Anchor, CloudPoint, DensePixel, Document, InputPhoto, Measure, PhotoId, Source, pairs,
 };
 pub use key::Key;
+pub use known_poses::{KnownImage, KnownPoses, Pose, file_stem};
 pub use options::{
     AllViewsOptions, DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions,
     PairOptions, SfmOptions,

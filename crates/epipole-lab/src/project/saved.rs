@@ -2,6 +2,7 @@
 
 use super::board_options::LensCamera;
 use super::document::{Anchor, Measure, PhotoId};
+use super::known_poses::KnownPoses;
 use super::sample::Sample;
 use super::settings::Settings;
 use serde::{Deserialize, Serialize};
@@ -35,6 +36,9 @@ pub struct Saved {
     /// The calibrated camera that is used.
     #[serde(default)]
     pub camera: Option<LensCamera>,
+    /// Cameras and poses from a model of another program.
+    #[serde(default)]
+    pub poses: Option<KnownPoses>,
 }
 
 /// A photograph of a saved project.

@@ -50,6 +50,8 @@ pub enum Outcome {
     SeesFew(usize),
     /// Number of visible points, which do not agree on a pose.
     NoPlace(usize),
+    /// The opened model has no pose of it.
+    NoKnownPose,
     /// It belongs to another part.
     OtherPart(usize),
     /// Everything failed.

@@ -1,7 +1,7 @@
-//! Photographs of a board: adding them, and using the camera that they give.
+//! Photographs of a board, the calibrated camera, and known poses.
 
-use crate::project::{Blob, Project, Sample, Settings, Source};
-use crate::tasks::CalibrationOfBoards;
+use crate::project::{Blob, KnownPoses, LensCamera, Project, Sample, Settings, Source};
+
 impl Project {
     pub(super) fn add_boards(&mut self, files: Vec<(String, Blob)>) {
         for (name, bytes) in files {
@@ -25,25 +25,30 @@ impl Project {
         self.document.boards.push(given);
     }
 
-    /// Takes the camera that the boards give, if there is one. Focal lengths that were typed make
-    /// room for it.
-    pub(super) fn use_calibration(&mut self, is_used: bool) {
-        if !is_used {
-            self.document.camera = None;
-            return;
-        }
-        let Some(camera) = self
-            .get(CalibrationOfBoards)
-            .map(|found| found.camera.clone())
-        else {
-            return;
-        };
-        let of_its_size: Vec<u32> = self.of_size(camera.size).iter().map(|p| p.id).collect();
-        for photo in &mut self.document.photos {
-            if of_its_size.contains(&photo.id) {
-                photo.focal_px = None;
+    /// Uses a calibrated camera, which replaces focal lengths that were typed.
+    pub(super) fn use_camera(&mut self, camera: Option<LensCamera>) {
+        let camera = camera.filter(LensCamera::is_finite);
+        if let Some(camera) = &camera {
+            let of_its_size: Vec<u32> = self.of_size(camera.size).iter().map(|p| p.id).collect();
+            for photo in &mut self.document.photos {
+                if of_its_size.contains(&photo.id) {
+                    photo.focal_px = None;
+                }
             }
         }
-        self.document.camera = Some(camera);
+        self.document.camera = camera;
+    }
+
+    /// Uses known poses, whose cameras replace focal lengths that were typed.
+    pub(super) fn use_poses(&mut self, poses: Option<KnownPoses>) {
+        let poses = poses.map(KnownPoses::checked);
+        if let Some(poses) = &poses {
+            for photo in &mut self.document.photos {
+                if poses.image_of(&photo.name).is_some() {
+                    photo.focal_px = None;
+                }
+            }
+        }
+        self.document.poses = poses;
     }
 }

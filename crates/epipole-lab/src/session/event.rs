@@ -1,6 +1,8 @@
 //! Actions of the reader.
 
-use crate::project::{Anchor, Blob, Measure, PhotoId, Sample, Saved, Settings, Step};
+use crate::project::{
+    Anchor, Blob, KnownPoses, LensCamera, Measure, PhotoId, Sample, Saved, Settings, Step,
+};
 
 /// Something that the reader did.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,9 +17,10 @@ pub enum Event {
     OpenBoards,
     /// Removed all photographs of boards.
     ClearBoards,
-    /// Made the camera that was found from boards that of the photographs of its size; or gave it
-    /// up.
-    UseCalibration(bool),
+    /// Made a calibrated camera that of the photographs of its size, or gave it up.
+    UseCamera(Option<LensCamera>),
+    /// Took cameras and poses from a model of another program, or gave them up.
+    UsePoses(Option<KnownPoses>),
     /// Opened a sample in place of all photographs.
     OpenSample(Sample),
     /// Opened a project in place of everything, with the names and bytes of its files.

@@ -31,11 +31,13 @@ impl Report {
 
 /// Input from the reader or the environment.
 #[derive(Debug, Clone)]
-pub enum Arrival {
+pub enum HostEvent {
     /// Names and files.
     Photographs(Vec<(String, Blob)>),
     /// A project.
     Project(Blob),
+    /// Names and files of cameras: one, or those of a model.
+    Cameras(Vec<(String, Blob)>),
     /// The parameters of an address: a step, a sample, settings.
     Link(Vec<(String, String)>),
     /// Video with this number, waiting for [`Host::ask_for_frames`].
@@ -45,7 +47,7 @@ pub enum Arrival {
     /// Read error of the video with this number, with a message.
     NoFrames(u32, String),
     /// Message without data, such as an error or progress.
-    News(String),
+    Notice(String),
     /// State of the project stored in this environment.
     Stored(Stored),
     /// Precomputed results of the sample, as bytes of [`Computed`](crate::project::Computed); empty
@@ -83,15 +85,17 @@ pub trait Host {
     fn cancel(&mut self, job: JobId);
     /// Reports since the last call.
     fn reports(&mut self) -> Vec<Report>;
-    /// Arrivals since the last call.
-    fn arrivals(&mut self) -> Vec<Arrival>;
-    /// Whether [`Arrival::Results`] will come: until then no result of the sample needs to be
+    /// Events since the last call.
+    fn host_events(&mut self) -> Vec<HostEvent>;
+    /// Whether [`HostEvent::Results`] will come: until then no result of the sample needs to be
     /// computed.
     fn brings_sample(&self) -> bool;
     /// Opens a dialog for photographs. False if there is none and files can only be dropped.
     fn ask_for_photographs(&mut self) -> bool;
     /// Opens a dialog for a project. False if there is none.
     fn ask_for_project(&mut self) -> bool;
+    /// Opens a dialog for files of cameras. False if there is none.
+    fn ask_for_camera_files(&mut self) -> bool;
     /// Opens the camera of the device. False if there is none.
     fn ask_for_camera(&mut self) -> bool;
     /// Splits an arrived video into `num_parts` parts of equal length, and reads some frames of one
@@ -102,11 +106,11 @@ pub trait Host {
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
     /// Whether a project can be kept here without giving the reader a file.
     fn can_keep(&self) -> bool;
-    /// Keeps a project in place of the previous one. The outcome arrives as [`Arrival::Stored`].
+    /// Keeps a project in place of the previous one. The outcome arrives as [`HostEvent::Stored`].
     fn keep(&mut self, project: Vec<u8>);
     /// Erases the kept project.
     fn forget(&mut self);
-    /// Requests the kept project, which arrives as [`Arrival::Stored`].
+    /// Requests the kept project, which arrives as [`HostEvent::Stored`].
     fn ask_for_kept(&mut self);
     /// Announces a text to assistive technology.
     fn say(&mut self, words: &str);

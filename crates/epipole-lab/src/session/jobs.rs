@@ -3,7 +3,7 @@
 use super::host::{Host, JobId, Report};
 use super::queue::Pending;
 use crate::project::Project;
-use crate::tasks::Request;
+use crate::tasks::{CameraFormat, Request};
 use std::collections::VecDeque;
 
 /// Work on a file, beside the results of the project.
@@ -17,6 +17,10 @@ pub(crate) enum FileJob {
     SaveView,
     /// Write the project for the storage of the browser.
     Store,
+    /// Write the calibrated camera for another program.
+    SaveCamera(CameraFormat),
+    /// Read camera files.
+    OpenCameras,
     /// Open a project.
     Open,
     /// Open the stored project.
@@ -28,7 +32,10 @@ pub(crate) enum FileJob {
 impl FileJob {
     fn label(self) -> &'static str {
         match self {
-            Self::SaveReconstruction | Self::SaveProject | Self::SaveView => "Writing the file",
+            Self::SaveReconstruction | Self::SaveProject | Self::SaveView | Self::SaveCamera(_) => {
+                "Writing the file"
+            }
+            Self::OpenCameras => "Reading cameras",
             Self::Store => "Keeping the project",
             Self::Open | Self::Restore => "Opening the project",
             Self::Frames(_) => "Reading the video",

@@ -28,7 +28,7 @@ mod videos;
 
 pub use event::Event;
 #[cfg(feature = "panels")]
-pub use host::{Arrival, Host, JobId, Report, Stored};
+pub use host::{Host, HostEvent, JobId, Report, Stored};
 #[cfg(feature = "panels")]
 pub(crate) use jobs::{FileJob, Jobs};
 pub use queue::Pending;

@@ -1,7 +1,7 @@
 //! Which photographs have their pixels in memory: all of them may exceed the memory of a page. The
 //! others keep a thumbnail, and are read again from their files for display or computation.
 
-use crate::project::{Given, Key, PhotoId, Project};
+use crate::project::{InputPhoto, Key, PhotoId, Project};
 use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query, ReducedOf};
 
 /// Maximum size of the pixels in memory, bytes, except for visible photographs.
@@ -26,7 +26,7 @@ impl Project {
     fn awaited(&self) -> Vec<Key> {
         let to_describe = self.to_describe();
         let to_reduce = ReducedOf::all(self);
-        let is_awaited = |photo: &&&Given| {
+        let is_awaited = |photo: &&&InputPhoto| {
             let features = FeaturesOf(photo.id);
             let reduced = ReducedOf(photo.id);
             to_describe.contains(&photo.id)
@@ -137,6 +137,7 @@ mod tests {
             k: None,
             full_size: (width, height),
             sensor_size: (width, height),
+            quarters: Some(0),
             as_given: true,
         }
     }
@@ -216,7 +217,7 @@ mod tests {
     fn whoever_looks_at_a_photograph_has_its_pixels_read_first_and_only_once() {
         let mut project = given(9);
         while do_first(&mut project).is_some() {}
-        let is_gone = |photo: &&Given| project.photograph(photo).is_none();
+        let is_gone = |photo: &&InputPhoto| project.photograph(photo).is_none();
         let id = project.document().photos.iter().find(is_gone).unwrap().id;
         project.update(Event::Show(Step::Features));
         project.update(Event::Look(id));
@@ -226,7 +227,7 @@ mod tests {
         assert!(project.photograph(photo).is_some());
         assert_eq!(do_first(&mut project), None);
         // If that fails, it is not tried without end, and it takes part as before.
-        let is_gone = |photo: &&Given| project.photograph(photo).is_none();
+        let is_gone = |photo: &&InputPhoto| project.photograph(photo).is_none();
         let id = project.document().photos.iter().find(is_gone).unwrap().id;
         project.update(Event::Look(id));
         let read = AnyQuery::Photograph(PhotographOf(id));

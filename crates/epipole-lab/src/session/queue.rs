@@ -1,6 +1,6 @@
 //! Outputs that are missing, most urgent first, and how they arrive.
 
-use crate::project::{Given, Key, PhotoId, Project, Step, pairs};
+use crate::project::{InputPhoto, Key, PhotoId, Project, Step, pairs};
 use crate::tasks::{AnyQuery, FeaturesOf, MatchesOf, Query, Request};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,14 +52,14 @@ impl Project {
     /// new matches.
     pub(super) fn to_describe(&self) -> BTreeSet<PhotoId> {
         let photos = self.taking_part();
-        let is_bare = |photo: &Given| {
+        let is_bare = |photo: &InputPhoto| {
             let found = self.get(FeaturesOf(photo.id));
             self.shown(photo).is_some() && found.is_some_and(|found| !found.has_descriptors())
         };
         if !photos.iter().any(|photo| is_bare(photo)) {
             return BTreeSet::new();
         }
-        let is_open = |first: &Given, second: &Given| {
+        let is_open = |first: &InputPhoto, second: &InputPhoto| {
             let query = MatchesOf(first.id, second.id);
             !query.is_settled(self) && !self.is_imported(query)
         };

@@ -1,15 +1,15 @@
 //! Conversion between a project and its saved form.
 
 use crate::project::{
-    Anchor, Blob, Computed, Document, Given, Key, LensCamera, Measure, PhotoId, Project, Saved,
-    SavedPhoto, Source, VERSION,
+    Anchor, Blob, Computed, Document, InputPhoto, Key, KnownPoses, LensCamera, Measure, PhotoId,
+    Project, Saved, SavedPhoto, Source, VERSION,
 };
 use crate::tasks::{Packed, SaveProject};
 
 /// The folder of files of boards.
 const BOARDS: &str = "boards/";
 
-fn saved_photo(photo: &Given) -> SavedPhoto {
+fn saved_photo(photo: &InputPhoto) -> SavedPhoto {
     SavedPhoto {
         name: photo.name.clone(),
         rendered: match photo.source {
@@ -63,6 +63,7 @@ impl Project {
             all_views: self.document.all_views,
             boards: self.document.boards.iter().map(saved_photo).collect(),
             camera: self.document.camera.clone(),
+            poses: self.document.poses.clone(),
         }
     }
 
@@ -74,7 +75,7 @@ impl Project {
 
     /// Bytes of all its files.
     pub fn num_file_bytes(&self) -> usize {
-        let bytes = |photo: &Given| match &photo.source {
+        let bytes = |photo: &InputPhoto| match &photo.source {
             Source::File(bytes) => bytes.len(),
             Source::Rendered(..) => 0,
         };
@@ -82,7 +83,7 @@ impl Project {
     }
 
     /// All photographs, then those of boards.
-    fn given_photos(&self) -> impl Iterator<Item = &Given> {
+    fn given_photos(&self) -> impl Iterator<Item = &InputPhoto> {
         self.document.photos.iter().chain(&self.document.boards)
     }
 
@@ -99,10 +100,11 @@ impl Project {
 
     fn save_request_with(&self, computed: Computed) -> SaveProject {
         let photos = &self.document.photos;
-        let packed = |photo: &Given, folder: &str| Packed {
+        let packed = |photo: &InputPhoto, folder: &str| Packed {
             name: format!("{folder}{}", photo.name),
             source: photo.source.clone(),
             used: None,
+            camera: None,
         };
         let boards = self.document.boards.iter();
         SaveProject {
@@ -132,6 +134,7 @@ impl Project {
             document.boards.extend(given);
         }
         document.camera = saved.camera.filter(LensCamera::is_finite);
+        document.poses = saved.poses.map(KnownPoses::checked);
         let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
         let measures = saved.measures.iter();
         document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
@@ -150,11 +153,11 @@ impl Project {
     /// A photograph of a list, with a new number; `None` if its file is missing.
     fn restored_photo(
         &mut self,
-        list: &[Given],
+        list: &[InputPhoto],
         photo: SavedPhoto,
         files: &[(String, Blob)],
         folder: &str,
-    ) -> Option<Given> {
+    ) -> Option<InputPhoto> {
         let source = match photo.rendered {
             Some((sample, index)) => Source::Rendered(sample, index),
             None => {
@@ -165,7 +168,7 @@ impl Project {
         };
         let given = self.given(list, &photo.name, source);
         self.next_id = given.id;
-        Some(Given {
+        Some(InputPhoto {
             excluded: photo.excluded,
             focal_px: photo.focal_px.filter(|f| f.is_finite() && *f > 0.0),
             ..given

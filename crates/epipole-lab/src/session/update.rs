@@ -2,7 +2,7 @@
 
 use super::event::Event;
 use crate::project::{
-    Anchor, Blob, Document, Given, Measure, PhotoId, Project, Sample, Source, Step, content_of,
+    Anchor, Blob, Document, InputPhoto, Measure, PhotoId, Project, Sample, Source, Step, content_of,
 };
 use crate::tasks::ReconstructionOfAll;
 
@@ -40,7 +40,8 @@ impl Project {
             Event::AddBoards(files) => self.add_boards(files),
             Event::OpenBoards => self.open_boards(),
             Event::ClearBoards => self.document.boards.clear(),
-            Event::UseCalibration(is_used) => self.use_calibration(is_used),
+            Event::UseCamera(camera) => self.use_camera(camera),
+            Event::UsePoses(poses) => self.use_poses(poses),
             Event::OpenProject(saved, files) => {
                 self.document = self.restored(*saved, files);
                 self.view.step = Step::Photographs;
@@ -121,7 +122,7 @@ impl Project {
         self.look_at_what_is_there();
     }
 
-    fn photo_mut(&mut self, id: PhotoId) -> Option<&mut Given> {
+    fn photo_mut(&mut self, id: PhotoId) -> Option<&mut InputPhoto> {
         let document = &mut self.document;
         let mut all = document.photos.iter_mut().chain(&mut document.boards);
         all.find(|photo| photo.id == id)
@@ -164,8 +165,8 @@ impl Project {
     }
 
     /// A photograph with a number and a name that no other one of the list has.
-    pub(super) fn given(&self, list: &[Given], name: &str, source: Source) -> Given {
-        Given {
+    pub(super) fn given(&self, list: &[InputPhoto], name: &str, source: Source) -> InputPhoto {
+        InputPhoto {
             id: self.next_id + 1,
             name: unique_name(list, name),
             content: content_of(&source),
@@ -182,6 +183,7 @@ impl Project {
         self.document.floor = None;
         self.document.dense.clear();
         self.document.all_views = false;
+        self.document.poses = None;
     }
 
     /// Clears the undo history.
@@ -257,7 +259,7 @@ impl Project {
 
 /// The name, without folders, and with a number if another photograph has it already. Endings do
 /// not count: an exported photograph may get another one.
-pub(super) fn unique_name(list: &[Given], name: &str) -> String {
+pub(super) fn unique_name(list: &[InputPhoto], name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let clean: String = (name.chars())
         .map(|c| if c.is_control() { '_' } else { c })

@@ -1,18 +1,31 @@
-//! Code that finds the depth of all views, as `epipole mvs` does.
+//! Code that finds the depth of all views and their surface, as `epipole mvs` does.
 
 use super::all_views::FuseViews;
+use super::cloud_vertex::CloudVertex;
 use super::convert::sentence;
-use super::dense_cloud::{CloudVertex, DenseCloud};
+use super::dense_cloud::DenseCloud;
 use super::task::{Monitor, Progress, Run};
-use epipole::mvs::{MvsOptions, estimate_depth_maps, fuse_depth_maps, prepare_views};
+use epipole::Error;
+use epipole::mvs::{
+    DepthMap, Mesh, MeshOptions, MvsOptions, estimate_depth_maps, fuse_depth_maps, mesh_depth_maps,
+    prepare_views,
+};
 use epipole::progress::{Part, Status};
 use epipole::sfm::Reconstruction;
+use epipole::stereo::PointCloud;
 use image::RgbImage;
 use nalgebra::Point3;
 
-/// Shares of the work after which views are prepared and depth maps estimated.
+/// Shares of the work after which views are prepared, depth maps estimated and points fused.
 const PREPARED: f32 = 0.02;
-const ESTIMATED: f32 = 0.96;
+const ESTIMATED: f32 = 0.77;
+const FUSED: f32 = 0.8;
+
+/// Edge of a voxel in pixels of the depth maps.
+const VOXEL_PX: f64 = 1.5;
+/// Number of pixels with a depth up to which voxels have this edge: 0.8 million triangles, which a
+/// browser draws in a tenth of a second.
+const MAX_FINE_PIXELS: f64 = 2e6;
 
 impl Run for FuseViews {
     fn run(self, monitor: Monitor<'_>) -> Result<DenseCloud, String> {
@@ -51,7 +64,7 @@ impl Run for FuseViews {
         drop(photos);
         let part = &mut Part::new(&mut watch, PREPARED, ESTIMATED);
         let maps = estimate_depth_maps(&views, &options, part).map_err(sentence)?;
-        let part = &mut Part::new(&mut watch, ESTIMATED, 1.0);
+        let part = &mut Part::new(&mut watch, ESTIMATED, FUSED);
         let cloud = fuse_depth_maps(&views, &maps, &options, part).map_err(sentence)?;
         if cloud.points.is_empty() {
             return Err(format!(
@@ -60,20 +73,18 @@ impl Run for FuseViews {
                 options.min_views.min(views.len())
             ));
         }
-        let num_known = |counts: &[u8]| counts.iter().filter(|count| **count > 0).count();
-        let known_pixels: usize = maps.iter().map(|map| num_known(&map.num_views)).sum();
+        let num_known = num_known(&maps);
         let num_pixels: usize = maps.iter().map(|map| map.num_views.len()).sum();
+        let coarser = libm::sqrt(num_known as f64 / MAX_FINE_PIXELS).max(1.0);
+        let mesh_options = MeshOptions::default().with_voxel_size_px(VOXEL_PX * coarser);
+        let part = &mut Part::new(&mut watch, FUSED, 1.0);
+        let mesh = match mesh_depth_maps(&views, &maps, &mesh_options, part) {
+            // Too many voxels, if depths differ by orders of magnitude: the points remain.
+            Err(Error::OutOfRange { .. }) => Mesh::default(),
+            mesh => mesh.map_err(sentence)?,
+        };
+        let triangles = mesh.triangles.as_flattened().iter();
         let sizes = views.iter().map(|view| view.image.dimensions());
-        let mut points = Vec::new();
-        for (index, place) in cloud.points.iter().enumerate() {
-            let vertex = CloudVertex {
-                position: place.coords.into(),
-                normal: cloud.normals[index].into(),
-                color: cloud.colors[index],
-                num_views: cloud.confidences[index] as u8,
-            };
-            points.extend(vertex.to_bytes());
-        }
         Ok(DenseCloud {
             num_maps: views.len() as u32,
             num_registered: known.num_registered() as u32,
@@ -81,15 +92,37 @@ impl Run for FuseViews {
                 .max_by_key(|(width, height)| width * height)
                 .unwrap_or((0, 0)),
             pixel_px,
-            density: known_pixels as f64 / num_pixels.max(1) as f64,
-            points: points.into(),
+            density: num_known as f64 / num_pixels.max(1) as f64,
+            points: bytes_of(&cloud).into(),
+            vertices: bytes_of(&mesh.vertices).into(),
+            triangles: triangles
+                .flat_map(|vertex| vertex.to_le_bytes())
+                .collect::<Vec<u8>>()
+                .into(),
         })
     }
 }
 
+/// Number of pixels with a depth.
+fn num_known(maps: &[DepthMap]) -> usize {
+    let counts = maps.iter().flat_map(|map| &map.num_views);
+    counts.filter(|count| **count > 0).count()
+}
+
+fn bytes_of(cloud: &PointCloud) -> Vec<u8> {
+    let vertex = |(index, place): (usize, &Point3<f64>)| CloudVertex {
+        position: place.coords.into(),
+        normal: cloud.normals[index].into(),
+        color: cloud.colors[index],
+        num_views: cloud.confidences.get(index).map_or(0, |count| *count as u8),
+    };
+    let vertices = cloud.points.iter().enumerate().map(vertex);
+    vertices.flat_map(CloudVertex::to_bytes).collect()
+}
+
 /// Reason why no photograph has a neighbor.
-fn why_no_views(error: epipole::Error, known: &Reconstruction, options: &MvsOptions) -> String {
-    let (epipole::Error::Degenerate { .. }, Some(widest)) = (&error, widest_deg(known)) else {
+fn why_no_views(error: Error, known: &Reconstruction, options: &MvsOptions) -> String {
+    let (Error::Degenerate { .. }, Some(widest)) = (&error, widest_deg(known)) else {
         return sentence(error);
     };
     match widest < options.min_angle_deg {

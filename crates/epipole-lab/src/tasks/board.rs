@@ -5,7 +5,7 @@ use super::photograph::Photograph;
 #[cfg(feature = "files")]
 use super::task::{Monitor, Progress, Run, report};
 use super::task::{Query, Task};
-use crate::project::{BoardOptions, Given, Key, PhotoId, Project, Source, Step};
+use crate::project::{BoardOptions, InputPhoto, Key, PhotoId, Project, Source, Step};
 use serde::{Deserialize, Serialize};
 
 /// Pixels of the picture for the screen.
@@ -105,8 +105,8 @@ impl Query for BoardOf {
 
 impl Project {
     /// The photographs of a board that take part.
-    pub fn boards_taking_part(&self) -> Vec<&Given> {
-        let readable = |photo: &&Given| self.failure(BoardOf(photo.id)).is_none();
+    pub fn boards_taking_part(&self) -> Vec<&InputPhoto> {
+        let readable = |photo: &&InputPhoto| self.failure(BoardOf(photo.id)).is_none();
         let boards = self.document.boards.iter();
         boards
             .filter(|photo| !photo.excluded)
@@ -117,7 +117,7 @@ impl Project {
     /// Width and height that most photographs have in which the board was found; the first of those
     /// with as many.
     pub fn size_of_boards(&self) -> Option<(u32, u32)> {
-        let found = |photo: &&Given| {
+        let found = |photo: &&InputPhoto| {
             Some(self.get(BoardOf(photo.id))?).filter(|found| !found.marks.is_empty())
         };
         let sizes: Vec<(u32, u32)> = (self.boards_taking_part().iter())
@@ -167,6 +167,7 @@ impl Run for FindBoard {
                 k: None,
                 full_size: sensor_size,
                 sensor_size,
+                quarters: Some(0),
                 as_given: (width, height) == sensor_size,
             },
             marks: (marks.iter()).map(|mark| mark.map(Into::into)).collect(),

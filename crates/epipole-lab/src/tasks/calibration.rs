@@ -4,7 +4,7 @@ use super::board::BoardOf;
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Progress, Run};
 use super::task::{Query, Task};
-use crate::project::{CalibrationOptions, Given, Key, LensCamera, Project, Step};
+use crate::project::{CalibrationOptions, InputPhoto, Key, LensCamera, Project, Step};
 use serde::{Deserialize, Serialize};
 
 /// Calibration results for one photograph.
@@ -116,7 +116,7 @@ impl Project {
     /// is another one; `None` until all were looked through.
     fn board_views(&self) -> Option<Vec<&[Option<[f64; 2]>]>> {
         let size = self.size_of_boards();
-        let marks = |photo: &&Given| {
+        let marks = |photo: &&InputPhoto| {
             let found = self.get(BoardOf(photo.id))?;
             let fits = Some(found.picture.full_size) == size;
             Some(if fits { &found.marks[..] } else { &[] })
@@ -125,7 +125,7 @@ impl Project {
     }
 
     /// The place of a photograph among those of the calibration.
-    pub fn place_of_board(&self, photo: &Given) -> Option<usize> {
+    pub fn place_of_board(&self, photo: &InputPhoto) -> Option<usize> {
         let boards = self.boards_taking_part();
         boards.iter().position(|other| other.id == photo.id)
     }
@@ -135,10 +135,8 @@ impl Project {
 impl Run for Calibrate {
     /// Calibrates just as `epipole calibrate` does.
     fn run(self, monitor: Monitor<'_>) -> Result<Calibration, String> {
-        use super::convert::core_board;
-        use crate::project::LensModel;
+        use super::convert::{core_board, lab_lens_camera, lens_kind};
         use epipole::calibration::{BoardView, calibrate};
-        use epipole::camera::LensKind;
         use epipole::progress::Status;
         use nalgebra::Point2;
         let Self {
@@ -154,11 +152,7 @@ impl Run for Calibrate {
         };
         let views: Vec<_> = views.iter().map(view).collect();
         let how =
-            epipole::calibration::CalibrationOptions::default().with_lens(match options.lens {
-                LensModel::Brown => LensKind::Brown,
-                LensModel::Rational => LensKind::Rational,
-                LensModel::Fisheye => LensKind::Fisheye,
-            });
+            epipole::calibration::CalibrationOptions::default().with_lens(lens_kind(options.lens));
         let mut watch =
             |status: Status| monitor(Progress::Share(status.share, status.stage.words()));
         let found = calibrate(&board, &views, size, &how, &mut watch);
@@ -170,15 +164,8 @@ impl Run for Calibrate {
         ),
         other => other.to_string(),
     })?;
-        let k = found.camera.intrinsics;
-        let center = k.principal_point();
         Ok(Calibration {
-            camera: LensCamera {
-                size,
-                k: [k.fu_px(), k.fv_px(), center.x, center.y],
-                lens: options.lens,
-                coefficients: found.camera.lens.coefficients(),
-            },
+            camera: lab_lens_camera(&found.camera),
             rms_px: found.rms_px,
             std_dev_k: found.std_dev_k,
             std_dev_lens: found.std_dev_lens,

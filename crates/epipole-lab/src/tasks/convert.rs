@@ -1,11 +1,13 @@
 //! Settings and errors of the core, from and to those of the Lab.
 
 use crate::project::{BoardOptions, BoardPattern};
-#[cfg(feature = "files")]
+#[cfg(any(feature = "vision", feature = "files"))]
 use crate::project::{LensCamera, LensModel};
 use epipole::calibration::{Board, Pattern};
+#[cfg(any(feature = "vision", feature = "files"))]
+use epipole::camera::{Camera, LensKind};
 #[cfg(feature = "files")]
-use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
+use epipole::camera::{Intrinsics, Lens};
 
 /// Why the core gave no answer, in words.
 #[cfg(any(feature = "vision", feature = "files"))]
@@ -38,23 +40,48 @@ pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board,
     Board::new(pattern, columns, rows, square_m).map_err(|error| error.to_string())
 }
 
+/// The model of a lens as the core has it.
+#[cfg(any(feature = "vision", feature = "files"))]
+pub(super) fn lens_kind(model: LensModel) -> LensKind {
+    match model {
+        LensModel::Brown => LensKind::Brown,
+        LensModel::Rational => LensKind::Rational,
+        LensModel::Fisheye => LensKind::Fisheye,
+        LensModel::Division => LensKind::Division,
+    }
+}
+
 /// A calibrated camera.
 ///
 /// # Errors
 /// A sentence, if its numbers are no camera's.
 #[cfg(feature = "files")]
 pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
-    let kind = match camera.lens {
-        LensModel::Brown => LensKind::Brown,
-        LensModel::Rational => LensKind::Rational,
-        LensModel::Fisheye => LensKind::Fisheye,
-    };
     let [fu, fv, cu, cv] = camera.k;
     let sentence = |error: epipole::Error| error.to_string();
     Ok(Camera {
         intrinsics: Intrinsics::new(fu, fv, cu, cv).map_err(sentence)?,
-        lens: Lens::from_coefficients(kind, &camera.coefficients).map_err(sentence)?,
+        lens: Lens::from_coefficients(lens_kind(camera.lens), &camera.coefficients)
+            .map_err(sentence)?,
         width: camera.size.0,
         height: camera.size.1,
     })
+}
+
+/// The camera as the Lab has it; the opposite of `core_lens_camera`.
+#[cfg(any(feature = "vision", feature = "files"))]
+pub(super) fn lab_lens_camera(camera: &Camera) -> LensCamera {
+    let lens = match camera.lens.kind() {
+        LensKind::Brown => LensModel::Brown,
+        LensKind::Rational => LensModel::Rational,
+        LensKind::Fisheye => LensModel::Fisheye,
+        LensKind::Division => LensModel::Division,
+    };
+    let (k, center) = (camera.intrinsics, camera.intrinsics.principal_point());
+    LensCamera {
+        size: (camera.width, camera.height),
+        k: [k.fu_px(), k.fv_px(), center.x, center.y],
+        lens,
+        coefficients: camera.lens.coefficients().to_vec(),
+    }
 }

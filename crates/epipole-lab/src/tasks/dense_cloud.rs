@@ -1,59 +1,9 @@
-//! A cloud of points with normals, as bytes.
+//! The depth of all views: a cloud of points and a surface, as bytes.
 
 use super::are_finite;
+use super::cloud_vertex::{CloudVertex, NUM_BYTES};
 use crate::project::Blob;
 use serde::{Deserialize, Serialize};
-
-/// Number of bytes of a point: three floats, normal, color, number of photographs.
-const NUM_BYTES: usize = 19;
-/// Length of a normal in bytes.
-#[cfg(feature = "vision")]
-const NORMAL: f64 = 127.0;
-
-/// A point of a cloud.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CloudVertex {
-    /// Position in the frame of the reconstruction.
-    pub position: [f64; 3],
-    /// Unit normal, towards the cameras.
-    pub normal: [f64; 3],
-    /// Red, green, blue.
-    pub color: [u8; 3],
-    /// Number of photographs that agree on it.
-    pub num_views: u8,
-}
-
-impl CloudVertex {
-    #[cfg(feature = "vision")]
-    pub(super) fn to_bytes(self) -> [u8; NUM_BYTES] {
-        let mut bytes = [0; NUM_BYTES];
-        for (axis, x) in self.position.iter().enumerate() {
-            bytes[4 * axis..][..4].copy_from_slice(&(*x as f32).to_le_bytes());
-        }
-        for (axis, x) in self.normal.iter().enumerate() {
-            bytes[12 + axis] = ((x * NORMAL).round() as i8).to_le_bytes()[0];
-        }
-        bytes[15..18].copy_from_slice(&self.color);
-        bytes[18] = self.num_views;
-        bytes
-    }
-
-    fn from_bytes(bytes: &[u8; NUM_BYTES]) -> Self {
-        let coordinate = |axis: usize| {
-            let at = 4 * axis;
-            let bytes = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
-            f64::from(f32::from_le_bytes(bytes))
-        };
-        let normal = [12, 13, 14].map(|at| f64::from(i8::from_le_bytes([bytes[at]])));
-        let norm = nalgebra::Vector3::from(normal).norm().max(1.0);
-        Self {
-            position: [0, 1, 2].map(coordinate),
-            normal: normal.map(|x| x / norm),
-            color: [bytes[15], bytes[16], bytes[17]],
-            num_views: bytes[18],
-        }
-    }
-}
 
 /// The depth of all views, fused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -70,6 +20,10 @@ pub struct DenseCloud {
     pub density: f64,
     /// The points, 19 bytes each.
     pub points: Blob,
+    /// The vertices of a surface of the same depth maps, 19 bytes each.
+    pub vertices: Blob,
+    /// Indices of the three vertices of each triangle, 12 bytes, counterclockwise from outside.
+    pub triangles: Blob,
 }
 
 impl DenseCloud {
@@ -83,10 +37,16 @@ impl DenseCloud {
         self.points.is_empty()
     }
 
-    /// The point of an index.
+    /// The point of an index; the vertices of the surface follow the points.
     pub fn point(&self, index: u32) -> Option<CloudVertex> {
-        let bytes = self.points.get(NUM_BYTES * index as usize..)?;
-        Some(CloudVertex::from_bytes(bytes.first_chunk()?))
+        let (points, _) = self.points.as_chunks();
+        let (vertices, _) = self.vertices.as_chunks();
+        let index = index as usize;
+        let bytes = match index.checked_sub(points.len()) {
+            None => &points[index],
+            Some(vertex) => vertices.get(vertex)?,
+        };
+        Some(CloudVertex::from_bytes(bytes))
     }
 
     /// Every n-th point.
@@ -98,16 +58,38 @@ impl DenseCloud {
             .map(CloudVertex::from_bytes)
     }
 
-    /// Whether no point is cut off.
-    pub fn is_whole(&self) -> bool {
-        self.points.len().is_multiple_of(NUM_BYTES)
+    /// The vertices of the surface.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = CloudVertex> {
+        let (vertices, _) = self.vertices.as_chunks::<NUM_BYTES>();
+        vertices.iter().map(CloudVertex::from_bytes)
     }
 
-    /// Whether an untrusted cloud has only finite numbers.
+    /// The vertices of each triangle, by index.
+    pub fn triangles(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
+        let (triangles, _) = self.triangles.as_chunks::<12>();
+        triangles.iter().map(|bytes| {
+            let (corners, _) = bytes.as_chunks::<4>();
+            [0, 1, 2].map(|corner| u32::from_le_bytes(corners[corner]))
+        })
+    }
+
+    /// Whether no point, vertex or triangle is cut off.
+    pub fn is_whole(&self) -> bool {
+        self.points.len().is_multiple_of(NUM_BYTES)
+            && self.vertices.len().is_multiple_of(NUM_BYTES)
+            && self.triangles.len().is_multiple_of(12)
+    }
+
+    /// Whether an untrusted cloud has only finite numbers, and triangles of its own vertices.
     pub(super) fn is_valid(&self) -> bool {
+        let num_vertices = self.vertices().len();
         self.is_whole()
             && are_finite(&[self.pixel_px, self.density])
-            && self.points(1).all(|point| are_finite(&point.position))
+            && (self.points(1).chain(self.vertices())).all(|point| are_finite(&point.position))
+            && self
+                .triangles()
+                .flatten()
+                .all(|vertex| (vertex as usize) < num_vertices)
     }
 }
 
@@ -134,6 +116,8 @@ mod tests {
             pixel_px: 1.0,
             density: 0.5,
             points: bytes.to_vec().into(),
+            vertices: Blob::default(),
+            triangles: Blob::default(),
         };
         let (one, two) = (cloud(&bytes[..19]), cloud(&bytes));
         assert_eq!((one.len(), two.len(), two.points(2).count()), (1, 2, 1));
@@ -149,5 +133,45 @@ mod tests {
         assert_eq!(one.point(1), None);
         assert!(one.is_valid() && !two.is_valid(), "NaN is not valid");
         assert!(!cloud(&bytes[..20]).is_whole());
+    }
+
+    #[test]
+    fn a_surface_has_its_vertices_after_the_points() {
+        let vertex = |x: f64| CloudVertex {
+            position: [x, 0.0, 1.0],
+            normal: [0.0, 0.0, -1.0],
+            color: [9; 3],
+            num_views: 0,
+        };
+        let blob = |places: &[f64]| {
+            let places = places.iter().copied();
+            let bytes: Vec<u8> = places.flat_map(|x| vertex(x).to_bytes()).collect();
+            Blob::from(bytes)
+        };
+        let surface = |corners: [u32; 3]| DenseCloud {
+            num_maps: 2,
+            num_registered: 2,
+            size: (4, 3),
+            pixel_px: 1.0,
+            density: 0.5,
+            points: blob(&[5.0]),
+            vertices: blob(&[6.0, 7.0, 8.0]),
+            triangles: corners
+                .iter()
+                .flat_map(|n| n.to_le_bytes())
+                .collect::<Vec<u8>>()
+                .into(),
+        };
+        let cloud = surface([0, 2, 1]);
+        assert_eq!((cloud.len(), cloud.vertices().len()), (1, 3));
+        assert_eq!(cloud.triangles().collect::<Vec<_>>(), [[0, 2, 1]]);
+        let x = |index: u32| cloud.point(index).map(|point| point.position[0]);
+        assert_eq!([0, 1, 3, 4].map(x), [Some(5.0), Some(6.0), Some(8.0), None]);
+        assert!(cloud.is_valid() && !surface([0, 1, 3]).is_valid());
+        let cut = DenseCloud {
+            triangles: vec![0; 11].into(),
+            ..cloud
+        };
+        assert!(!cut.is_whole());
     }
 }

@@ -5,7 +5,7 @@ use super::dense::Dense;
 use super::photograph::{Photograph, PhotographOf};
 use super::reconstruction::ReconstructionOfAll;
 use super::task::{Query, Task};
-use crate::project::{DepthOptions, Given, Key, PhotoId, Project, Step};
+use crate::project::{DepthOptions, InputPhoto, Key, PhotoId, Project, Step};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
@@ -119,7 +119,7 @@ impl Query for DepthOf {
 
 impl Project {
     /// The pairs whose depth is part of the cloud and is there, with its key.
-    pub fn dense_pairs(&self) -> Vec<(Key, &Given, &Given, &Dense)> {
+    pub fn dense_pairs(&self) -> Vec<(Key, &InputPhoto, &InputPhoto, &Dense)> {
         let pairs = self.document.dense.iter();
         let ready = |pair: &(PhotoId, PhotoId)| {
             let (first, second) = self.document.pair(*pair)?;

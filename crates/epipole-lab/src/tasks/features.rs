@@ -5,7 +5,7 @@ use super::photograph::{Photograph, PhotographOf};
 use super::task::{Destination, Query, Task};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Progress, Run};
-use crate::project::{Blob, FeatureOptions, Given, Key, PhotoId, Project};
+use crate::project::{Blob, FeatureOptions, InputPhoto, Key, PhotoId, Project};
 use serde::{Deserialize, Serialize};
 
 /// A feature.
@@ -140,7 +140,7 @@ impl Project {
     }
 
     /// Whether a photograph is neither excluded, nor a duplicate, nor unreadable.
-    pub fn takes_part(&self, photo: &Given) -> bool {
+    pub fn takes_part(&self, photo: &InputPhoto) -> bool {
         !photo.excluded
             && self.document.twin(photo).is_none()
             && self.failure(PhotographOf(photo.id)).is_none()
@@ -148,7 +148,7 @@ impl Project {
     }
 
     /// The photographs that take part, in order.
-    pub fn taking_part(&self) -> Vec<&Given> {
+    pub fn taking_part(&self) -> Vec<&InputPhoto> {
         let photos = self.document.photos.iter();
         photos.filter(|photo| self.takes_part(photo)).collect()
     }

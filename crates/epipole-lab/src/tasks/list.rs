@@ -4,8 +4,8 @@ use super::task::{Destination, Query, Task};
 use super::{
     AllViews, BoardOf, Calibrate, CalibrationOfBoards, ChooseFrame, DepthOf, Export, FeaturesOf,
     FindBoard, FindDepth, FindFeatures, FuseViews, MatchFeatures, MatchesOf, OpenProject,
-    PhotographOf, ReadPhotograph, Reconstruct, ReconstructionOfAll, ReducePhotograph, ReducedOf,
-    SaveProject, TwoViewsOf, VerifyPair, WritePicture,
+    PhotographOf, ReadCameras, ReadPhotograph, Reconstruct, ReconstructionOfAll, ReducePhotograph,
+    ReducedOf, SaveProject, TwoViewsOf, VerifyPair, WriteCamera, WritePicture,
 };
 use crate::project::{Key, Project, to_bytes};
 use serde::{Deserialize, Serialize};
@@ -164,6 +164,8 @@ tasks! {
         Export: Export in Files "files";
         SaveProject: SaveProject in Files "files";
         OpenProject: OpenProject in Files "files";
+        ReadCameras: ReadCameras in Files "files";
+        WriteCamera: WriteCamera in Files "files";
     }
 }
 

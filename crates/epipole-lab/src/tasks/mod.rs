@@ -13,7 +13,9 @@ mod board;
 #[cfg(feature = "files")]
 mod board_sample;
 mod calibration;
+mod camera_file;
 mod camera_found;
+mod cloud_vertex;
 #[cfg(any(feature = "vision", feature = "files"))]
 mod convert;
 mod dense;
@@ -26,6 +28,9 @@ mod depth_size;
 mod export;
 mod features;
 mod frames;
+mod known_poses;
+#[cfg(feature = "vision")]
+mod known_poses_run;
 mod list;
 mod matches;
 mod photograph;
@@ -47,11 +52,13 @@ mod views_to_fuse;
 pub use all_views::{AllViews, FuseViews};
 pub use board::{BoardFound, BoardOf, FindBoard};
 pub use calibration::{Calibrate, Calibration, CalibrationOfBoards, ViewFound};
+pub use camera_file::{CameraFormat, CamerasRead, PhotoFile, ReadCameras, WriteCamera};
 pub use camera_found::CameraFound;
+pub use cloud_vertex::CloudVertex;
 pub use dense::Dense;
-pub use dense_cloud::{CloudVertex, DenseCloud};
+pub use dense_cloud::DenseCloud;
 pub use depth::{DepthOf, FindDepth};
-pub use export::{Export, Measured, Recipe};
+pub use export::{Export, ExportFormat, Measured, Recipe};
 pub use features::{Described, Feature, Features, FeaturesOf, FindFeatures};
 pub use frames::ChooseFrame;
 #[cfg(any(feature = "vision", feature = "files"))]

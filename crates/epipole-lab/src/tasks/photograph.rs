@@ -6,7 +6,7 @@ use super::task::{Destination, Query, Task};
 #[cfg(feature = "files")]
 use super::task::{Monitor, Run, report};
 use super::thumbnail::Thumbnail;
-use crate::project::{Blob, Given, Key, LensCamera, PhotoId, Project, Source, Step};
+use crate::project::{Blob, InputPhoto, Key, LensCamera, PhotoId, Project, Source, Step};
 use serde::{Deserialize, Serialize};
 
 /// A photograph, upright and of a size to work with.
@@ -30,6 +30,8 @@ pub struct Photograph {
     pub full_size: (u32, u32),
     /// Width and height in the sensor's orientation, before it was turned upright.
     pub sensor_size: (u32, u32),
+    /// Number of clockwise quarter turns that made it upright; `None` if it was mirrored.
+    pub quarters: Option<u8>,
     /// Whether the pixels are those of the file: not downscaled, rotated or undistorted.
     pub as_given: bool,
 }
@@ -162,10 +164,11 @@ impl Query for PhotographOf {
     }
 
     fn task(self, project: &Project) -> Option<ReadPhotograph> {
+        let photo = project.document.photo(self.0)?;
         Some(ReadPhotograph {
-            source: project.document.photo(self.0)?.source.clone(),
+            source: photo.source.clone(),
             max_pixels: project.max_pixels(),
-            camera: project.document.camera.clone(),
+            camera: project.lens_camera(photo).cloned(),
         })
     }
 
@@ -189,7 +192,7 @@ impl Query for PhotographOf {
 
     fn fits(self, project: &Project, output: &Photograph) -> bool {
         let photo = project.document.photo(self.0);
-        let is_rendered = photo.is_some_and(Given::is_rendered);
+        let is_rendered = photo.is_some_and(InputPhoto::is_rendered);
         output.is_valid() && (output.has_pixels() || is_rendered)
     }
 }
@@ -199,7 +202,7 @@ impl Query for PhotographOf {
 pub enum FocalOrigin {
     /// The reader typed it.
     Typed,
-    /// The calibrated camera has it.
+    /// The calibrated camera, or that of the opened model, has it.
     Calibration,
     /// EXIF data of the file.
     File,
@@ -214,37 +217,33 @@ impl Project {
     }
 
     /// Key of a photograph's pixels.
-    pub fn key_of_photograph(&self, photo: &Given) -> Key {
-        // Rendered photographs have no distortion to remove.
-        let camera = match photo.source {
-            Source::File(_) => self.document.camera.as_ref(),
-            Source::Rendered(..) => None,
-        };
+    pub fn key_of_photograph(&self, photo: &InputPhoto) -> Key {
+        let camera = self.lens_camera(photo);
         Key::of(&("photograph", photo.content.0, self.max_pixels(), camera))
     }
 
     /// A photograph with its pixels, if they are in memory.
-    pub fn photograph(&self, photo: &Given) -> Option<&Photograph> {
+    pub fn photograph(&self, photo: &InputPhoto) -> Option<&Photograph> {
         self.get(PhotographOf(photo.id))
             .filter(|found| found.has_pixels())
     }
 
     /// A photograph that can be shown, at least as a thumbnail: its pixels may have to be read
     /// again.
-    pub fn shown(&self, photo: &Given) -> Option<&Photograph> {
+    pub fn shown(&self, photo: &InputPhoto) -> Option<&Photograph> {
         self.get(PhotographOf(photo.id))
             .filter(|found| found.was_read())
     }
 
     /// Size and intrinsics of a photograph, once they are known.
-    pub fn camera(&self, photo: &Given) -> Option<Calibrated> {
+    pub fn camera(&self, photo: &InputPhoto) -> Option<Calibrated> {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).0)
     }
 
     /// The photographs that one camera may have taken with a photograph, and itself: their sensors
     /// have as many pixels.
-    pub fn alike(&self, photo: &Given) -> Vec<PhotoId> {
-        let size = |photo: &Given| Some(self.get(PhotographOf(photo.id))?.sensor_size);
+    pub fn alike(&self, photo: &InputPhoto) -> Vec<PhotoId> {
+        let size = |photo: &InputPhoto| Some(self.get(PhotographOf(photo.id))?.sensor_size);
         let own = size(photo);
         let photos = self.document.photos.iter();
         photos
@@ -254,12 +253,12 @@ impl Project {
     }
 
     /// Source of its focal length.
-    pub fn focal_origin(&self, photo: &Given) -> Option<FocalOrigin> {
+    pub fn focal_origin(&self, photo: &InputPhoto) -> Option<FocalOrigin> {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).1)
     }
 
     /// Focal length of a photograph times a factor, in pixels of its file. 0 until it is known.
-    pub(crate) fn focal_px(&self, photo: &Given, factor: f64) -> f64 {
+    pub(crate) fn focal_px(&self, photo: &InputPhoto, factor: f64) -> f64 {
         let known = self.get(PhotographOf(photo.id)).map(|pixels| {
             let reduced = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
             factor * camera(photo, pixels).0.k[0] / reduced
@@ -279,7 +278,7 @@ impl Project {
 }
 
 /// The intrinsics of a photograph in its own pixels, and where its focal length comes from.
-fn camera(photo: &Given, pixels: &Photograph) -> (Calibrated, FocalOrigin) {
+fn camera(photo: &InputPhoto, pixels: &Photograph) -> (Calibrated, FocalOrigin) {
     let (width, height) = (pixels.width, pixels.height);
     let factor = f64::from(width) / f64::from(pixels.full_size.0.max(1));
     let centered = |focal_px| Calibrated::centered(width, height, focal_px);
@@ -325,6 +324,7 @@ fn rendered(image: image::RgbImage, focal_px: Option<f64>) -> Photograph {
         k: None,
         full_size: (width, height),
         sensor_size: (width, height),
+        quarters: Some(0),
         as_given: true,
     }
 }
@@ -372,6 +372,7 @@ fn file(
         k: photo.intrinsics.map(plain),
         full_size: photo.full_size,
         sensor_size: photo.sensor_size,
+        quarters: photo.quarters,
         as_given: photo.is_as_stored,
     })
 }

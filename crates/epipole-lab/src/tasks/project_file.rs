@@ -4,7 +4,7 @@ use super::photograph::Photograph;
 use super::task::Task;
 #[cfg(feature = "files")]
 use super::task::{Monitor, Run};
-use crate::project::{Blob, Computed, Saved, Source};
+use crate::project::{Blob, Computed, LensCamera, Saved, Source};
 use serde::{Deserialize, Serialize};
 
 /// A photograph for an archive.
@@ -16,6 +16,8 @@ pub struct Packed {
     pub source: Source,
     /// As it was used; not needed for a project.
     pub used: Option<Photograph>,
+    /// Camera whose distortion was removed, if it has its size; not needed for a project.
+    pub camera: Option<LensCamera>,
 }
 
 /// Writes photographs, as they were given, and settings to a zip file.
@@ -194,6 +196,7 @@ mod tests {
             name: "a.jpg".to_owned(),
             source: Source::File(vec![1, 2, 3].into()),
             used: None,
+            camera: None,
         }];
         let computed = Computed {
             by: COMPUTED_BY.to_owned(),

@@ -6,7 +6,7 @@ use super::features::FeaturesOf;
 use super::matches::MatchesOf;
 use super::photograph::Calibrated;
 use super::task::{Destination, Query, Task};
-use crate::project::{Given, Key, Project, SfmOptions, pairs};
+use crate::project::{InputPhoto, Key, Pose, Project, SfmOptions, pairs};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +44,39 @@ impl Component {
 
 #[cfg(any(feature = "vision", feature = "files"))]
 impl Component {
+    /// The component of the core's, the opposite of [`to_core`](Self::to_core).
+    #[cfg(feature = "vision")]
+    pub(super) fn from_core(found: &epipole::sfm::Reconstruction) -> Self {
+        use epipole::camera::PosedCamera;
+        use epipole::sfm::ScenePoint;
+        let camera = |camera: &PosedCamera| {
+            let (k, center) = (
+                camera.camera.intrinsics,
+                camera.camera.intrinsics.principal_point(),
+            );
+            CameraFound {
+                intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],
+                rotation: camera.cam_from_world.rotation.coords.into(),
+                translation: camera.cam_from_world.translation.vector.into(),
+            }
+        };
+        let point = |point: &ScenePoint| PointFound {
+            position: point.position.coords.into(),
+            color: point.color,
+            track: point.track.iter().map(|e| (e.image, e.keypoint)).collect(),
+            error_px: point.error_px,
+        };
+        // One lens took them all.
+        let lens = (found.cameras.iter().flatten().next()).map_or(Lens::NONE, |c| c.camera.lens);
+        Self {
+            cameras: (found.cameras.iter())
+                .map(|c| c.as_ref().map(camera))
+                .collect(),
+            lens,
+            points: found.points.iter().map(point).collect(),
+        }
+    }
+
     /// The component as the core has it.
     ///
     /// * `sizes`: width and height of each image, pixels
@@ -92,6 +125,8 @@ pub enum UnregisteredReason {
     FewPoints(u32),
     /// Number of visible points, which do not agree on a pose.
     NoPose(u32),
+    /// The opened model has no pose of it.
+    NoKnownPose,
 }
 
 /// The reconstruction from all photographs.
@@ -158,6 +193,8 @@ pub struct Reconstruct {
     pub pairs: Vec<PairOf>,
     /// Reconstruction settings.
     pub options: SfmOptions,
+    /// Known pose of each photograph: then only points are found. Empty if none is known.
+    pub poses: Vec<Option<Pose>>,
 }
 
 impl Task for Reconstruct {
@@ -192,6 +229,7 @@ impl Query for ReconstructionOfAll {
             inputs,
             matching,
             project.sfm_options(),
+            project.known_poses(),
         )))
     }
 
@@ -223,6 +261,7 @@ impl Query for ReconstructionOfAll {
             images: project.image_points()?,
             pairs,
             options: project.sfm_options(),
+            poses: project.known_poses(),
         })
     }
 
@@ -282,7 +321,7 @@ impl Reconstructed {
 impl Project {
     /// The photographs reduced to their keypoints, once all of them have features.
     pub(crate) fn image_points(&self) -> Option<Vec<ImagePoints>> {
-        let image = |photo: &&Given| {
+        let image = |photo: &&InputPhoto| {
             let features = self.get(FeaturesOf(photo.id))?;
             Some(ImagePoints {
                 name: photo.name.clone(),

@@ -1,18 +1,18 @@
 //! Code that finds cameras and points, photograph by photograph.
 
-use super::camera_found::CameraFound;
 use super::convert::sentence;
+use super::known_poses_run::triangulate;
 use super::photograph::Calibrated;
 use super::reconstruction::{
-    Component, ImagePoints, PairOf, PointFound, Reconstruct, Reconstructed, UnregisteredReason,
+    Component, ImagePoints, PairOf, Reconstruct, Reconstructed, UnregisteredReason,
 };
 use super::task::{Monitor, Progress, Run, Task};
-use epipole::camera::{Camera, Lens, PosedCamera};
+use epipole::camera::Camera;
 use epipole::feature::Match;
 use epipole::progress::Status;
 use epipole::sfm::{
-    IncrementalReconstruction, PairMatches, Reconstruction, ScenePoint, SfmInput, SfmStep,
-    WhyUnregistered as Why, why_unregistered,
+    IncrementalReconstruction, PairMatches, SfmInput, SfmStep, WhyUnregistered as Why,
+    why_unregistered,
 };
 
 impl Run for Reconstruct {
@@ -22,6 +22,7 @@ impl Run for Reconstruct {
             images,
             pairs,
             options,
+            poses,
         } = self;
         let plain = |pair: &PairOf| PairMatches {
             image1: pair.first as usize,
@@ -45,6 +46,9 @@ impl Run for Reconstruct {
             .with_refine_focal(options.refine_focal)
             .with_refine_distortion(options.refine_distortion)
             .with_seed(options.seed);
+        if !poses.is_empty() {
+            return triangulate(&input, &poses, &how, monitor);
+        }
         let mut share = 0.0;
         let mut run = IncrementalReconstruction::new(&input, &how, &mut |status: Status| {
             share = status.share;
@@ -73,7 +77,7 @@ impl Run for Reconstruct {
             let so_far = run.current().unwrap_or_default();
             let partial = Reconstructed {
                 mean_error_px: vec![so_far.mean_reprojection_px(&input.images)],
-                components: vec![component(&so_far)],
+                components: vec![Component::from_core(&so_far)],
                 ..Reconstructed::default()
             };
             if monitor(Progress::Share(share, &words)).is_break()
@@ -115,7 +119,7 @@ impl Run for Reconstruct {
         Ok(Reconstructed {
             determines_focal,
             before_correction_px,
-            components: found.components.iter().map(component).collect(),
+            components: found.components.iter().map(Component::from_core).collect(),
             costs: found.steps.iter().filter_map(SfmStep::cost).collect(),
             mean_error_px,
             reasons,
@@ -134,34 +138,5 @@ fn reason(why: &Why) -> UnregisteredReason {
         Why::NoPose { visible } => UnregisteredReason::NoPose(visible as u32),
         // Nothing ends a task early but cancellation, so `NotTried` does not occur.
         _ => UnregisteredReason::NoStart,
-    }
-}
-
-fn component(found: &Reconstruction) -> Component {
-    let camera = |camera: &PosedCamera| {
-        let (k, center) = (
-            camera.camera.intrinsics,
-            camera.camera.intrinsics.principal_point(),
-        );
-        CameraFound {
-            intrinsics: [k.fu_px(), k.fv_px(), center.x, center.y],
-            rotation: camera.cam_from_world.rotation.coords.into(),
-            translation: camera.cam_from_world.translation.vector.into(),
-        }
-    };
-    let point = |point: &ScenePoint| PointFound {
-        position: point.position.coords.into(),
-        color: point.color,
-        track: point.track.iter().map(|e| (e.image, e.keypoint)).collect(),
-        error_px: point.error_px,
-    };
-    // One lens took them all.
-    let lens = (found.cameras.iter().flatten().next()).map_or(Lens::NONE, |c| c.camera.lens);
-    Component {
-        cameras: (found.cameras.iter())
-            .map(|c| c.as_ref().map(camera))
-            .collect(),
-        lens,
-        points: found.points.iter().map(point).collect(),
     }
 }

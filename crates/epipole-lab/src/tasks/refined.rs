@@ -1,7 +1,7 @@
 //! Which parameters of lenses a reconstruction refines.
 
 use super::photograph::FocalOrigin;
-use crate::project::{Given, Project, RefineFocal, SfmOptions};
+use crate::project::{InputPhoto, Project, RefineFocal, SfmOptions};
 
 impl Project {
     /// Options of the reconstruction, with "when guessed" resolved.
@@ -10,7 +10,16 @@ impl Project {
             let mut photos = self.taking_part().into_iter();
             photos.any(|photo| self.focal_origin(photo) == Some(FocalOrigin::Guessed))
         };
-        let refine_focal = match self.document.settings.refine_focal {
+        let settings = &self.document.settings;
+        if self.document.poses.is_some() {
+            return SfmOptions {
+                refine_focal: false,
+                refine_distortion: false,
+                correct_lens: false,
+                ..settings.sfm
+            };
+        }
+        let refine_focal = match settings.refine_focal {
             RefineFocal::Always => true,
             RefineFocal::Never => false,
             RefineFocal::WhenGuessed => guessed(),
@@ -18,7 +27,7 @@ impl Project {
         SfmOptions {
             refine_focal,
             correct_lens: self.corrects_lens(),
-            ..self.document.settings.sfm
+            ..settings.sfm
         }
     }
 
@@ -26,7 +35,7 @@ impl Project {
     /// refinement is asked for.
     fn corrects_lens(&self) -> bool {
         let settings = &self.document.settings;
-        let is_open = |photo: &Given| {
+        let is_open = |photo: &InputPhoto| {
             let origin = self.focal_origin(photo);
             let is_told = matches!(origin, Some(FocalOrigin::Guessed | FocalOrigin::File));
             is_told && !photo.is_rendered()

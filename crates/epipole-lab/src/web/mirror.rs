@@ -13,12 +13,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Messages between page and toolkit.
 #[derive(Default)]
-pub(super) struct Told {
+pub(super) struct State {
     widgets: String,
     is_new: bool,
-    wishes: Vec<Wish>,
+    operations: Vec<Operation>,
     /// Actions sent in this pass, and their targets.
-    sent: Vec<(NodeId, Wish)>,
+    sent: Vec<(NodeId, Operation)>,
 }
 
 /// Number of passes in which a widget is searched for: numbers shift while a panel fills, and not
@@ -27,7 +27,7 @@ const PATIENCE: u8 = 5;
 
 /// A widget to be operated, as the page has seen it.
 #[derive(Clone)]
-pub(super) struct Wish {
+pub(super) struct Operation {
     pub(super) widget: u64,
     pub(super) role: String,
     pub(super) name: String,
@@ -37,7 +37,7 @@ pub(super) struct Wish {
     pub(super) missed: u8,
 }
 
-impl Wish {
+impl Operation {
     /// Finds the widget's current number. The toolkit counts widgets, so the number that the page
     /// read may belong to another one by now, such as the widget in the former place of "Undo".
     fn find(&self, widgets: &str) -> Option<NodeId> {
@@ -61,21 +61,21 @@ impl Wish {
 
 /// One end of the line between page and toolkit.
 #[derive(Clone, Default)]
-pub(super) struct Mirror(Arc<Mutex<Told>>);
+pub(super) struct Mirror(Arc<Mutex<State>>);
 
 impl Mirror {
-    fn told<R>(&self, with: impl FnOnce(&mut Told) -> R) -> R {
+    fn with_state<R>(&self, with: impl FnOnce(&mut State) -> R) -> R {
         with(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// All widgets, if they have changed since the last call.
-    pub(super) fn news(&self) -> Option<String> {
-        self.told(|told| std::mem::take(&mut told.is_new).then(|| told.widgets.clone()))
+    pub(super) fn changed_widgets(&self) -> Option<String> {
+        self.with_state(|state| std::mem::take(&mut state.is_new).then(|| state.widgets.clone()))
     }
 
     /// Operates a widget with the next frame.
-    pub(super) fn wish(&self, wish: Wish) {
-        self.told(|told| told.wishes.push(wish));
+    pub(super) fn operate(&self, operation: Operation) {
+        self.with_state(|state| state.operations.push(operation));
     }
 }
 
@@ -89,13 +89,13 @@ impl egui::Plugin for Mirror {
     }
 
     fn input_hook(&mut self, _context: &egui::Context, input: &mut egui::RawInput) {
-        let sent = self.told(|told| {
-            let wishes = std::mem::take(&mut told.wishes);
-            let found = |wish: Wish| Some((wish.find(&told.widgets)?, wish));
-            told.sent = wishes.into_iter().filter_map(found).collect();
-            told.sent.clone()
+        let sent = self.with_state(|state| {
+            let operations = std::mem::take(&mut state.operations);
+            let found = |operation: Operation| Some((operation.find(&state.widgets)?, operation));
+            state.sent = operations.into_iter().filter_map(found).collect();
+            state.sent.clone()
         });
-        for (target_node, Wish { value, .. }) in sent {
+        for (target_node, Operation { value, .. }) in sent {
             let request = ActionRequest {
                 action: value.map_or(Action::Click, |_| Action::SetValue),
                 target_tree: TreeId::ROOT,
@@ -111,25 +111,26 @@ impl egui::Plugin for Mirror {
     fn output_hook(&mut self, context: &egui::Context, output: &mut egui::FullOutput) {
         if let Some(update) = output.platform_output.accesskit_update.take() {
             let widgets = lines(&update);
-            let again = self.told(|told| {
+            let again = self.with_state(|state| {
                 // A widget that got another number in this very pass has heard nothing.
                 let has_heard = |id: NodeId, role: &str| {
                     let known = format!("{}\t{role}\t", id.0);
                     widgets.lines().any(|line| line.starts_with(&known))
                 };
-                let sent = std::mem::take(&mut told.sent).into_iter();
-                let missed =
-                    sent.filter(|(id, wish)| !has_heard(*id, &wish.role) && wish.missed < PATIENCE);
-                let missed = missed.map(|(_, mut wish)| {
-                    wish.missed += 1;
-                    wish
+                let sent = std::mem::take(&mut state.sent).into_iter();
+                let missed = sent.filter(|(id, operation)| {
+                    !has_heard(*id, &operation.role) && operation.missed < PATIENCE
                 });
-                told.wishes.extend(missed);
-                if told.widgets != widgets {
-                    told.widgets = widgets;
-                    told.is_new = true;
+                let missed = missed.map(|(_, mut operation)| {
+                    operation.missed += 1;
+                    operation
+                });
+                state.operations.extend(missed);
+                if state.widgets != widgets {
+                    state.widgets = widgets;
+                    state.is_new = true;
                 }
-                !told.wishes.is_empty()
+                !state.operations.is_empty()
             });
             if again {
                 context.request_repaint();

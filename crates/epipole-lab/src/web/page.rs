@@ -1,9 +1,9 @@
 //! The wasm interface: exports for the page, imports from it.
 
-use super::mirror::{Mirror, Wish};
+use super::mirror::{Mirror, Operation};
 use super::shell::{Inbox, Page, Shell};
 use crate::app::{App, prepare, set_theme};
-use crate::session::{Arrival, JobId, Report, Stored};
+use crate::session::{HostEvent, JobId, Report, Stored};
 use eframe::web_sys::HtmlCanvasElement;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -149,13 +149,13 @@ impl Lab {
     pub fn deliver(&self) {
         self.receive(|inbox| {
             let photographs = std::mem::take(&mut inbox.photographs);
-            inbox.arrivals.push(Arrival::Photographs(photographs));
+            inbox.host_events.push(HostEvent::Photographs(photographs));
         });
     }
 
     /// Announces a video whose frames can be requested.
     pub fn video(&self, video: u32) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Video(video)));
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Video(video)));
     }
 
     /// Delivers a frame of the requested part of a video, to be used with the next [`Lab::frames`].
@@ -167,7 +167,9 @@ impl Lab {
     pub fn frames(&self, video: u32, name: String) {
         self.receive(|inbox| {
             let frames = std::mem::take(&mut inbox.frames);
-            inbox.arrivals.push(Arrival::Frames(video, name, frames));
+            inbox
+                .host_events
+                .push(HostEvent::Frames(video, name, frames));
         });
     }
 
@@ -176,13 +178,13 @@ impl Lab {
     pub fn no_frames(&self, video: u32, sentence: String) {
         self.receive(|inbox| {
             inbox.frames.clear();
-            inbox.arrivals.push(Arrival::NoFrames(video, sentence));
+            inbox.host_events.push(HostEvent::NoFrames(video, sentence));
         });
     }
 
     /// Shows progress or an error message.
-    pub fn news(&self, sentence: String) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::News(sentence)));
+    pub fn notice(&self, sentence: String) {
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Notice(sentence)));
     }
 
     /// Applies the parameters of an address: names and values by turns.
@@ -191,21 +193,35 @@ impl Lab {
         let parameters = pairs
             .map(|pair| (pair[0].clone(), pair[1].clone()))
             .collect();
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Link(parameters)));
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Link(parameters)));
     }
 
     /// Delivers the precomputed results of the sample; empty if they could not be loaded.
     pub fn solved(&self, computed: Vec<u8>) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Results(computed.into())));
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Results(computed.into())));
     }
 
     /// Opens a project.
     pub fn project(&self, archive: Vec<u8>) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Project(archive.into())));
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Project(archive.into())));
+    }
+
+    /// Delivers a file of cameras, to be opened with the next [`Lab::cameras`].
+    #[wasm_bindgen(js_name = cameraFile)]
+    pub fn camera_file(&self, name: String, bytes: Vec<u8>) {
+        self.inbox.borrow_mut().cameras.push((name, bytes.into()));
+    }
+
+    /// All files of cameras that were chosen together have been delivered.
+    pub fn cameras(&self) {
+        self.receive(|inbox| {
+            let cameras = std::mem::take(&mut inbox.cameras);
+            inbox.host_events.push(HostEvent::Cameras(cameras));
+        });
     }
 
     fn stored(&self, stored: Stored) {
-        self.receive(|inbox| inbox.arrivals.push(Arrival::Stored(stored)));
+        self.receive(|inbox| inbox.host_events.push(HostEvent::Stored(stored)));
     }
 
     /// Delivers the project that the browser keeps.
@@ -243,13 +259,13 @@ impl Lab {
 
     /// All widgets, if they have changed: one per line, in the format of `mirror.rs`.
     pub fn widgets(&self) -> Option<String> {
-        self.mirror.news()
+        self.mirror.changed_widgets()
     }
 
     /// Operates a widget, by its number, role and name: clicks it, or sets its number.
     pub fn operate(&self, widget: &str, role: String, name: String, value: Option<f64>) {
         let Ok(widget) = widget.parse() else { return };
-        self.mirror.wish(Wish {
+        self.mirror.operate(Operation {
             widget,
             role,
             name,

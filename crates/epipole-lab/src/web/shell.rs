@@ -1,7 +1,7 @@
 //! The page's side: functions of its script, and input that waits for the next frame.
 
 use crate::project::{Blob, Explanation};
-use crate::session::{Arrival, Host, JobId, Report};
+use crate::session::{Host, HostEvent, JobId, Report};
 use crate::tasks::Branch;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -24,6 +24,8 @@ extern "C" {
     fn ask_for_photographs(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForProject)]
     fn ask_for_project(this: &Shell);
+    #[wasm_bindgen(method, structural, js_name = askForCameraFiles)]
+    fn ask_for_camera_files(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForCamera)]
     fn ask_for_camera(this: &Shell);
     #[wasm_bindgen(method, structural, js_name = askForFrames)]
@@ -48,8 +50,9 @@ extern "C" {
 #[derive(Default)]
 pub(super) struct Inbox {
     pub(super) reports: Vec<Report>,
-    pub(super) arrivals: Vec<Arrival>,
+    pub(super) host_events: Vec<HostEvent>,
     pub(super) photographs: Vec<(String, Blob)>,
+    pub(super) cameras: Vec<(String, Blob)>,
     pub(super) frames: Vec<Blob>,
     pub(super) theme: Option<String>,
     pub(super) context: Option<egui::Context>,
@@ -82,8 +85,8 @@ impl Host for Page {
         std::mem::take(&mut self.inbox.borrow_mut().reports)
     }
 
-    fn arrivals(&mut self) -> Vec<Arrival> {
-        std::mem::take(&mut self.inbox.borrow_mut().arrivals)
+    fn host_events(&mut self) -> Vec<HostEvent> {
+        std::mem::take(&mut self.inbox.borrow_mut().host_events)
     }
 
     fn brings_sample(&self) -> bool {
@@ -97,6 +100,11 @@ impl Host for Page {
 
     fn ask_for_project(&mut self) -> bool {
         self.shell.ask_for_project();
+        true
+    }
+
+    fn ask_for_camera_files(&mut self) -> bool {
+        self.shell.ask_for_camera_files();
         true
     }
 

@@ -67,6 +67,15 @@ fn the_cloud_of_all_views_lies_on_the_scene() {
     let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
     println!("{one} {five} of {}", off.len());
     assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
+    let num_triangles = cloud.triangles().len();
+    assert!(num_triangles > 5_000, "{num_triangles}");
+    let vertices = cloud.vertices().step_by(100);
+    let off: Vec<f64> = vertices
+        .map(|vertex| error(&project, &vertex).unwrap_or(f64::INFINITY))
+        .collect();
+    let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+    println!("{num_triangles} triangles, {one} {five} of {}", off.len());
+    assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
 }
 
 #[test]
@@ -110,11 +119,25 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
         assert_eq!(ply.colors[index], point.color);
         assert_eq!(ply.confidences[index], f32::from(point.num_views));
     }
-    assert!(
-        String::from_utf8(read("README.txt"))
-            .unwrap()
-            .contains("fused.ply")
+    let (mesh, notes) = read_ply(&read("mesh.ply")).unwrap();
+    let num_vertices = found.vertices().len();
+    assert_eq!(mesh.points.len(), num_vertices);
+    let num_triangles = found.triangles().len();
+    assert_eq!(
+        notes,
+        [format!(
+            "{num_triangles} faces are not read: a mesh becomes points"
+        )]
     );
+    // The vertices follow the points.
+    let vertex = found.point((found.len() + 70) as u32).unwrap();
+    let up = (Vector3::from(vertex.position) - floor.origin.coords).dot(&floor.up);
+    assert!((mesh.points[70].z - up * scale.meters_per_unit).abs() < 1e-4);
+    assert_eq!(mesh.colors[70], vertex.color);
+    let readme = String::from_utf8(read("README.txt")).unwrap();
+    for file in ["fused.ply", "mesh.ply"] {
+        assert!(readme.contains(file), "{readme}");
+    }
     project.update(Event::Show(Step::Export));
     let words = format!("{} points from all views", found.len());
     assert!(

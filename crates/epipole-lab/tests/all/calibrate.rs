@@ -212,9 +212,9 @@ fn the_camera_is_used_for_photographs_of_its_size() {
     let id = project.document().photos[0].id;
     project.update(Event::Focal(vec![id], Some(700.0)));
     finish(&mut project);
-    project.update(Event::UseCalibration(true));
-    finish(&mut project);
     let camera = project.get(CalibrationOfBoards).unwrap().camera.clone();
+    project.update(Event::UseCamera(Some(camera.clone())));
+    finish(&mut project);
     let [fits, other] = &project.document().photos[..] else {
         panic!("two photographs")
     };
@@ -282,7 +282,8 @@ fn the_camera_is_turned_with_photographs_taken_upright() {
         ("silent.jpg".to_owned(), jpeg(&silent, 1)),
     ]));
     finish(&mut project);
-    project.update(Event::UseCalibration(true));
+    let camera = project.get(CalibrationOfBoards).unwrap().camera.clone();
+    project.update(Event::UseCamera(Some(camera)));
     finish(&mut project);
     let [lying, upright, upside, silent] = &project.document().photos[..] else {
         panic!("four photographs");

@@ -2,7 +2,8 @@
 
 use crate::common::output;
 use epipole_lab::project::{
-    Anchor, Blob, CloudPoint, DensePixel, Measure, Project, Sample, Settings, Step,
+    Anchor, Blob, CloudPoint, DensePixel, LensCamera, LensModel, Measure, Project, Sample,
+    Settings, Step,
 };
 use epipole_lab::session::Event;
 use epipole_lab::tasks::OpenProject;
@@ -14,6 +15,16 @@ fn length() -> impl Strategy<Value = Option<f64>> {
         any::<f64>().prop_map(Some),
         (0.1..10.0).prop_map(Some)
     ]
+}
+
+fn lens_camera() -> impl Strategy<Value = LensCamera> {
+    let numbers = prop::collection::vec(any::<f64>(), 5);
+    (any::<[f64; 4]>(), numbers).prop_map(|(k, coefficients)| LensCamera {
+        size: (640, 480),
+        k,
+        lens: LensModel::Brown,
+        coefficients,
+    })
 }
 
 fn settings() -> impl Strategy<Value = Settings> {
@@ -79,7 +90,7 @@ fn event() -> impl Strategy<Value = Event> {
             .prop_map(|(name, bytes)| Event::AddBoards(vec![(name, Blob::from(bytes))])),
         Just(Event::OpenBoards),
         Just(Event::ClearBoards),
-        any::<bool>().prop_map(Event::UseCalibration),
+        prop::option::of(lens_camera()).prop_map(Event::UseCamera),
         any::<bool>().prop_map(Event::AllViews),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
         (id.clone(), length()).prop_map(|(id, f)| Event::Focal(vec![id], f)),
@@ -157,7 +168,7 @@ proptest! {
         let (a, b) = (project.document(), again.document());
         prop_assert_eq!(&a.settings, &b.settings);
         prop_assert_eq!(a.measures.len(), b.measures.len());
-        let plain = |p: &epipole_lab::project::Given| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px);
+        let plain = |p: &epipole_lab::project::InputPhoto| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px);
         let photos = |d: &epipole_lab::project::Document| d.photos.iter().map(plain).collect::<Vec<_>>();
         prop_assert_eq!(photos(a), photos(b));
         let boards = |d: &epipole_lab::project::Document| d.boards.iter().map(plain).collect::<Vec<_>>();

@@ -7,8 +7,8 @@ use crate::common::{finish, reopened, solved};
 use epipole_lab::project::{Blob, COMPUTED_BY, Computed, Project, Sample, Step};
 use epipole_lab::session::{Event, Pending};
 use epipole_lab::tasks::{
-    AnyQuery, FeaturesOf, MatchesOf, Output, PhotographOf, Query, ReconstructionOfAll, Request,
-    Task, TwoViewsOf,
+    AnyQuery, ExportFormat, FeaturesOf, MatchesOf, Output, PhotographOf, Query,
+    ReconstructionOfAll, Request, Task, TwoViewsOf,
 };
 
 fn table() -> Project {
@@ -46,9 +46,12 @@ fn the_sample_comes_solved_and_only_its_pixels_are_left_to_be_made() {
         done.camera(&done.document().photos[0])
     );
     assert!(project.photograph(first).is_none());
-    assert!(!project.can_export() && project.export_request().is_none());
+    assert!(!project.can_export() && project.export_request(ExportFormat::default()).is_none());
     assert_eq!(finish(&mut project), 9);
-    assert_eq!(project.export_request(), done.export_request());
+    assert_eq!(
+        project.export_request(ExportFormat::default()),
+        done.export_request(ExportFormat::default())
+    );
     assert!(project.can_export());
     // Loaded results count as computed: undo finds them.
     let id = project.document().photos[0].id;

@@ -5,7 +5,7 @@
 mod mirror;
 
 use egui::{Context, RawInput};
-use mirror::{Mirror, Wish};
+use mirror::{Mirror, Operation};
 
 /// Lines of text above two buttons: the toolkit counts widgets, so the lines shift the numbers of
 /// the buttons.
@@ -56,7 +56,7 @@ impl Page {
             fields[1] == "button" && fields[2] == name
         });
         let widget = line.unwrap().split('\t').next().unwrap().parse().unwrap();
-        self.mirror.wish(Wish {
+        self.mirror.operate(Operation {
             widget,
             role: "button".to_owned(),
             name: name.to_owned(),
@@ -69,19 +69,22 @@ impl Page {
 #[test]
 fn a_button_is_pressed_once() {
     let mut page = Page::new();
-    let told = page.mirror.news().unwrap();
+    let told = page.mirror.changed_widgets().unwrap();
     page.press(&told, "Undo");
     for _ in 0..9 {
         page.frame();
     }
     assert_eq!((page.undone, page.redone), (1, 0));
-    assert!(page.mirror.news().is_none(), "nothing has changed");
+    assert!(
+        page.mirror.changed_widgets().is_none(),
+        "nothing has changed"
+    );
 }
 
 #[test]
 fn a_button_that_gets_another_number_meanwhile_is_pressed_once_all_the_same() {
     let mut page = Page::new();
-    let told = page.mirror.news().unwrap();
+    let told = page.mirror.changed_widgets().unwrap();
     page.press(&told, "Redo");
     // In the frame of the action, its number is another one, and its former number is that of a
     // line.
@@ -95,7 +98,7 @@ fn a_button_that_gets_another_number_meanwhile_is_pressed_once_all_the_same() {
 #[test]
 fn what_is_gone_is_not_pressed_later() {
     let mut page = Page::new();
-    let told = page.mirror.news().unwrap();
+    let told = page.mirror.changed_widgets().unwrap();
     page.press(&told, "Undo");
     page.press(&told, "Redo");
     // Numbers that change with each frame are not found for ever.
@@ -121,7 +124,7 @@ fn what_stands_in_an_open_menu_names_what_opened_it() {
         assert_eq!(line.len(), 10, "{line:?}");
         Some(line[field].to_owned())
     };
-    let told = page.mirror.news().unwrap();
+    let told = page.mirror.changed_widgets().unwrap();
     assert_eq!(field(&told, "More", 8).unwrap(), "closed");
     assert_eq!(field(&told, "Undo", 8).unwrap(), "");
     assert_eq!(field(&told, "Deep", 9), None);
@@ -129,7 +132,7 @@ fn what_stands_in_an_open_menu_names_what_opened_it() {
     for _ in 0..9 {
         page.frame();
     }
-    let told = page.mirror.news().unwrap();
+    let told = page.mirror.changed_widgets().unwrap();
     assert_eq!(field(&told, "More", 8).unwrap(), "open");
     assert_eq!(field(&told, "Deep", 9), field(&told, "More", 0));
     assert_eq!(field(&told, "Undo", 9).unwrap(), "");

@@ -78,8 +78,8 @@ fn num_colors(picture: &RgbImage) -> usize {
 fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
     let (mut bench, raster) = open(width, height, scale);
     let link = vec![("all-views-megapixels".to_owned(), "0.05".to_owned())];
-    let arrival = epipole_lab::session::Arrival::Link(link);
-    bench.state_mut().host().arrivals.push(arrival);
+    let host_event = epipole_lab::session::HostEvent::Link(link);
+    bench.state_mut().host().host_events.push(host_event);
     rest(&mut bench);
     for theme in ["light", "dark"] {
         set_theme(&bench.ctx, theme);
@@ -98,6 +98,10 @@ fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
             if step == Step::Depth {
                 all_views(&mut bench);
                 check(&bench, &raster, &format!("{name}-all-views"), width);
+                bench.get_by_label("surface").click_accesskit();
+                rest(&mut bench);
+                check(&bench, &raster, &format!("{name}-surface"), width);
+                bench.get_by_label("points").click_accesskit();
                 bench.get_by_label("One pair").click_accesskit();
             }
         }

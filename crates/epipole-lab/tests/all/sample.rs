@@ -1,6 +1,7 @@
 //! The whole line, from photographs to files, on the sample; and that it is the core's own.
 
 use crate::common::depth::every_pixel_has_its_depth;
+use crate::common::formats::every_format_can_be_read_again;
 use crate::common::growing::it_grows_as_one_watches;
 use crate::common::measured::{a_known_length_sets_the_scale, three_points_set_the_floor};
 use crate::common::{exported, finish, sentences, solved, steps_between};
@@ -57,6 +58,7 @@ fn the_sample_is_solved_as_the_core_solves_it() {
     a_known_length_sets_the_scale(&mut project);
     three_points_set_the_floor(&mut project);
     the_files_can_be_read_again(&project);
+    every_format_can_be_read_again(&project);
     every_pixel_has_its_depth(&mut project);
     it_grows_as_one_watches(&mut project);
     knobs_recompute_what_follows_and_undo_is_instant(&mut project);

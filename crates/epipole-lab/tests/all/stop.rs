@@ -5,7 +5,7 @@
 use crate::common::computed;
 use epipole_lab::project::{Blob, Project, Sample, Step};
 use epipole_lab::session::Event;
-use epipole_lab::tasks::{AnyQuery, Calibrated, Request, VerifyPair, compute};
+use epipole_lab::tasks::{AnyQuery, Calibrated, ExportFormat, Request, VerifyPair, compute};
 use std::ops::ControlFlow;
 
 /// Computes the request and cancels at once.
@@ -50,7 +50,7 @@ fn every_long_task_stops_when_it_is_told_to() {
     }
     assert_eq!(kinds, [true; 8], "each of them was asked for");
     // An archive for which photographs must be read once more.
-    let mut export = project.export_request().unwrap();
+    let mut export = project.export_request(ExportFormat::default()).unwrap();
     for photograph in &mut export.photographs {
         photograph.used.as_mut().unwrap().rgb = Blob::default();
     }

@@ -4,14 +4,14 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use epipole_lab::app::{App, prepare};
 use epipole_lab::project::Explanation;
-use epipole_lab::session::{Arrival, Host, JobId, Report, Stored};
+use epipole_lab::session::{Host, HostEvent, JobId, Report, Stored};
 use epipole_lab::tasks::Branch;
 
 /// A host that computes at once.
 #[derive(Default)]
 pub(crate) struct Desk {
     pub(crate) reports: Vec<Report>,
-    pub(crate) arrivals: Vec<Arrival>,
+    pub(crate) host_events: Vec<HostEvent>,
     pub(crate) saved: Vec<(String, Vec<u8>)>,
     pub(crate) said: String,
     pub(crate) asked: usize,
@@ -51,8 +51,8 @@ impl Host for Desk {
         std::mem::take(&mut self.reports)
     }
 
-    fn arrivals(&mut self) -> Vec<Arrival> {
-        std::mem::take(&mut self.arrivals)
+    fn host_events(&mut self) -> Vec<HostEvent> {
+        std::mem::take(&mut self.host_events)
     }
 
     fn brings_sample(&self) -> bool {
@@ -65,6 +65,11 @@ impl Host for Desk {
     }
 
     fn ask_for_project(&mut self) -> bool {
+        self.asked += 1;
+        true
+    }
+
+    fn ask_for_camera_files(&mut self) -> bool {
         self.asked += 1;
         true
     }
@@ -100,8 +105,8 @@ impl Host for Desk {
     }
 
     fn keep(&mut self, project: Vec<u8>) {
-        let arrival = Arrival::Stored(Stored::Written(project.len()));
-        self.arrivals.push(arrival);
+        let host_event = HostEvent::Stored(Stored::Written(project.len()));
+        self.host_events.push(host_event);
         self.kept = Some(project);
     }
 
@@ -111,8 +116,8 @@ impl Host for Desk {
 
     fn ask_for_kept(&mut self) {
         let kept = self.kept.clone();
-        let arrival = kept.map(|project| Arrival::Stored(Stored::Project(project.into())));
-        self.arrivals.extend(arrival);
+        let host_event = kept.map(|project| HostEvent::Stored(Stored::Project(project.into())));
+        self.host_events.extend(host_event);
     }
 
     fn say(&mut self, words: &str) {

@@ -5,6 +5,7 @@
 pub(crate) mod depth;
 #[cfg(feature = "panels")]
 pub(crate) mod desk;
+pub(crate) mod formats;
 pub(crate) mod growing;
 pub(crate) mod measured;
 #[cfg(feature = "panels")]
@@ -12,7 +13,7 @@ pub(crate) mod raster;
 
 use epipole_lab::project::{Blob, Project, Sample, Step};
 use epipole_lab::session::Event;
-use epipole_lab::tasks::{CameraFound, OpenProject, Request, Task, compute};
+use epipole_lab::tasks::{CameraFound, ExportFormat, OpenProject, Request, Task, compute};
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use std::collections::HashMap;
 use std::io::{Cursor, Read};
@@ -60,16 +61,26 @@ pub(crate) fn output<T: Task + Into<Request>>(task: T) -> Result<T::Output, Stri
     T::read(&bytes)
 }
 
-/// Reads the files of a project's export by their names.
-pub(crate) fn exported(project: &Project) -> impl FnMut(&str) -> Vec<u8> + use<> {
-    let bytes = output(project.export_request().expect("there is something")).unwrap();
+/// Reads the files of a project's export by their names; `None` if a file is not there.
+pub(crate) fn files_for(
+    project: &Project,
+    format: ExportFormat,
+) -> impl FnMut(&str) -> Option<Vec<u8>> + use<> {
+    let export = project.export_request(format).expect("there is something");
+    let bytes = output(export).unwrap();
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes.to_vec())).expect("it can be read");
     move |name| {
         let mut content = Vec::new();
-        let mut file = archive.by_name(name).expect("the file is there");
+        let mut file = archive.by_name(name).ok()?;
         file.read_to_end(&mut content).expect("it is whole");
-        content
+        Some(content)
     }
+}
+
+/// The same for files that are there, cameras and points as COLMAP's text.
+pub(crate) fn exported(project: &Project) -> impl FnMut(&str) -> Vec<u8> + use<> {
+    let mut file = files_for(project, ExportFormat::ColmapText);
+    move |name| file(name).expect("the file is there")
 }
 
 /// Distances between neighboring cameras, in units of the reconstruction.

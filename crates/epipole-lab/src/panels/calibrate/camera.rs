@@ -3,9 +3,9 @@
 use crate::panels::screen::{Action, Screen};
 use crate::panels::widgets::controls::{self, Change};
 use crate::panels::widgets::look;
-use crate::project::{BoardPattern, Given, LensModel, MAX_MARKS, SQUARES_M, Step};
+use crate::project::{BoardPattern, InputPhoto, LensModel, MAX_MARKS, SQUARES_M, Step};
 use crate::session::{BoardOutcome, Event};
-use crate::tasks::{Calibration, CalibrationOfBoards};
+use crate::tasks::{Calibration, CalibrationOfBoards, CameraFormat};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
 use epipole_canvas::theme::Role;
 
@@ -19,6 +19,9 @@ pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut U
         if ui.button("Take photographs…").clicked() {
             screen.actions.push(Action::TakePhotographs);
         }
+        if ui.button("Open a camera file…").clicked() {
+            screen.actions.push(Action::OpenCameras);
+        }
         let any = !project.document().boards.is_empty();
         let remove = egui::Button::new("Remove all");
         if ui.add_enabled(any, remove).clicked() {
@@ -31,7 +34,7 @@ pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut U
     if !used.is_empty() {
         ui.label(used.trim());
         if ui.button("Stop using it").clicked() {
-            screen.send(Event::UseCalibration(false));
+            screen.send(Event::UseCamera(None));
         }
     }
     match project.get(CalibrationOfBoards) {
@@ -120,10 +123,19 @@ fn camera(screen: &mut Screen<'_>, found: &Calibration, all_marks: &mut bool, ui
         let is_used = project.document().camera.as_ref() == Some(&found.camera);
         let button = egui::Button::new("Use for my photographs");
         if ui.add_enabled(!is_used, button).clicked() {
-            screen.send(Event::UseCalibration(true));
+            screen.send(Event::UseCamera(Some(found.camera.clone())));
         }
         if ui.button("Save camera.json").clicked() {
             screen.actions.push(Action::SaveCamera);
+        }
+        for (format, button) in [
+            (CameraFormat::OpenCv, "Save for OpenCV"),
+            (CameraFormat::Ros, "Save for ROS"),
+            (CameraFormat::Colmap, "Save for COLMAP"),
+        ] {
+            if ui.button(button).clicked() {
+                screen.actions.push(Action::SaveCameraAs(format));
+            }
         }
     });
     controls::row(ui, "error", format!("{:.3} px", found.rms_px));
@@ -186,7 +198,7 @@ fn errors(screen: &mut Screen<'_>, found: &Calibration, ui: &mut Ui) {
 }
 
 /// The photograph that is looked at.
-fn one(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
+fn one(screen: &mut Screen<'_>, ui: &mut Ui, given: &InputPhoto) {
     let project = screen.project;
     ui.strong(&given.name);
     let words = project.board_words(given);

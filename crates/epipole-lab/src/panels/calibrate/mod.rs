@@ -1,6 +1,6 @@
 //! A camera from photographs of a board: where its marks are, and how sure the camera is.
 
-use crate::project::Given;
+use crate::project::InputPhoto;
 use crate::session::{BoardOutcome, Event};
 use crate::tasks::{BoardFound, BoardOf};
 mod camera;
@@ -50,7 +50,7 @@ impl Panel for Calibrate {
 }
 
 impl Calibrate {
-    fn large(&mut self, screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, given: &Given) {
+    fn large(&mut self, screen: &mut Screen<'_>, ui: &mut Ui, rect: Rect, given: &InputPhoto) {
         let project = screen.project;
         let Some(found) = project.get(BoardOf(given.id)) else {
             ui.painter()
@@ -97,7 +97,7 @@ impl Calibrate {
     }
 }
 
-fn card(screen: &mut Screen<'_>, ui: &mut Ui, given: &Given) {
+fn card(screen: &mut Screen<'_>, ui: &mut Ui, given: &InputPhoto) {
     let project = screen.project;
     let selected = project.view().board == given.id;
     ui.vertical(|ui| {

@@ -35,6 +35,8 @@ struct Made {
     photographs: usize,
     /// Whether points that photographs share are shown.
     sparse: bool,
+    /// Whether the surface of all views is shown.
+    surface: bool,
     /// Number of cameras so far, during a reconstruction.
     growing: Option<usize>,
     dense: Vec<Key>,
@@ -57,6 +59,8 @@ pub(crate) struct CloudView {
     pub(crate) photographs: bool,
     /// Whether points that photographs share are shown beside dense ones.
     pub(crate) sparse: bool,
+    /// Whether the surface of all views is shown in place of their points.
+    pub(crate) surface: bool,
     /// The point that was clicked.
     pub(crate) point: Option<usize>,
     made: Option<Made>,
@@ -78,6 +82,7 @@ impl Default for CloudView {
             coloring: Coloring::default(),
             photographs: true,
             sparse: true,
+            surface: false,
             point: None,
             made: None,
             orbit: None,
@@ -177,7 +182,7 @@ impl CloudView {
         );
         self.point = match clicked {
             Click::Point(point) => Some(point),
-            Click::Missed | Click::Dense(_) => None,
+            Click::Missed | Click::Dense(_) | Click::Vertex(_) => None,
         };
         Some(clicked)
     }
@@ -219,6 +224,7 @@ impl CloudView {
             },
             growing: (project.component().is_none()).then(|| component.num_registered()),
             sparse: self.sparse || !has_dense(project),
+            surface: self.surface,
             dense: dense_keys(project),
             floor: project.floor(),
         };
@@ -245,7 +251,7 @@ impl CloudView {
             (point.position.map(|x| x as f32), color)
         }));
         self.num_shared = self.scene.points.len();
-        add_dense(&mut self.scene.points, project);
+        add_dense(&mut self.scene, project, self.surface);
         let mut sum = nalgebra::Vector3::zeros();
         for camera in component.cameras.iter().flatten() {
             let [_, _, cu, cv] = camera.intrinsics;

@@ -89,18 +89,15 @@ pub(crate) fn book(ui: &mut Ui, step: Step) {
     }
 }
 
-/// Shows the photographs to choose from. Returns the one that was clicked.
-pub(crate) fn choose(
-    project: &Project,
+/// Shows a list to choose from. Returns the entry that was clicked.
+pub(crate) fn choose<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
-    current: u32,
-    but: Option<u32>,
-) -> Option<u32> {
-    let text = project
-        .document()
-        .photo(current)
-        .map_or("none", |photo| &photo.name);
+    current: T,
+    entries: &[(T, &str)],
+) -> Option<T> {
+    let shown = entries.iter().find(|(entry, _)| *entry == current);
+    let text = shown.map_or("none", |(_, text)| text);
     let mut chosen = None;
     ui.horizontal(|ui| {
         let label = ui.label(name);
@@ -109,27 +106,40 @@ pub(crate) fn choose(
             .selected_text(text)
             .truncate()
             .width(ui.available_width().min(190.0));
-        let mut photos = |ui: &mut Ui| {
-            for photo in &project.document().photos {
-                let other = Some(photo.id) != but;
-                if other && menu::choice(ui, photo.id == current, &photo.name) {
-                    chosen = Some(photo.id);
+        let mut list = |ui: &mut Ui| {
+            for &(entry, text) in entries {
+                if menu::choice(ui, entry == current, text) {
+                    chosen = Some(entry);
                 }
             }
         };
-        let shown = combo.show_ui(ui, |ui| menu::offer(ui, &mut photos));
+        let shown = combo.show_ui(ui, |ui| menu::offer(ui, &mut list));
         menu::go_on(ui, &shown);
         shown.response.labelled_by(label.id);
     });
     chosen
 }
 
+/// Shows the photographs to choose from, but for one. Returns the one that was clicked.
+pub(crate) fn choose_photograph(
+    project: &Project,
+    ui: &mut Ui,
+    name: &str,
+    current: u32,
+    but: Option<u32>,
+) -> Option<u32> {
+    let photos = project.document().photos.iter();
+    let others = photos.filter(|photo| Some(photo.id) != but);
+    let entries: Vec<_> = others.map(|photo| (photo.id, &*photo.name)).collect();
+    choose(ui, name, current, &entries)
+}
+
 /// Shows both photographs of a pair to choose from. True if another pair was chosen.
 pub(crate) fn choose_pair(screen: &mut Screen<'_>, ui: &mut Ui) -> bool {
     let project = screen.project;
     let (a, b) = project.view().pair;
-    let first = choose(project, ui, "First", a, Some(b));
-    let second = choose(project, ui, "Second", b, Some(a));
+    let first = choose_photograph(project, ui, "First", a, Some(b));
+    let second = choose_photograph(project, ui, "Second", b, Some(a));
     let is_other = first.is_some() || second.is_some();
     if is_other {
         screen.send(Event::LookAtPair(first.unwrap_or(a), second.unwrap_or(b)));

@@ -2,7 +2,7 @@
 
 use crate::project::{Anchor, DensePixel, Key, Project};
 use crate::tasks::{CameraFound, Component, Dense, DenseCloud, FeaturesOf, Thumbnail};
-use epipole_canvas::cloud::{Line, Picture};
+use epipole_canvas::cloud::{Line, Picture, Scene};
 use std::sync::Arc;
 
 /// The edges of a camera's view, so far out.
@@ -107,6 +107,12 @@ pub(super) fn dense_keys(project: &Project) -> Vec<Key> {
     all_views.into_iter().chain(pairs).collect()
 }
 
+/// Whether the surface of all views is shown: if it is wanted and has triangles.
+fn shows_surface(project: &Project, is_wanted: bool) -> bool {
+    let cloud = project.all_views().filter(|_| is_wanted);
+    cloud.is_some_and(|(_, cloud)| !cloud.triangles.is_empty())
+}
+
 /// The cloud of all views, its key, and the step from one shown point to the next.
 fn shown_cloud(project: &Project) -> Option<(Key, &DenseCloud, usize)> {
     let (key, cloud) = project.all_views()?;
@@ -123,9 +129,18 @@ fn shown_pixels(project: &Project) -> (f64, u32) {
     (all, every as u32)
 }
 
+/// The anchor of a vertex of the surface.
+pub(crate) fn vertex_anchor(project: &Project, vertex: usize) -> Option<Anchor> {
+    let (key, cloud) = project.all_views()?;
+    project.anchor_of_cloud(key, (cloud.len() + vertex) as u32)
+}
+
 /// The anchor of a shown dense point, counted from the first one.
-pub(crate) fn dense_anchor(project: &Project, index: usize) -> Option<Anchor> {
-    let num_fused = match shown_cloud(project) {
+///
+/// * `as_surface`: whether the surface is wanted, not the points of all views
+pub(crate) fn dense_anchor(project: &Project, index: usize, as_surface: bool) -> Option<Anchor> {
+    let as_surface = shows_surface(project, as_surface);
+    let num_fused = match shown_cloud(project).filter(|_| !as_surface) {
         Some((key, cloud, every)) => {
             let num_shown = cloud.len().div_ceil(every);
             if index < num_shown {
@@ -153,10 +168,14 @@ pub(crate) fn dense_anchor(project: &Project, index: usize) -> Option<Anchor> {
     })
 }
 
-/// Adds dense points after those that photographs share: of all views, then of pairs.
-pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project) {
+/// Adds dense points of all views and of pairs after those that photographs share.
+///
+/// * `as_surface`: whether to add the surface of all views in place of their points
+pub(crate) fn add_dense(scene: &mut Scene, project: &Project, as_surface: bool) {
     let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
-    if let Some((_, cloud, every)) = shown_cloud(project) {
+    let as_surface = shows_surface(project, as_surface);
+    let points = &mut scene.points;
+    if let Some((_, cloud, every)) = shown_cloud(project).filter(|_| !as_surface) {
         points.reserve_exact(cloud.len() / every + 1);
         let fused = cloud.points(every);
         points.extend(fused.map(|point| plain((point.position, point.color))));
@@ -166,5 +185,12 @@ pub(crate) fn add_dense(points: &mut Vec<([f32; 3], [u8; 3])>, project: &Project
     points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
     for (.., pair) in project.dense_pairs() {
         points.extend(pair.points(every).map(plain));
+    }
+    scene.first_vertex = points.len();
+    scene.triangles.clear();
+    if let Some((_, cloud)) = project.all_views().filter(|_| as_surface) {
+        points.reserve_exact(cloud.vertices().len());
+        points.extend((cloud.vertices()).map(|vertex| plain((vertex.position, vertex.color))));
+        scene.triangles.extend(cloud.triangles());
     }
 }

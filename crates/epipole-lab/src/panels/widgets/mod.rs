@@ -10,4 +10,4 @@ pub(crate) mod pick;
 mod steer;
 pub(crate) mod strips;
 
-pub(crate) use marks::{dense_anchor, has_dense, observations};
+pub(crate) use marks::{dense_anchor, has_dense, observations, vertex_anchor};

@@ -14,6 +14,8 @@ pub(crate) enum Click {
     Point(usize),
     /// A point of dense depth, counted from the first one.
     Dense(usize),
+    /// A vertex of the surface, by index.
+    Vertex(usize),
 }
 
 /// Reach of a mouse and of a finger, points.
@@ -25,7 +27,8 @@ const SAME_DEPTH: f64 = 1.05;
 
 /// Returns the point that a click chooses; one by key is in the middle.
 ///
-/// * `num_shared`: number of points of the scene that photographs share; dense ones follow
+/// * `num_shared`: number of points of the scene that photographs share; dense ones follow, then
+///   vertices
 pub(super) fn pick(
     response: &Response,
     rect: Rect,
@@ -50,7 +53,8 @@ pub(super) fn pick(
             let reach_px = 0.5 * reach_px as f64;
             match shared_at(at, reach_px, frame, scene, orbit, num_shared, point) {
                 Some(shared) => Click::Point(shared),
-                None => Click::Dense(point - num_shared),
+                None if point < scene.first_vertex => Click::Dense(point - num_shared),
+                None => Click::Vertex(point - scene.first_vertex),
             }
         }
     }
@@ -110,6 +114,7 @@ mod tests {
         let chosen = |front: f32| {
             let scene = Scene {
                 points: vec![shared, near(front), corner(-1.0), corner(1.0)],
+                first_vertex: 4,
                 ..Scene::default()
             };
             let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);

@@ -17,7 +17,7 @@ impl Project {
         }
         if !self.document.all_views {
             return "Finds a depth for each pixel of each photograph, and joins those on which photographs agree to one \
-                    cloud."
+                    cloud and a surface."
                 .to_owned();
         }
         if let Some(why) = self.failure(AllViews) {

@@ -1,8 +1,8 @@
 //! The camera calibrated from photographs of a board: its inputs, the outcome of each photograph,
 //! and the photographs that it applies to.
 
-use crate::project::{Given, Key, Project, Source};
-use crate::tasks::BoardOf;
+use crate::project::{InputPhoto, Key, Project, Source};
+use crate::tasks::{BoardOf, PhotoFile};
 
 /// Outcome for a photograph of a board.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,13 +23,13 @@ pub enum BoardOutcome {
 
 impl Project {
     /// Key of a board's image, for caches.
-    pub fn key_of_board(&self, photo: &Given) -> Key {
+    pub fn key_of_board(&self, photo: &InputPhoto) -> Key {
         // Another board is looked for in the same pixels.
         Key::of(&("picture of a board", photo.content.0))
     }
 
     /// Outcome for a photograph of a board.
-    pub fn board_outcome(&self, photo: &Given) -> BoardOutcome {
+    pub fn board_outcome(&self, photo: &InputPhoto) -> BoardOutcome {
         if photo.excluded {
             return BoardOutcome::Excluded;
         }
@@ -56,11 +56,22 @@ impl Project {
         }
     }
 
+    /// The photographs from files, with their sizes as far as they were read.
+    pub fn photo_files(&self) -> Vec<PhotoFile> {
+        let photos = self.document.photos.iter();
+        let files = photos.filter(|photo| matches!(photo.source, Source::File(_)));
+        let file = |photo: &InputPhoto| PhotoFile {
+            name: photo.name.clone(),
+            size: self.shown(photo).map(|pixels| pixels.sensor_size),
+        };
+        files.map(file).collect()
+    }
+
     /// The files among the photographs that have this size as the sensor gave them, as far as they
     /// were read.
-    pub fn of_size(&self, size: (u32, u32)) -> Vec<&Given> {
-        let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
-        let fits = |photo: &&Given| {
+    pub fn of_size(&self, size: (u32, u32)) -> Vec<&InputPhoto> {
+        let is_file = |photo: &&InputPhoto| matches!(photo.source, Source::File(_));
+        let fits = |photo: &&InputPhoto| {
             self.shown(photo)
                 .is_some_and(|pixels| pixels.sensor_size == size)
         };

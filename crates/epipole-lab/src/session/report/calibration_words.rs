@@ -3,12 +3,12 @@
 
 use super::boards::BoardOutcome;
 use super::words::count;
-use crate::project::{BoardPattern, Given, LensCamera, Project, Source};
+use crate::project::{BoardPattern, InputPhoto, LensCamera, Project, Source};
 use crate::tasks::{Calibration, CalibrationOfBoards};
 
 impl Project {
     /// Outcome for a photograph of a board in words, with advice.
-    pub fn board_words(&self, photo: &Given) -> String {
+    pub fn board_words(&self, photo: &InputPhoto) -> String {
         match self.board_outcome(photo) {
             BoardOutcome::Pending => "being processed".to_owned(),
             BoardOutcome::Excluded => "left out by you".to_owned(),
@@ -26,7 +26,7 @@ impl Project {
     }
 
     /// The root mean square of the errors in a photograph, pixels.
-    pub fn view_of(&self, photo: &Given) -> Option<f64> {
+    pub fn view_of(&self, photo: &InputPhoto) -> Option<f64> {
         let place = self.place_of_board(photo)?;
         let views = &self.get(CalibrationOfBoards)?.views;
         Some((*views.get(place)?)?.rms_px)
@@ -128,7 +128,7 @@ impl Project {
             return String::new();
         };
         let (width, height) = camera.size;
-        let is_file = |photo: &&Given| matches!(photo.source, Source::File(_));
+        let is_file = |photo: &&InputPhoto| matches!(photo.source, Source::File(_));
         let num_files = self.document.photos.iter().filter(is_file).count();
         let of_it = self.of_size(camera.size).len();
         let newer = match self.get(CalibrationOfBoards) {
@@ -169,7 +169,7 @@ impl Project {
         }
     }
 
-    fn is_of_unknown_turn(&self, photo: &Given) -> bool {
+    fn is_of_unknown_turn(&self, photo: &InputPhoto) -> bool {
         let (Some(camera), Some(pixels)) = (&self.document.camera, self.shown(photo)) else {
             return false;
         };
@@ -180,7 +180,10 @@ impl Project {
 
     /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is
     /// none.
-    pub fn unused_camera_words(&self, photo: &Given) -> String {
+    pub fn unused_camera_words(&self, photo: &InputPhoto) -> String {
+        if self.known_image(photo).is_some() {
+            return String::new();
+        }
         let (Some(camera), Some(pixels)) = (&self.document.camera, self.shown(photo)) else {
             return String::new();
         };

@@ -1,7 +1,8 @@
 //! Contents of the zip file of a reconstruction.
 
-use crate::project::{Given, Outcome, Project};
-use crate::tasks::{Export, Measured, Packed, ReconstructionOfAll};
+use crate::project::{InputPhoto, Outcome, Project};
+use crate::tasks::{Export, ExportFormat, Measured, Packed, ReconstructionOfAll};
+
 impl Project {
     /// Whether there is a reconstruction to save, and all of its photographs.
     pub fn can_export(&self) -> bool {
@@ -10,23 +11,26 @@ impl Project {
     }
 
     /// The task that writes the zip file of the current component; `None` without a reconstruction.
-    pub fn export_request(&self) -> Option<Export> {
+    pub fn export_request(&self, format: ExportFormat) -> Option<Export> {
         let found = self.get(ReconstructionOfAll)?;
         found.components.get(self.view.component)?;
-        let pack = |photo: &&Given| {
+        let pack = |photo: &&InputPhoto| {
             Some(Packed {
                 name: photo.name.clone(),
                 source: photo.source.clone(),
                 used: Some(self.shown(photo)?.clone()),
+                camera: self.lens_camera(photo).cloned(),
             })
         };
         Some(Export {
+            format,
             images: self.image_points()?,
             photographs: (self.taking_part().iter())
                 .map(pack)
                 .collect::<Option<_>>()?,
             found: found.clone(),
             component: self.view.component as u32,
+            unit_of: self.document.poses.as_ref().map(|poses| poses.file.clone()),
             meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
             floor: self
                 .floor()
@@ -41,7 +45,6 @@ impl Project {
                 .collect(),
             recipe: self.recipe()?,
             max_pixels: self.max_pixels(),
-            camera: self.document.camera.clone(),
             dense: (self.dense_pairs().into_iter())
                 .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
                 .collect(),
@@ -69,7 +72,7 @@ impl Project {
 }
 
 /// A pair's name in files: those of both photographs without their endings.
-fn pair_name(first: &Given, second: &Given) -> String {
+fn pair_name(first: &InputPhoto, second: &InputPhoto) -> String {
     let stem = |name: &str| {
         name.rsplit_once('.')
             .map_or(name, |(stem, _)| stem)

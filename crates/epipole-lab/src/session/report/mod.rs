@@ -6,6 +6,7 @@ mod boards;
 mod calibration_words;
 mod export;
 mod floor;
+mod known_poses;
 mod measure;
 mod outcome;
 mod recipe;

@@ -1,6 +1,6 @@
 //! Outcome for each photograph, with advice.
 
-use crate::project::{Given, Outcome, PhotoId, Project};
+use crate::project::{InputPhoto, Outcome, PhotoId, Project};
 use crate::tasks::{
     Component, FeaturesOf, FocalOrigin, PhotographOf, ReconstructionOfAll, Shows, TwoViewsOf,
     UnregisteredReason,
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 impl Project {
     /// Outcome for a photograph.
-    pub fn outcome(&self, photo: &Given) -> Outcome {
+    pub fn outcome(&self, photo: &InputPhoto) -> Outcome {
         let mut cached = self.outcomes.borrow_mut();
         if cached.0 != self.revision {
             *cached = (self.revision, BTreeMap::new());
@@ -18,7 +18,7 @@ impl Project {
         outcome.or_insert_with(|| self.find_outcome(photo)).clone()
     }
 
-    fn find_outcome(&self, photo: &Given) -> Outcome {
+    fn find_outcome(&self, photo: &InputPhoto) -> Outcome {
         if photo.excluded {
             return Outcome::Excluded;
         }
@@ -63,9 +63,18 @@ impl Project {
 
     /// Outcome for a photograph without a camera. Its pairs tell whether the camera only turned,
     /// perhaps with another focal length than the given one, which the reconstruction has used.
-    fn unregistered(&self, photo: &Given, reason: UnregisteredReason, all: &[&Given]) -> Outcome {
-        if let UnregisteredReason::FewFeatures(count) = reason {
-            return Outcome::FewFeatures(count as usize);
+    fn unregistered(
+        &self,
+        photo: &InputPhoto,
+        reason: UnregisteredReason,
+        all: &[&InputPhoto],
+    ) -> Outcome {
+        match reason {
+            UnregisteredReason::FewFeatures(count) => {
+                return Outcome::FewFeatures(count as usize);
+            }
+            UnregisteredReason::NoKnownPose => return Outcome::NoKnownPose,
+            _ => {}
         }
         let enough = self.document.settings.sfm.min_num_inliers;
         let (mut most, mut turns, mut moves) = (0, 0, 0);
@@ -102,7 +111,7 @@ impl Project {
     }
 
     /// Outcome for a photograph in words, with advice.
-    pub fn outcome_words(&self, photo: &Given) -> String {
+    pub fn outcome_words(&self, photo: &InputPhoto) -> String {
         let enough = self.document.settings.sfm.min_num_inliers;
         let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
         match self.outcome(photo) {
@@ -139,6 +148,7 @@ impl Project {
             Outcome::NoPlace(count) => {
                 format!("sees {count} points, but they do not agree on where it was taken. Something may have moved")
             }
+            Outcome::NoKnownPose => self.no_pose_words(photo),
             Outcome::OtherPart(part) => format!(
                 "belongs to part {}, which nothing joins to the part shown. Take one that shows both",
                 part + 1

@@ -2,7 +2,7 @@
 
 use super::calibration_words::{camera_fields, listed};
 use crate::project::{
-    FeatureKind, FeatureOptions, Given, MatchOptions, Project, SfmOptions, Source,
+    FeatureKind, FeatureOptions, InputPhoto, MatchOptions, Project, SfmOptions, Source,
 };
 use crate::tasks::{FocalOrigin, Photograph, PhotographOf, Recipe};
 
@@ -34,7 +34,7 @@ impl Project {
             .map(|photo| self.get(PhotographOf(photo.id)))
             .collect();
         let pixels = pixels.filter(|pixels| !pixels.is_empty())?;
-        let is_file = |photo: &Given| matches!(photo.source, Source::File(_));
+        let is_file = |photo: &InputPhoto| matches!(photo.source, Source::File(_));
         let both = || photos.iter().zip(&pixels);
         // Altered photographs are re-encoded with loss in `images/`, so the recipe uses the
         // originals.
@@ -85,12 +85,14 @@ impl Project {
             }
             false => "images/ holds the photographs exactly as they were used.",
         };
-        let camera = self.document.camera.as_ref().filter(|_| parts.uses_camera);
+        let is_posed = self.document.poses.is_some();
+        let uses_camera = parts.uses_camera && !is_posed;
+        let camera = self.document.camera.as_ref().filter(|_| uses_camera);
         Some(Recipe {
             command: self.command(&parts),
             photographs: photographs.to_owned(),
             camera_json: camera.map(|camera| format!("{{\n{}\n}}\n", camera_fields(camera))),
-            program: self.program(&parts),
+            program: (!is_posed).then(|| self.program(&parts)),
         })
     }
 
@@ -107,7 +109,9 @@ impl Project {
         if let Some(megapixels) = parts.max_megapixels {
             say(format!("--max-megapixels {megapixels}"));
         }
-        if parts.uses_camera {
+        if let Some(poses) = &self.document.poses {
+            say(format!("--poses {}", quoted(&poses.file)));
+        } else if parts.uses_camera {
             say("--camera camera.json --undistort".to_owned());
         }
         let first = parts.list[0].focal_px;
@@ -144,6 +148,7 @@ impl Project {
         let all_told = parts.list.iter().all(|part| part.focal_px.is_none());
         let is_corrected = all_told && !parts.uses_camera && !options.refine_distortion;
         match (options.refine_focal, is_guessed) {
+            _ if self.document.poses.is_some() => {}
             (true, false) => say("--refine-focal".to_owned()),
             (false, true) => say("--keep-focal".to_owned()),
             (false, false) if is_corrected && !options.correct_lens => {

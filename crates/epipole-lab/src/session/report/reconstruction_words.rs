@@ -58,6 +58,10 @@ impl Project {
                 found.components.len()
             ));
         }
+        let poses = self.poses_words();
+        if !poses.is_empty() {
+            words.push_str(&format!(" {poses}"));
+        }
         for (id, _) in self.left_out() {
             if let Some(photo) = self.document.photo(id) {
                 words.push_str(&format!(" {}: {}.", photo.name, self.outcome_words(photo)));

@@ -1,6 +1,6 @@
 //! The current view in words, for screen readers and as a summary.
 
-use crate::project::{Given, Outcome, Project, Step, pairs};
+use crate::project::{InputPhoto, Outcome, Project, Step, pairs};
 use crate::tasks::{
     DepthOf, FeaturesOf, FocalOrigin, MatchesOf, PhotographOf, Query, ReconstructionOfAll, Shows,
     TwoViews, TwoViewsOf, ViewModel,
@@ -137,7 +137,7 @@ impl Project {
     }
 
     /// Why a pair is not computed: one of its photographs takes no part. `None` if both do.
-    fn no_pair_words(&self, pair: [&Given; 2]) -> Option<String> {
+    fn no_pair_words(&self, pair: [&InputPhoto; 2]) -> Option<String> {
         let absent = pair
             .into_iter()
             .find(|photo| self.place(photo.id).is_none())?;
@@ -147,7 +147,7 @@ impl Project {
     /// Explains the result of a pair, and the choice of its matrix.
     ///
     /// * `first`: its first photograph
-    pub fn pair_words(&self, first: &Given, pair: &TwoViews) -> String {
+    pub fn pair_words(&self, first: &InputPhoto, pair: &TwoViews) -> String {
         let turn = pair.turn_deg.unwrap_or(0.0);
         let is_guessed = self.focal_origin(first) == Some(FocalOrigin::Guessed);
         match (pair.shows, pair.model) {

@@ -1,29 +1,57 @@
-//! The depth of all views for other programs: one cloud with normals.
+//! The depth of all views for other programs: a cloud with normals, and a surface.
 
-use super::contents::Export;
+use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
 use crate::tasks::archive::Archive;
+use crate::tasks::cloud_vertex::CloudVertex;
+use epipole::mvs::Mesh;
 use epipole::stereo::PointCloud;
 use epipole_io::cloud::write_ply;
-use nalgebra::{Point3, Vector3};
+use epipole_io::mesh::{write_mesh_glb, write_mesh_obj, write_mesh_ply};
+use nalgebra::{Point3, Similarity3, Vector3};
 
-/// Adds `fused.ply`, if there is depth of all views.
+/// The surface of all views in the frame of the files; empty without one.
+pub(super) fn surface(export: &Export) -> Mesh {
+    let mut mesh = Mesh::default();
+    if let Some(all_views) = &export.all_views {
+        let frame = file_from_world(export);
+        for vertex in all_views.vertices() {
+            add_point(&mut mesh.vertices, &frame, &vertex);
+        }
+        mesh.triangles = all_views.triangles().collect();
+    }
+    mesh
+}
+
+/// Adds `fused.ply` and the file of the surface, if there is depth of all views.
 ///
 /// # Errors
-/// A sentence, if the file cannot be written.
-pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> {
+/// A sentence, if a file cannot be written.
+pub(super) fn add(archive: &mut Archive, export: &Export, surface: &Mesh) -> Result<(), String> {
     let Some(all_views) = &export.all_views else {
         return Ok(());
     };
     let frame = file_from_world(export);
     let mut cloud = PointCloud::default();
     for point in all_views.points(1) {
-        cloud.points.push(frame * Point3::from(point.position));
-        cloud
-            .normals
-            .push(frame.isometry.rotation * Vector3::from(point.normal));
-        cloud.colors.push(point.color);
+        add_point(&mut cloud, &frame, &point);
         cloud.confidences.push(f32::from(point.num_views));
     }
-    archive.add("fused.ply", &write_ply(&cloud))
+    archive.add("fused.ply", &write_ply(&cloud))?;
+    if surface.triangles.is_empty() {
+        return Ok(());
+    }
+    let name = export.format.mesh();
+    match export.format {
+        ExportFormat::Glb => archive.add(name, &write_mesh_glb(surface)),
+        ExportFormat::Bundler => archive.add(name, write_mesh_obj(surface).as_bytes()),
+        _ => archive.add(name, &write_mesh_ply(surface)),
+    }
+}
+
+fn add_point(cloud: &mut PointCloud, file_from_world: &Similarity3<f64>, point: &CloudVertex) {
+    let rotation = file_from_world.isometry.rotation;
+    (cloud.points).push(file_from_world * Point3::from(point.position));
+    (cloud.normals).push(rotation * Vector3::from(point.normal));
+    cloud.colors.push(point.color);
 }

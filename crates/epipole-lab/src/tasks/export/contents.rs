@@ -1,7 +1,6 @@
 //! Contents of the zip file of a reconstruction.
 
 use crate::project::Blob;
-use crate::project::LensCamera;
 use crate::tasks::dense::Dense;
 use crate::tasks::dense_cloud::DenseCloud;
 use crate::tasks::project_file::Packed;
@@ -18,8 +17,8 @@ pub struct Recipe {
     pub photographs: String,
     /// The calibrated camera, as `--camera` reads it.
     pub camera_json: Option<String>,
-    /// The same as a program.
-    pub program: String,
+    /// The same as a program, if there is one.
+    pub program: Option<String>,
 }
 
 /// A measured length, in units of the reconstruction.
@@ -35,9 +34,73 @@ pub struct Measured {
     pub typed_m: Option<f64>,
 }
 
+/// Format of cameras and points in the zip file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum ExportFormat {
+    /// COLMAP's text files.
+    #[default]
+    ColmapText,
+    /// COLMAP's binary files.
+    ColmapBinary,
+    /// nerfstudio's `transforms.json`.
+    Transforms,
+    /// Bundler's `bundle.out`.
+    Bundler,
+    /// openMVG's `sfm_data.json`.
+    OpenMvg,
+    /// Binary glTF.
+    Glb,
+}
+
+impl ExportFormat {
+    /// All formats, the default first.
+    pub const ALL: [Self; 6] = [
+        Self::ColmapText,
+        Self::ColmapBinary,
+        Self::Transforms,
+        Self::Bundler,
+        Self::OpenMvg,
+        Self::Glb,
+    ];
+
+    /// Programs that open it.
+    pub fn programs(self) -> &'static str {
+        match self {
+            Self::ColmapText => "COLMAP (text)",
+            Self::ColmapBinary => "COLMAP (binary)",
+            Self::Transforms => "nerfstudio, Brush",
+            Self::Bundler => "Metashape (Bundler)",
+            Self::OpenMvg => "openMVG, openMVS",
+            Self::Glb => "Blender (glTF)",
+        }
+    }
+
+    /// Its main file or folder in the zip file.
+    pub fn place(self) -> &'static str {
+        match self {
+            Self::ColmapText | Self::ColmapBinary => "sparse/0/",
+            Self::Transforms => "transforms.json",
+            Self::Bundler => "bundle.out",
+            Self::OpenMvg => "sfm_data.json",
+            Self::Glb => "model.glb",
+        }
+    }
+
+    /// File of the surface of all views in the zip file.
+    pub fn mesh(self) -> &'static str {
+        match self {
+            Self::Glb => "mesh.glb",
+            Self::Bundler => "mesh.obj",
+            Self::ColmapText | Self::ColmapBinary | Self::Transforms | Self::OpenMvg => "mesh.ply",
+        }
+    }
+}
+
 /// Writes a reconstruction to a zip file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Export {
+    /// Format of cameras and points.
+    pub format: ExportFormat,
     /// The photographs, as they were reconstructed.
     pub images: Vec<ImagePoints>,
     /// The same with their pixels, or without: then those are read once more.
@@ -46,6 +109,8 @@ pub struct Export {
     pub found: Reconstructed,
     /// Index of the component.
     pub component: u32,
+    /// File of the known poses, whose unit of length the reconstruction has.
+    pub unit_of: Option<String>,
     /// Meters in a unit of the reconstruction, where something was measured.
     pub meters_per_unit: Option<f64>,
     /// A point of the floor and the direction up: z points up from there in all files.
@@ -60,8 +125,6 @@ pub struct Export {
     pub recipe: Recipe,
     /// The largest number of pixels of a photograph.
     pub max_pixels: u32,
-    /// Camera whose distortion was removed from photographs of its size.
-    pub camera: Option<LensCamera>,
     /// Names of pairs, and the depth of their pixels.
     pub dense: Vec<(String, Dense)>,
     /// Depth of all views.

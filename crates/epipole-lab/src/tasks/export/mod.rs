@@ -1,4 +1,5 @@
-//! The zip file of a reconstruction: COLMAP's text model, PLY, JSON, photographs and depth.
+//! The zip file of a reconstruction: a model for another program, a page, PLY, JSON, photographs
+//! and depth.
 
 #[cfg(feature = "files")]
 mod cloud;
@@ -12,4 +13,4 @@ mod model;
 #[cfg(feature = "files")]
 mod summary;
 
-pub use contents::{Export, Measured, Recipe};
+pub use contents::{Export, ExportFormat, Measured, Recipe};

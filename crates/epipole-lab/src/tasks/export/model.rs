@@ -1,6 +1,6 @@
-//! A reconstruction for other programs: photographs, COLMAP's text model, PLY and JSON.
+//! A reconstruction for other programs: photographs, a model, a page, PLY and JSON.
 
-use super::contents::Export;
+use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
 use super::{cloud, depth, summary};
 use crate::project::{Blob, Source};
@@ -9,7 +9,8 @@ use crate::tasks::photograph::{Photograph, ReadPhotograph};
 use crate::tasks::project_file::Packed;
 use crate::tasks::reconstruction::ImagePoints;
 use crate::tasks::task::{Monitor, Run};
-use epipole_io::model::Model;
+use epipole_io::model::{Model, ModelFormat};
+use epipole_io::trajectory::{TrajectoryFormat, write_trajectory};
 use image::codecs::jpeg::JpegEncoder;
 use image::{DynamicImage, ImageFormat};
 use std::collections::BTreeSet;
@@ -19,11 +20,11 @@ impl Run for Export {
     fn run(self, monitor: Monitor<'_>) -> Result<Blob, String> {
         let export = &self;
         // Reads the pixels of a photograph that came without.
-        let mut read = |source: &Source| {
+        let mut read = |photograph: &Packed| {
             let task = ReadPhotograph {
-                source: source.clone(),
+                source: photograph.source.clone(),
                 max_pixels: export.max_pixels,
-                camera: export.camera.clone(),
+                camera: photograph.camera.clone(),
             };
             task.run(&mut *monitor)
         };
@@ -53,24 +54,55 @@ impl Run for Export {
             model = model.moved(&file_from_world(export));
         }
         let files = Model::from_reconstruction(&model, &images);
-        for file in files.to_colmap_text().map_err(|error| error.to_string())? {
-            archive.add(&format!("sparse/0/{}", file.name), &file.bytes)?;
-        }
+        add_model(&mut archive, export.format, &files)?;
+        let surface = cloud::surface(export);
+        let page = files.to_html(&surface).map_err(|error| error.to_string())?;
+        archive.add("model.html", &page)?;
         archive.add("points.ply", &files.to_ply())?;
+        let path = write_trajectory(TrajectoryFormat::Kitti, &files.trajectory());
+        archive.add(
+            "trajectory.txt",
+            path.map_err(|e| e.to_string())?.as_bytes(),
+        )?;
         depth::add(&mut archive, export)?;
-        cloud::add(&mut archive, export)?;
+        cloud::add(&mut archive, export, &surface)?;
         let json = summary::json(export, &images, &model);
         archive.add("reconstruction.json", json.as_bytes())?;
         if !export.measures.is_empty() {
             archive.add("measures.csv", summary::measures_csv(export).as_bytes())?;
         }
-        archive.add("reconstruct.rs", export.recipe.program.as_bytes())?;
+        if let Some(program) = &export.recipe.program {
+            archive.add("reconstruct.rs", program.as_bytes())?;
+        }
         if let Some(camera) = &export.recipe.camera_json {
             archive.add("camera.json", camera.as_bytes())?;
         }
         archive.add("README.txt", summary::readme(export).as_bytes())?;
         Ok(archive.finish()?.into())
     }
+}
+
+/// The model in a format: COLMAP's in a folder of its own, others beside the folder of photographs.
+fn add_model(archive: &mut Archive, format: ExportFormat, model: &Model) -> Result<(), String> {
+    let (folder, format) = match format {
+        ExportFormat::ColmapText => ("sparse/0/", ModelFormat::ColmapText),
+        ExportFormat::ColmapBinary => ("sparse/0/", ModelFormat::ColmapBinary),
+        ExportFormat::Transforms => ("", ModelFormat::Transforms),
+        ExportFormat::Bundler => ("", ModelFormat::Bundler),
+        ExportFormat::OpenMvg => ("", ModelFormat::OpenMvg),
+        ExportFormat::Glb => ("", ModelFormat::Glb),
+    };
+    let mut model = model.clone();
+    if folder.is_empty() {
+        for image in &mut model.images {
+            image.name = format!("images/{}", image.name);
+        }
+    }
+    let files = model.to_files(format).map_err(|error| error.to_string())?;
+    for file in files {
+        archive.add(&format!("{folder}{}", file.name), &file.bytes)?;
+    }
+    Ok(())
 }
 
 /// Invalid indices in tracks are a bug of the caller.
@@ -94,7 +126,7 @@ fn check_indices(export: &Export) -> Result<(), String> {
 /// The file of a photograph as it was reconstructed, and its name.
 fn picture(
     photograph: &Packed,
-    read: &mut dyn FnMut(&Source) -> Result<Photograph, String>,
+    read: &mut dyn FnMut(&Packed) -> Result<Photograph, String>,
 ) -> Result<(String, Vec<u8>), String> {
     let used = photograph.used.as_ref();
     let used = used.ok_or_else(|| format!("{} has no pixels", photograph.name))?;
@@ -105,7 +137,7 @@ fn picture(
     let used = match used.has_pixels() {
         true => used,
         false => {
-            once_more = read(&photograph.source)?;
+            once_more = read(photograph)?;
             &once_more
         }
     };

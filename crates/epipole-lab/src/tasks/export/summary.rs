@@ -90,17 +90,26 @@ pub(super) fn measures_csv(export: &Export) -> String {
 
 /// Description of the files, and the command line that makes them.
 pub(super) fn readme(export: &Export) -> String {
-    let unit = match export.meters_per_unit {
-        Some(_) => "Lengths are in meters, by the length that was measured.",
-        None => "The unit of length is arbitrary: nothing was measured.",
+    let unit = match (export.meters_per_unit, &export.unit_of) {
+        (Some(_), _) => "Lengths are in meters, by the length that was measured.".to_owned(),
+        (None, Some(file)) => {
+            format!("The unit of length is that of {file}: nothing was measured.")
+        }
+        (None, None) => "The unit of length is arbitrary: nothing was measured.".to_owned(),
     };
-    let mut text = String::from(
-        "images/              the photographs, as they were reconstructed\n\
-         sparse/0/            COLMAP's text model: `colmap gui`, or the import of another program, opens it\n\
+    let mut text =
+        String::from("images/              the photographs, as they were reconstructed\n");
+    let (place, programs) = (export.format.place(), export.format.programs());
+    text.push_str(&format!("{place:<20} cameras and points for {programs}\n"));
+    text.push_str(
+        "model.html           a page that shows them in any browser\n\
          points.ply           the points with their colors\n\
-         reconstruction.json  what `epipole sfm --json` prints\n\
-         reconstruct.rs       a program that does the same\n",
+         trajectory.txt       the poses in the order of the photographs, as KITTI has them\n\
+         reconstruction.json  what `epipole sfm --json` prints\n",
     );
+    if export.recipe.program.is_some() {
+        text.push_str("reconstruct.rs       a program that does the same\n");
+    }
     if export.recipe.camera_json.is_some() {
         text.push_str("camera.json          the calibrated camera, which removed the distortion from the photographs\n");
     }
@@ -111,11 +120,17 @@ pub(super) fn readme(export: &Export) -> String {
              dense.ply            all of these pixels as points with their colors, in the frame of points.ply\n",
         );
     }
-    if export.all_views.is_some() {
+    if let Some(all_views) = &export.all_views {
         text.push_str(
             "fused.ply            the depth of all views as points with normals, colors, and the number of \
              photographs that agree as confidence, in the frame of points.ply\n",
         );
+        if all_views.triangles().len() > 0 {
+            let name = export.format.mesh();
+            text.push_str(&format!(
+                "{name:<20} their surface: triangles with normals and colors, in the same frame\n"
+            ));
+        }
     }
     if !export.measures.is_empty() {
         text.push_str("measures.csv         the measured lengths and their ends, in the frame of points.ply\n");
@@ -125,9 +140,13 @@ pub(super) fn readme(export: &Export) -> String {
         None => "",
     };
     text.push_str(&format!("\n{unit}{up}\n"));
+    let program = match export.recipe.program {
+        Some(_) => "and by the program in reconstruct.rs. ",
+        None => "",
+    };
     text.push_str(&format!(
-        "\nThe same on the command line\n\n    {}\n\nand by the program in reconstruct.rs. {}\n",
-        export.recipe.command, export.recipe.photographs
+        "\nThe same on the command line\n\n    {}\n\n{}{}\n",
+        export.recipe.command, program, export.recipe.photographs
     ));
     text
 }

@@ -1,9 +1,9 @@
-//! Arrivals from the host: videos, the solved sample, and failed workers.
+//! Events of the host: videos, the solved sample, and failed workers.
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::project::Sample;
-use epipole_lab::session::Arrival;
+use epipole_lab::session::HostEvent;
 
 #[test]
 fn a_video_gives_its_sharpest_frames() {
@@ -11,19 +11,19 @@ fn a_video_gives_its_sharpest_frames() {
     click(&mut bench, "Photographs");
     click(&mut bench, "Take photographs…");
     assert_eq!(bench.state_mut().host().asked, 1);
-    let bring = |bench: &mut Bench<'_>, arrival| {
-        bench.state_mut().host().arrivals.push(arrival);
+    let bring = |bench: &mut Bench<'_>, host_event| {
+        bench.state_mut().host().host_events.push(host_event);
         bench.run_steps(2);
         rest(bench);
     };
     let mut settings = bench.state().project().document().settings.clone();
     settings.num_frames = 3;
     let link = vec![("frames".to_owned(), "3".to_owned())];
-    bring(&mut bench, Arrival::Link(link));
+    bring(&mut bench, HostEvent::Link(link));
     assert_eq!(bench.state().project().document().settings, settings);
     // One video after the other, and of each one part after the other.
-    bring(&mut bench, Arrival::Video(3));
-    bring(&mut bench, Arrival::Video(4));
+    bring(&mut bench, HostEvent::Video(3));
+    bring(&mut bench, HostEvent::Video(4));
     assert_eq!(bench.state_mut().host().frames, [(3, 0, 3)]);
     let picture = |blur: f32| -> epipole_lab::project::Blob {
         let sharp = image::RgbImage::from_fn(60, 40, |u, v| {
@@ -38,7 +38,10 @@ fn a_video_gives_its_sharpest_frames() {
     };
     let [soft, sharp] = [picture(3.0), picture(0.5)];
     let frames = |bench: &mut Bench<'_>, video, frames: Vec<_>| {
-        bring(bench, Arrival::Frames(video, "walk.mp4".to_owned(), frames));
+        bring(
+            bench,
+            HostEvent::Frames(video, "walk.mp4".to_owned(), frames),
+        );
     };
     frames(&mut bench, 3, vec![soft.clone(), sharp.clone()]);
     assert_eq!(bench.state_mut().host().frames[1..], [(3, 1, 3)]);
@@ -64,7 +67,7 @@ fn a_video_gives_its_sharpest_frames() {
     // Then the next video is read, and fails.
     assert_eq!(bench.state_mut().host().frames[2..], [(3, 2, 3), (4, 0, 3)]);
     let refused = "walk.mp4 cannot be decoded here.".to_owned();
-    bring(&mut bench, Arrival::NoFrames(4, refused.clone()));
+    bring(&mut bench, HostEvent::NoFrames(4, refused.clone()));
     let said = bench.state_mut().host().said.clone();
     assert!(said.contains(&refused), "{said}");
     assert_eq!(bench.state().project().document().photos.len(), 2);
@@ -113,8 +116,8 @@ fn the_sample_comes_solved_or_is_computed_where_it_does_not_come() {
         );
         assert_eq!(bench.state_mut().host().num_started, 0, "it waits");
         assert!(bench.get_all_by_label("Reconstructing.").next().is_some());
-        let arrival = Arrival::Results(bytes.into());
-        bench.state_mut().host().arrivals.push(arrival);
+        let host_event = HostEvent::Results(bytes.into());
+        bench.state_mut().host().host_events.push(host_event);
         rest(&mut bench);
         bench.get_by_label("9 of 9");
         let started = bench.state_mut().host().num_started;

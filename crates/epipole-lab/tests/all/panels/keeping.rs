@@ -3,7 +3,7 @@
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::project::Step;
-use epipole_lab::session::{Arrival, Host, Stored};
+use epipole_lab::session::{Host, HostEvent, Stored};
 
 #[test]
 fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
@@ -11,8 +11,8 @@ fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
     let said = |bench: &mut Bench<'_>| bench.state_mut().host().said.clone();
     let broken = |name: &str| vec![(name.to_owned(), vec![1_u8, 2, 3].into())];
     let give = |bench: &mut Bench<'_>, name: &str| {
-        let arrival = Arrival::Photographs(broken(name));
-        bench.state_mut().host().arrivals.push(arrival);
+        let host_event = HostEvent::Photographs(broken(name));
+        bench.state_mut().host().host_events.push(host_event);
         rest(bench);
         bench.run_steps(40);
     };
@@ -42,7 +42,7 @@ fn a_project_is_kept_by_choice_comes_back_and_is_forgotten() {
         ("step".to_owned(), "matches".to_owned()),
         ("ratio".to_owned(), "0.7".to_owned()),
     ];
-    host.arrivals.push(Arrival::Link(link));
+    host.host_events.push(HostEvent::Link(link));
     rest(&mut again);
     let project = again.state().project();
     let names = project.document().photos.iter().map(|photo| &photo.name);
@@ -86,8 +86,8 @@ fn what_cannot_be_kept_or_opened_again_is_told_and_the_photographs_stay() {
         bench
             .state_mut()
             .host()
-            .arrivals
-            .push(Arrival::Stored(kept));
+            .host_events
+            .push(HostEvent::Stored(kept));
         rest(bench);
         bench.run_steps(40);
     };

@@ -76,8 +76,8 @@ fn the_keyboard_chooses_the_point_at_the_center() {
 fn dense_points_are_measured() {
     let mut bench = open(900.0, 700.0);
     let link = vec![("step".to_owned(), "depth".to_owned())];
-    let arrival = epipole_lab::session::Arrival::Link(link);
-    bench.state_mut().host().arrivals.push(arrival);
+    let host_event = epipole_lab::session::HostEvent::Link(link);
+    bench.state_mut().host().host_events.push(host_event);
     rest(&mut bench);
     click(&mut bench, "Add to cloud and export");
     rest(&mut bench);

@@ -11,7 +11,7 @@ mod menus;
 use crate::common::desk::{Bench, click, open, rest};
 use egui_kittest::kittest::Queryable;
 use epipole_lab::project::Step;
-use epipole_lab::session::Arrival;
+use epipole_lab::session::HostEvent;
 
 #[test]
 fn the_line_from_the_sample_to_a_file() {
@@ -62,8 +62,8 @@ fn the_line_from_the_sample_to_a_file() {
     bench
         .state_mut()
         .host()
-        .arrivals
-        .push(Arrival::Photographs(broken));
+        .host_events
+        .push(HostEvent::Photographs(broken));
     bench.run_steps(6);
     let said = bench.state_mut().host().said.clone();
     assert!(said.contains("broken.png: cannot be read"), "{said}");
@@ -107,8 +107,8 @@ fn a_board_gives_a_camera_and_its_file() {
     assert!(bench.state().project().document().camera.is_none());
     // Photographs that arrive during this step are of a board, and replace the sample.
     let broken = vec![("broken.png".to_owned(), vec![1_u8, 2, 3].into())];
-    let arrival = Arrival::Photographs(broken);
-    bench.state_mut().host().arrivals.push(arrival);
+    let host_event = HostEvent::Photographs(broken);
+    bench.state_mut().host().host_events.push(host_event);
     bench.run_steps(6);
     let document = bench.state().project().document();
     assert_eq!((document.boards.len(), document.photos.len()), (1, 9));
@@ -202,7 +202,11 @@ fn a_link_opens_a_step_and_every_step_is_explained() {
         parameter("ratio", "0.7"),
         parameter("color", "red"),
     ];
-    bench.state_mut().host().arrivals.push(Arrival::Link(link));
+    bench
+        .state_mut()
+        .host()
+        .host_events
+        .push(HostEvent::Link(link));
     bench.run_steps(3);
     assert_eq!(bench.state().project().view().step, Step::Matches);
     assert_eq!(

@@ -1,41 +1,46 @@
-//! Handling of arrivals: photographs (of a board during that step), projects, videos, links.
+//! Handling of host events: photographs (of a board during that step), projects, videos, links.
 
 use super::App;
 use crate::project::{Blob, Computed, Step};
-use crate::session::{Arrival, Event, FileJob, Host, Stored};
-use crate::tasks::{ChooseFrame, OpenProject};
+use crate::session::{Event, FileJob, Host, HostEvent, Stored};
+use crate::tasks::{ChooseFrame, OpenProject, ReadCameras};
 
 impl<H: Host> App<H> {
-    pub(super) fn take(&mut self, arrival: Arrival) {
-        match arrival {
-            Arrival::Photographs(files) => self.add_photographs(files),
-            Arrival::Project(archive) => self.run(FileJob::Open, OpenProject { archive }),
-            Arrival::Link(parameters) => {
+    pub(super) fn take(&mut self, host_event: HostEvent) {
+        match host_event {
+            HostEvent::Photographs(files) => self.add_photographs(files),
+            HostEvent::Project(archive) => self.run(FileJob::Open, OpenProject { archive }),
+            HostEvent::Cameras(files) => {
+                let photos = self.project.photo_files();
+                let task = ReadCameras { files, photos };
+                self.run(FileJob::OpenCameras, task);
+            }
+            HostEvent::Link(parameters) => {
                 let problems = self.project.open_link(&parameters);
                 if !problems.is_empty() {
-                    self.news = Some(problems.join(" "));
+                    self.notice = Some(problems.join(" "));
                 }
             }
-            Arrival::Video(video) => {
+            HostEvent::Video(video) => {
                 let num_parts = self.project.document().settings.num_frames;
                 self.videos.add(video, num_parts, &mut self.host);
             }
-            Arrival::Frames(video, name, frames) => {
+            HostEvent::Frames(video, name, frames) => {
                 if let Some(part) = self.videos.part_of(video) {
                     let task = ChooseFrame { name, part, frames };
                     self.run(FileJob::Frames(video), task);
                 }
             }
-            Arrival::NoFrames(video, sentence) => {
+            HostEvent::NoFrames(video, sentence) => {
                 self.videos.give_up(video, &mut self.host);
-                self.news = Some(sentence);
+                self.notice = Some(sentence);
             }
-            Arrival::Stored(stored) => self.take_stored(stored),
-            Arrival::Results(bytes) => {
+            HostEvent::Stored(stored) => self.take_stored(stored),
+            HostEvent::Results(bytes) => {
                 self.waits_for_sample = false;
                 self.project.import(Computed::from_bytes(&bytes));
             }
-            Arrival::News(sentence) => self.news = Some(sentence),
+            HostEvent::Notice(sentence) => self.notice = Some(sentence),
         }
     }
 
@@ -65,12 +70,12 @@ impl<H: Host> App<H> {
             }
             Stored::Closed(sentence) => {
                 self.storage.close();
-                self.news = Some(sentence);
+                self.notice = Some(sentence);
             }
             Stored::Written(num_bytes) => {
                 if self.storage.end() {
                     let room = megabytes(num_bytes);
-                    self.news = Some(format!(
+                    self.notice = Some(format!(
                         "This browser keeps the project, {room}, and every change to it. Nothing is uploaded."
                     ));
                 }
@@ -78,7 +83,7 @@ impl<H: Host> App<H> {
             Stored::Failed { why, is_there } => self.not_stored(&why, is_there),
             Stored::Erased => {
                 self.storage.turn_off();
-                self.news = Some("Another page of the Lab removed the kept project from this browser. It is still open here.".to_owned());
+                self.notice = Some("Another page of the Lab removed the kept project from this browser. It is still open here.".to_owned());
             }
         }
     }
@@ -92,7 +97,7 @@ impl<H: Host> App<H> {
             }
             false => "",
         };
-        self.news = Some(format!(
+        self.notice = Some(format!(
             "The project is not kept in this browser: {why} Save it as a file from the Project menu.{before}"
         ));
     }
@@ -101,7 +106,7 @@ impl<H: Host> App<H> {
     pub(super) fn erase_stored(&mut self) {
         self.storage.turn_off();
         self.host.forget();
-        self.news = Some("The project is no longer kept in this browser.".to_owned());
+        self.notice = Some("The project is no longer kept in this browser.".to_owned());
     }
 }
 
