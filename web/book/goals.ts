@@ -6,12 +6,26 @@ interface Figure extends HTMLElement {
   recall?: (solved: string[]) => void;
 }
 
+const nameOf = (figure: Element) => figure.getAttribute("name") ?? "";
+
 function load(figure: string): string[] {
   try {
     const stored: unknown = JSON.parse(localStorage.getItem(PREFIX + figure) ?? "[]");
     return Array.isArray(stored) ? stored.filter((id) => typeof id === "string") : [];
   } catch {
     return [];
+  }
+}
+
+/** Stores that a goal (`figure/goal`) is reached. Returns false if storage is blocked. */
+export function markReached(goal: string): boolean {
+  const [figure = "", id = ""] = goal.split("/");
+  const known = load(figure);
+  try {
+    if (!known.includes(id)) localStorage.setItem(PREFIX + figure, JSON.stringify([...known, id]));
+    return true;
+  } catch {
+    return false;
   }
 }
 
@@ -34,21 +48,20 @@ export function forget(goals: string[]): void {
   for (const goal of goals) localStorage.removeItem(PREFIX + (goal.split("/")[0] ?? ""));
 }
 
+/** The goal (`figure/goal`) of an event `epipole-challenge`. */
+export function goalOf(event: Event): string {
+  return `${nameOf(event.target as Element)}/${(event as CustomEvent<{ id: string }>).detail.id}`;
+}
+
+/** Shows a figure its goals that were reached before. */
+export function recall(figure: Figure): void {
+  const reached = load(nameOf(figure));
+  if (reached.length > 0) figure.recall?.(reached);
+}
+
 /** Stores goals reached on this page and restores those reached before. */
 export function startGoals(): void {
-  const nameOf = ({ target }: Event) => (target as HTMLElement).getAttribute("name") ?? "";
-  document.addEventListener("epipole-challenge", (event) => {
-    const { id } = (event as CustomEvent<{ id: string }>).detail;
-    const known = load(nameOf(event));
-    if (known.includes(id)) return;
-    try {
-      localStorage.setItem(PREFIX + nameOf(event), JSON.stringify([...known, id]));
-    } catch {
-      // The progress page reports blocked storage.
-    }
-  });
-  document.addEventListener("epipole-ready", (event) => {
-    const reached = load(nameOf(event));
-    if (reached.length > 0) (event.target as Figure).recall?.(reached);
-  });
+  // The progress page reports blocked storage.
+  document.addEventListener("epipole-challenge", (event) => void markReached(goalOf(event)));
+  document.addEventListener("epipole-ready", ({ target }) => recall(target as Figure));
 }

@@ -1,14 +1,26 @@
 // Runs before the first paint: the style sheet of the figures, and the reader's settings for the
 // page.
 import "../src/early.js";
+import { PLACES_KEY } from "./places";
+import { parseSettings, showSettings, storedSettings } from "./settings";
 
-document.documentElement.dataset.listing = "numpy";
+const { dataset } = document.documentElement;
+const query = new URLSearchParams(location.search);
+// In a frame of another page: the chapter alone, with that page's settings.
+const isEmbedded = query.has("embed");
+const given = isEmbedded ? parseSettings(JSON.stringify(Object.fromEntries(query))) : {};
+dataset.listing = "numpy";
+showSettings({ ...storedSettings(), ...given });
 try {
   const listing = localStorage.getItem("epipole-listing");
-  if (listing && /^(opencv|epipole|rust|js)$/.test(listing)) document.documentElement.dataset.listing = listing;
-  const chosen = localStorage.getItem("epipole-theme");
-  if (chosen === "light" || chosen === "dark") document.documentElement.dataset.theme = chosen;
-  if (localStorage.getItem("epipole-contents") === "folded") document.documentElement.dataset.contents = "folded";
+  if (listing && /^(opencv|epipole|rust|js)$/.test(listing)) dataset.listing = listing;
+  if (localStorage.getItem("epipole-contents") === "folded") dataset.contents = "folded";
+  // Makes room for a line that the page fills in later.
+  if (localStorage.getItem(PLACES_KEY)) dataset.places = "";
 } catch {
   // Storage may be blocked; the page keeps its defaults.
+}
+if (isEmbedded) {
+  dataset.embed = "";
+  dataset.contents = "folded";
 }

@@ -11,9 +11,10 @@ export async function start(manifest: string): Promise<void> {
   try {
     const root = new URL(".", manifest);
     const workers = navigator.serviceWorker;
+    const isFirstVisit = workers.controller === null;
     workers.addEventListener("message", ({ data }) => data === COMPLETE && showSign());
     const registration = await workers.register(new URL("sw.js", root), { updateViaCache: "none" });
-    await watch(registration);
+    watch(registration);
     const { active } = await workers.ready;
     const page = location.pathname.slice(root.pathname.length).replace(/(^|\/)$/, "$1index.html");
     const saves = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
@@ -22,6 +23,9 @@ export async function start(manifest: string): Promise<void> {
     const all = !saves && seen !== undefined;
     const variant = seen ?? { width: 360, theme: "light" };
     active?.postMessage({ page, all, variant } satisfies CacheRequest);
+    // By itself, a browser asks only once its worker has been idle for a while. This comes after the
+    // message, because a message to a worker that is ending would start it again.
+    if (!isFirstVisit) ask(registration);
   } catch {
     // Forbidden by the browser or its settings.
   }
@@ -41,8 +45,11 @@ function showSign(): void {
   document.querySelector(".turn")?.append(sign);
 }
 
+/** Asks the server for a next edition. */
+const ask = (registration: ServiceWorkerRegistration) => void registration.update().catch(() => undefined);
+
 /** Offers each edition that waits. */
-async function watch(registration: ServiceWorkerRegistration): Promise<void> {
+function watch(registration: ServiceWorkerRegistration): void {
   const offerWaiting = () => {
     if (registration.waiting && navigator.serviceWorker.controller) offer(registration.waiting);
   };
@@ -52,10 +59,7 @@ async function watch(registration: ServiceWorkerRegistration): Promise<void> {
   // The browser may have found the edition before this page listened.
   follow();
   registration.addEventListener("updatefound", follow);
-  const ask = () => void registration.update().catch(() => undefined);
-  document.addEventListener("visibilitychange", () => document.hidden || ask());
-  // By itself, a browser asks once its worker has been idle for a while.
-  if (navigator.serviceWorker.controller) ask();
+  document.addEventListener("visibilitychange", () => document.hidden || ask(registration));
 }
 
 function offer(edition: ServiceWorker): void {

@@ -3,6 +3,7 @@
 
 interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>, options: { scroll: boolean }) => Promise<void>;
+  open?: () => Promise<void>;
   readoutText?: (id: string) => string | undefined;
   controlText?: (id: string) => string | undefined;
 }
@@ -35,7 +36,7 @@ function watchReader(): { hasMoved: () => boolean } {
 const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
 
 /** Makes the words a button without a box of its own, so that they still wrap like text. */
-function startButton(words: HTMLElement): void {
+function startButton(words: HTMLElement, docks: boolean): void {
   const figure = figureOf(words);
   if (!figure) return;
   words.setAttribute("role", "button");
@@ -45,13 +46,14 @@ function startButton(words: HTMLElement): void {
   const act = async () => {
     await customElements.whenDefined("epipole-figure");
     // Safari 16 has no popovers: there the page scrolls to the figure.
-    const canDock = "popover" in HTMLElement.prototype;
+    const canDock = docks && "popover" in HTMLElement.prototype;
     const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
     const together = () => dock?.bringTogether(figure.closest("figure") ?? figure, words);
     together();
     const reader = watchReader();
-    await figure.glide?.(parametersOf(words), { scroll: !dock });
-    // A figure that came alive or left its dock meanwhile may have moved the text.
+    await figure.glide?.(parametersOf(words), { scroll: docks && !dock });
+    // A figure that came alive, left its dock or computed numbers meanwhile may have moved the text.
+    await figure.open?.();
     await scrollAnchored();
     if (!reader.hasMoved()) together();
   };
@@ -86,8 +88,9 @@ function follow(figure: Figure, numbers: HTMLElement[]): void {
   schedule();
 }
 
-export function startOperating(): void {
-  document.querySelectorAll<HTMLElement>(".do").forEach(startButton);
+/** With `docks`, a figure that is off the screen comes to the sentence that operates it. */
+export function startOperating({ docks }: { docks: boolean }): void {
+  document.querySelectorAll<HTMLElement>(".do").forEach((words) => startButton(words, docks));
   const followed = new Map<Figure, HTMLElement[]>();
   for (const number of document.querySelectorAll<HTMLElement>(".live")) {
     const figure = figureOf(number);

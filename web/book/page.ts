@@ -1,4 +1,4 @@
-// Script of every page: theme, contents, scrolling boxes; loads quizzes and search on demand.
+// Script of every page: settings, contents, scrolling boxes; loads quizzes and search on demand.
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
 import { startGoals } from "./goals";
 import { startListings } from "./listings";
@@ -9,16 +9,15 @@ import { startRunning } from "./run";
 import { settleSections } from "./sections";
 import { startSmall } from "./small";
 import { startSymbols } from "./symbols";
-import { startTheme } from "./theme";
+import { startSettings } from "./theme";
 import { startHandingOn } from "./to_lab";
 
-startTheme();
 startFolding();
 settleSections();
 revealCurrentChapter();
 followSections();
 makeScrollersReachable();
-startOperating();
+startOperating({ docks: true });
 startPlaying();
 startSmall();
 startGoals();
@@ -41,19 +40,31 @@ function sayMissing(): void {
   notice.scrollIntoView({ block: "nearest" });
 }
 
+startSettings(sayMissing);
 startRunning(sayMissing);
 
-if (document.querySelector(".quiz, .progress, .small .solved")) {
-  void import("./quiz").then((quiz) => quiz.start(), sayMissing);
+/** Whether the page is in a frame of another, which may keep what the reader has solved. */
+const isEmbedded = "embed" in document.documentElement.dataset;
+const kept = isEmbedded ? import("./embed").then((embed) => embed.start(), sayMissing) : Promise.resolve();
+
+if (document.querySelector(".quiz, .small .solved")) {
+  void kept.then(() => import("./quiz")).then((quiz) => quiz.start(), sayMissing);
+}
+
+if (document.querySelector(".progress")) {
+  void import("./progress").then((progress) => progress.start(), sayMissing);
+}
+
+if (!isEmbedded && document.querySelector(".sections, .continue")) {
+  void import("./continue").then((ways) => ways.start(), sayMissing);
 }
 
 if (document.querySelector("a.term")) {
   void import("./terms").then((terms) => terms.startTerms(), sayMissing);
 }
 
-if (document.querySelector(".gallery")) {
-  void import("./gallery").then((gallery) => gallery.start(), sayMissing);
-}
+const embedding = document.querySelector<HTMLElement>(".embedding");
+if (embedding) void import("./embedding").then(({ start }) => start(embedding), sayMissing);
 
 // Only the published book has a manifest. In frames, it belongs to another page.
 const manifest = document.querySelector<HTMLLinkElement>("link[rel=manifest]");

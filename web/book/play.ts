@@ -1,6 +1,8 @@
 // Figures that play when they scroll into view; `data-play` names the button to press. Each plays
 // once, never with reduced motion and never after the reader has operated it.
 
+import { wantsStillness } from "../src/theme";
+
 interface Figure extends HTMLElement {
   readonly readouts?: Record<string, number | string>;
   readoutText?: (id: string) => string | undefined;
@@ -29,7 +31,7 @@ function play(figure: Figure): void {
       clearInterval(timer);
       if (!entry?.isIntersecting) return;
       timer = setInterval(() => {
-        if (!isKnown(figure)) return;
+        if (wantsStillness() || !isKnown(figure)) return;
         stop();
         figure.press?.(figure.dataset.play ?? "");
       }, CHECK_MS);
@@ -44,7 +46,6 @@ function play(figure: Figure): void {
 const TAKEN = ["pointerdown", "keydown"] as const;
 
 export function startPlaying(): void {
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
   // Permalinks and printing show a state, not an animation.
   if (location.search !== "") return;
   for (const figure of document.querySelectorAll<Figure>("epipole-figure[data-play]")) play(figure);

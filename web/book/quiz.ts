@@ -2,8 +2,8 @@
 // and remembers solved questions in this browser only. An answer to an earlier wording of a
 // question (another data-hash) does not count.
 
-import { countReached, forget, goalsOf } from "./goals";
-import { canRemember, forgetSolved, hashOf, loadSolved, markSolved } from "./solved";
+import { countReached, goalsOf } from "./goals";
+import { hashOf, loadSolved, markSolved } from "./solved";
 
 type Verdict = { right: boolean; say: string };
 
@@ -72,52 +72,8 @@ function prepare(form: HTMLFormElement, quiz: string): void {
         verdict.textContent += " This browser keeps nothing for this page, so it will not remember that.";
       }
       if (solution) solution.open = true;
+      form.dispatchEvent(new Event("epipole-solved", { bubbles: true }));
     }
-  });
-}
-
-/** "n of all". More may be stored than exists, if questions have been removed since. */
-function share(count: number, all: number): string {
-  return `${Math.min(count, all)} of ${all}`;
-}
-
-/** Fills in the table of the progress page. */
-function showProgress(progress: HTMLElement): void {
-  const update = () => {
-    for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
-      const cells = [".solved", ".tasks", ".reached"].map((cell) => row.querySelector<HTMLElement>(cell));
-      const [solved, tasks, reached] = cells;
-      const chapter = row.dataset.quiz ?? "";
-      const count = (kind: "quiz" | "task") => Object.keys(loadSolved(kind, chapter)).length;
-      if (solved) solved.textContent = share(count("quiz"), Number(solved.dataset.questions));
-      if (tasks) tasks.textContent = share(count("task"), Number(tasks.dataset.tasks));
-      if (reached) reached.textContent = share(countReached(goalsOf(reached)), goalsOf(reached).length);
-    }
-  };
-  update();
-  if (!canRemember()) {
-    const words = document.createElement("p");
-    words.className = "kept";
-    words.setAttribute("role", "status");
-    words.textContent =
-      "This browser lets the page keep nothing, so what you solve is forgotten when you leave. Allow it to store " +
-      "data for this site, and it will be remembered.";
-    progress.prepend(words);
-  }
-  const reset = progress.querySelector<HTMLButtonElement>(".reset-progress");
-  if (!reset) return;
-  reset.hidden = false;
-  reset.addEventListener("click", () => {
-    for (const row of progress.querySelectorAll<HTMLElement>("tr[data-quiz]")) {
-      try {
-        forgetSolved("quiz", row.dataset.quiz ?? "");
-        forgetSolved("task", row.dataset.quiz ?? "");
-        for (const cell of row.querySelectorAll<HTMLElement>(".reached")) forget(goalsOf(cell));
-      } catch {
-        // Nothing was stored in that case.
-      }
-    }
-    update();
   });
 }
 
@@ -140,6 +96,5 @@ export function start(): void {
   for (const quiz of document.querySelectorAll<HTMLElement>(".quiz")) {
     for (const form of quiz.querySelectorAll("form")) prepare(form, quiz.dataset.quiz ?? "");
   }
-  for (const progress of document.querySelectorAll<HTMLElement>(".progress")) showProgress(progress);
   for (const mark of document.querySelectorAll<HTMLElement>(".small .solved")) showSolved(mark);
 }

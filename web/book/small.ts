@@ -2,6 +2,8 @@
 // the state to glide to and back from, repeatedly. One runs at a time, and none with reduced
 // motion.
 
+import { wantsStillness } from "../src/theme";
+
 interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>, options: { duration: number }) => Promise<void>;
 }
@@ -36,7 +38,7 @@ function rest(card: HTMLElement): void {
 
 function wake(card: HTMLElement): void {
   clearTimeout(next);
-  if (awake?.card === card) return;
+  if (awake?.card === card || wantsStillness()) return;
   next = setTimeout(() => {
     if (awake) rest(awake.card);
     if (isWhole(card)) void live(card);
@@ -63,13 +65,13 @@ async function live(card: HTMLElement): Promise<void> {
   while (isAwake() && figure.shadowRoot?.querySelector("[aria-busy=true], [aria-busy='']")) await pause(CHECK_MS);
   if (isAwake()) figure.classList.add("awake");
   for (let away = true; isAwake(); away = !away) {
+    if (wantsStillness()) return rest(card);
     await figure.glide?.(away ? moves : home, { duration: WAY_MS });
     await pause(REST_MS);
   }
 }
 
 export function startSmall(): void {
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
   // The address's parameters are for the figures of the text.
   if (location.search !== "") return;
   const cards = document.querySelectorAll<HTMLElement>(".small[data-moves]");

@@ -25,6 +25,12 @@ export function loadSolved(kind: Kind, chapter: string): Solved {
   }
 }
 
+/** Number of solved questions or tasks of a chapter; `wordings` are the present hashes by id. */
+export function countSolved(kind: Kind, chapter: string, wordings: Map<string, string>): number {
+  const solved = Object.entries(loadSolved(kind, chapter));
+  return solved.filter(([id, hash]) => wordings.get(id) === hash).length;
+}
+
 /** Stores that something is solved. Returns false if storage is blocked; the page works without it. */
 export function markSolved(kind: Kind, chapter: string, id: string, hash: string): boolean {
   try {

@@ -1,55 +1,54 @@
-// Light and dark theme. The system decides until the reader chooses; a choice equal to the system's
-// is forgotten, so that the page follows the system again.
+// Colors of what follows only the system: posters and the frame of the browser. The button for the
+// reader's settings.
 
-const KEY = "epipole-theme";
-const root = document.documentElement;
+import { keepSettings, type Settings, SETTINGS_KEY, showSettings, shownSettings, storedSettings } from "./settings";
+
 const DARK = "(prefers-color-scheme: dark)";
-const system = matchMedia(DARK);
 
-function isDark(): boolean {
-  return root.dataset.theme ? root.dataset.theme === "dark" : system.matches;
-}
-
-/** Applies the theme to posters and the browser's frame, which follow only the system's colors. */
-function apply(button: HTMLButtonElement | null): void {
-  const dark = isDark();
-  button?.setAttribute("aria-pressed", String(dark));
+function apply(): void {
+  const { theme, contrast } = shownSettings();
+  // With more contrast, figures are on black.
+  const chosen = contrast ? "dark" : theme;
   for (const source of document.querySelectorAll<HTMLSourceElement>("picture > source[media]")) {
     source.dataset.media ??= source.media;
     const media = source.dataset.media;
     if (!media.includes(DARK)) continue;
-    const chosen = dark ? media.replace(` and ${DARK}`, "").replace(DARK, "all") : "not all";
-    source.media = root.dataset.theme ? chosen : media;
+    const dark = media.replace(` and ${DARK}`, "").replace(DARK, "all");
+    source.media = !chosen ? media : chosen === "dark" ? dark : "not all";
   }
   for (const meta of document.querySelectorAll<HTMLMetaElement>('meta[name="theme-color"]')) {
     meta.dataset.system ??= meta.content;
-    meta.content = root.dataset.theme ? getComputedStyle(document.body).backgroundColor : meta.dataset.system;
+    meta.content = theme || contrast ? getComputedStyle(document.body).backgroundColor : meta.dataset.system;
   }
 }
 
-export function startTheme(): void {
-  const button = document.querySelector<HTMLButtonElement>(".theme-button");
-  apply(button);
-  system.addEventListener("change", () => apply(button));
+function show(settings: Settings): void {
+  showSettings(settings);
+  apply();
+}
+
+function keep(settings: Settings): void {
+  keepSettings(settings);
+  apply();
+}
+
+/** Follows the settings; their panel opens from the bar. `missing` hears that its script is missing. */
+export function startSettings(missing: () => void): void {
+  apply();
+  for (const query of [DARK, "(prefers-contrast: more)", "(forced-colors: active)"]) {
+    matchMedia(query).addEventListener("change", () => show(shownSettings()));
+  }
+  addEventListener("storage", ({ key }) => {
+    // Without a key, all of them are gone.
+    if (key === SETTINGS_KEY || key === null) show(storedSettings());
+  });
+  const button = document.querySelector<HTMLButtonElement>(".settings-button");
   if (!button) return;
   button.hidden = false;
-  button.addEventListener("click", () => {
-    const wanted = isDark() ? "light" : "dark";
-    const follows = (wanted === "dark") === system.matches;
-    if (follows) delete root.dataset.theme;
-    else root.dataset.theme = wanted;
-    try {
-      if (follows) localStorage.removeItem(KEY);
-      else localStorage.setItem(KEY, wanted);
-    } catch {
-      // Not stored; the theme is applied for this visit.
-    }
-    apply(button);
-  });
-  addEventListener("storage", (event) => {
-    if (event.key !== KEY) return;
-    if (event.newValue === "light" || event.newValue === "dark") root.dataset.theme = event.newValue;
-    else delete root.dataset.theme;
-    apply(button);
-  });
+  const open = () =>
+    void import("./settings_panel").then(
+      ({ makePanel }) => makePanel(button, { shown: shownSettings, keep }).showPopover(),
+      missing,
+    );
+  button.addEventListener("click", open, { once: true });
 }

@@ -11,6 +11,7 @@ declare module "epipole-lab-page" {
         bringsSample(): boolean;
         askForPhotographs(): void;
         askForProject(): void;
+        askForCameraFiles(): void;
         askForCamera(): void;
         askForFrames(video: number, part: number, numParts: number): void;
         save(name: string, bytes: Uint8Array): void;
@@ -32,10 +33,12 @@ declare module "epipole-lab-page" {
     frame(bytes: Uint8Array): void;
     frames(video: number, name: string): void;
     noFrames(video: number, sentence: string): void;
-    news(sentence: string): void;
+    notice(sentence: string): void;
     link(parameters: string[]): void;
     solved(computed: Uint8Array): void;
     project(archive: Uint8Array): void;
+    cameraFile(name: string, bytes: Uint8Array): void;
+    cameras(): void;
     keptProject(archive: Uint8Array): void;
     keptAside(sentence: string): void;
     kept(numBytes: number): void;

@@ -6,7 +6,16 @@
 const ITS_OWN = /\.(png|jpe?g|webp|tiff?|bmp|p[bgpn]m|zip)$/i;
 /** Formats that some browsers decode. */
 const FOREIGN = /\.(hei[cf]|avif|gif|jxl)$/i;
+/** Files that may be of cameras; the Lab tells by the content. */
+const CAMERA = /\.(ya?ml|json|xml|txt|bin|out)$/i;
+/** Files of models with poses. Points of a model are not read. */
+const MODEL = /^((cameras|images|rigs|frames)\.(txt|bin)|transforms\.json|sfm_data\.json)$/i;
 const QUALITY = 0.95;
+
+/** Whether a file may be of cameras, by its name. */
+export function isCamera(file: File): boolean {
+  return CAMERA.test(file.name);
+}
 
 /** Whether a file is a photograph or a project, by its name or the type that the browser gives it. */
 export function isPhotographOrProject(file: File): boolean {
@@ -19,8 +28,10 @@ export async function dropped(transfer: DataTransfer): Promise<File[]> {
   if (!entries.some((entry) => entry?.isDirectory)) return [...transfer.files];
   const files: File[] = [];
   for (const entry of entries) if (entry) await walk(entry, files);
-  // From a folder, take only photographs, videos and projects.
-  return files.filter((file) => isPhotographOrProject(file) || file.type.startsWith("video/"));
+  // From a folder, take only photographs, videos, projects, and the first model.
+  const models = new Set<string>();
+  const isFirst = (name: string) => MODEL.test(name) && models.size < models.add(name.toLowerCase()).size;
+  return files.filter((file) => isPhotographOrProject(file) || file.type.startsWith("video/") || isFirst(file.name));
 }
 
 async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {

@@ -34,7 +34,7 @@ interface Listener {
 }
 
 /** The project that the reader chose to keep. */
-export class Kept {
+export class StoredProject {
   readonly #listener: Listener;
   /** Other open pages of the Lab; a project erased in one must not be kept again by another. */
   readonly #others = new BroadcastChannel(KEPT);

@@ -3,11 +3,13 @@
  */
 
 import load, { Lab } from "epipole-lab-page";
+import { showSettings, storedSettings } from "../book/settings.js";
+import { wantsContrast, watchTheme } from "../src/theme.js";
 import { Camera } from "./camera.js";
-import { Crew, type Told } from "./crew.js";
+import { WorkerPool, type WorkerMessage } from "./worker_pool.js";
 import { FigureBeside } from "./figure.js";
-import { dropped, isPhotographOrProject, photographOf } from "./files.js";
-import { Kept, putAside, takeBack } from "./keep.js";
+import { dropped, isCamera, isPhotographOrProject, photographOf } from "./files.js";
+import { StoredProject, putAside, takeBack } from "./keep.js";
 import { Mirror } from "./mirror.js";
 import { solvedSample } from "./sample.js";
 import { Frames, isVideo } from "./video.js";
@@ -23,32 +25,21 @@ const notice = find("notice");
 const said = find("said");
 const photographs = find<HTMLInputElement>("photographs");
 const project = find<HTMLInputElement>("project");
+const cameraFiles = find<HTMLInputElement>("camera-files");
 
 /** Quiet time before a changing status is announced, milliseconds. */
 const REST_MS = 400;
 
-try {
-  const chosen = localStorage.getItem("epipole-theme");
-  if (chosen === "light" || chosen === "dark" || chosen === "high-contrast") {
-    document.documentElement.dataset["theme"] = chosen;
-  }
-} catch {
-  // Storage may be blocked; the theme then follows the system.
-}
+showSettings(storedSettings());
 
 /** Interval for mirroring the widgets for screen readers, milliseconds. */
 const LOOK_MS = 200;
 
-const contrast = ["(prefers-contrast: more)", "(forced-colors: active)"];
-const themes = ["(prefers-color-scheme: dark)", ...contrast];
-
-/**
- * High contrast if the system asks for it, else the theme chosen in the book, else the system's.
- */
+/** Theme by the settings of the book and of the system. */
 function theme(): string {
-  if (contrast.some((query) => matchMedia(query).matches)) return "high-contrast";
+  if (wantsContrast()) return "high-contrast";
   const chosen = document.documentElement.dataset["theme"];
-  return chosen ?? (matchMedia(themes[0] ?? "").matches ? "dark" : "light");
+  return chosen ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 }
 
 /**
@@ -90,13 +81,13 @@ async function start(): Promise<void> {
     return;
   }
   const lab = new Lab();
-  const hear = (told: Told) => {
-    if ("share" in told) lab.progress(told.work, told.share, told.words);
-    else if ("soFar" in told) lab.soFar(told.work, told.soFar);
-    else if ("answer" in told) lab.done(told.work, told.answer);
-    else lab.failed(told.work, told.problem, told.broken);
+  const hear = (message: WorkerMessage) => {
+    if ("share" in message) lab.progress(message.work, message.share, message.words);
+    else if ("soFar" in message) lab.soFar(message.work, message.soFar);
+    else if ("answer" in message) lab.done(message.work, message.answer);
+    else lab.failed(message.work, message.problem, message.broken);
   };
-  const crew = new Crew(hear);
+  const workers = new WorkerPool(hear);
   const beside = new FigureBeside();
   /** Files that the reader has given; their bytes are not in memory. */
   const given: File[] = [];
@@ -121,7 +112,7 @@ async function start(): Promise<void> {
       lab.noFrames(video, error instanceof Error ? error.message : String(error));
     }
   };
-  const kept = new Kept(lab);
+  const kept = new StoredProject(lab);
   /** Number of `given` files that the kept project contains, which need not be stored again. */
   let numKept = 0;
   const askForKept = async () => {
@@ -147,14 +138,15 @@ async function start(): Promise<void> {
   });
   let resting: ReturnType<typeof setTimeout> | undefined;
   const shell = {
-    capacity: () => crew.capacity,
+    capacity: () => workers.capacity,
     start: (work: number, branch: string, request: Uint8Array) =>
-      crew.start(work, branch === "files" ? "files" : "vision", request),
-    cancel: (work: number) => crew.cancel(work),
+      workers.start(work, branch === "files" ? "files" : "vision", request),
+    cancel: (work: number) => workers.cancel(work),
     bringsSample: () => sample !== undefined || isHanded,
     askForPhotographs: () => photographs.click(),
     askForProject: () => project.click(),
-    askForCamera: () => void camera.open().catch((error: Error) => lab.news(error.message)),
+    askForCameraFiles: () => cameraFiles.click(),
+    askForCamera: () => void camera.open().catch((error: Error) => lab.notice(error.message)),
     askForFrames: (video: number, part: number, numParts: number) => void read(video, part, numParts),
     save: (name: string, bytes: Uint8Array) => {
       if (name === "project.zip") isUnsaved = false;
@@ -176,6 +168,7 @@ async function start(): Promise<void> {
 
   const take = async (files: Iterable<File>) => {
     let count = 0;
+    const cameras: File[] = [];
     const foreign: string[] = [];
     const left: string[] = [];
     const undecoded: string[] = [];
@@ -183,6 +176,10 @@ async function start(): Promise<void> {
       if (isVideo(file)) {
         given.push(file);
         lab.video(videos.push(new Frames(file)) - 1);
+        continue;
+      }
+      if (isCamera(file)) {
+        cameras.push(file);
         continue;
       }
       if (!isPhotographOrProject(file)) {
@@ -207,15 +204,18 @@ async function start(): Promise<void> {
       lab.deliver();
       isUnsaved = true;
     }
-    const news = [
+    // Poses are looked for by the names of the photographs, which may have come with them.
+    for (const file of cameras) lab.cameraFile(file.name, new Uint8Array(await file.arrayBuffer()));
+    if (cameras.length > 0) lab.cameras();
+    const remarks = [
       [left, "not a photograph, so left out."],
       [undecoded, "this browser cannot decode it. Convert it to JPEG and add it again."],
       [foreign, "decoded by this browser, so another browser may give other pixels. The name ends in .jpg to mark it."],
     ] as const;
-    const sentences = news.filter(([names]) => names.length > 0).map(([names, why]) => `${names.join(", ")}: ${why}`);
-    if (sentences.length > 0) lab.news(sentences.join(" "));
+    const sentences = remarks.filter(([names]) => names.length > 0).map(([names, why]) => `${names.join(", ")}: ${why}`);
+    if (sentences.length > 0) lab.notice(sentences.join(" "));
   };
-  for (const input of [photographs, project]) {
+  for (const input of [photographs, project, cameraFiles]) {
     input.addEventListener("change", () => {
       const files = [...(input.files ?? [])];
       input.value = "";
@@ -257,7 +257,8 @@ async function start(): Promise<void> {
     input.setAttribute("aria-label", "Letters for the Lab");
   }
   lab.theme(theme());
-  for (const query of themes) matchMedia(query).addEventListener("change", () => lab.theme(theme()));
+  watchTheme(() => lab.theme(theme()));
+  addEventListener("storage", () => showSettings(storedSettings()));
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
@@ -295,7 +296,7 @@ async function start(): Promise<void> {
 }
 
 /** Opens the kept project, then applies the address. */
-async function open(lab: Lab, isHanded: boolean, kept: Kept, askForKept: () => Promise<boolean>): Promise<void> {
+async function open(lab: Lab, isHanded: boolean, kept: StoredProject, askForKept: () => Promise<boolean>): Promise<void> {
   const link = new URLSearchParams(location.search);
   link.delete("photographs");
   const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];

@@ -2,9 +2,9 @@
 
 import * as files from "epipole-lab-files";
 import * as vision from "epipole-lab-vision";
-import type { Branch, Order, Told } from "./crew.js";
+import type { Branch, Order, WorkerMessage } from "./worker_pool.js";
 
-/** The crew passes the module to run in the worker's name. */
+/** The worker pool passes the module to run in the worker's name. */
 const [code, place] =
   (self.name as Branch) === "files" ? ([files, LAB_FILES_WASM] as const) : ([vision, LAB_VISION_WASM] as const);
 const { compute, take_panic } = code;
@@ -33,7 +33,7 @@ function isWanted(address: string): boolean {
 }
 
 async function carryOut({ work, request, wanted }: Order): Promise<void> {
-  const tell = (told: Told, transfer: Transferable[] = []) => postMessage(told, { transfer });
+  const tell = (message: WorkerMessage, transfer: Transferable[] = []) => postMessage(message, { transfer });
   try {
     await loading;
   } catch {

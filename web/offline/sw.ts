@@ -6,8 +6,8 @@ import { COMPLETE, TAKE_OVER, type CacheRequest } from "./protocol";
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
 
-/** Parts of the site that are not kept: frames for other sites, manuals, notebooks. */
-const ELSEWHERE = /^(embed|python|js|notebooks|licenses)\/|\.(br|gz)$/;
+/** Parts of the site that are not kept: frames for other sites, manuals, notebooks, slides. */
+const ELSEWHERE = /^(embed|python|js|notebooks|slides|licenses)\/|\.(br|gz)$/;
 
 worker.addEventListener("install", (event) => event.waitUntil(install()));
 worker.addEventListener("activate", (event) => event.waitUntil(activate()));

@@ -5,6 +5,7 @@
 
 import type { EpipoleFigure } from "./element.js";
 import { readSaved, type Saved } from "./saved.js";
+import { answerHost, messageId, post, tell } from "./splice.js";
 
 export interface Connection {
   /** Identifier of this figure in learning records [default: the address of its page]. */
@@ -21,24 +22,6 @@ const REST_MS = 1000;
 const REPORT_MS = 30_000;
 
 const connected = new WeakMap<EpipoleFigure, () => void>();
-let count = 0;
-
-/** A unique id. `crypto.randomUUID` is missing on pages served without https. */
-function messageId(): string {
-  count += 1;
-  return `epipole-${Date.now().toString(36)}-${Math.random().toString(36).slice(2)}-${count}`;
-}
-
-function post(message: unknown): void {
-  // The origin of the parent is unknown, and the messages contain nothing private.
-  parent.postMessage(message, "*");
-}
-
-function tell(subject: string, more: object): string {
-  const message_id = messageId();
-  post({ subject, message_id, ...more });
-  return message_id;
-}
 
 /**
  * Connects a figure to the page around its iframe; does nothing outside of iframes. A figure alone
@@ -63,8 +46,6 @@ function addressOf(figure: EpipoleFigure): string {
 
 /** State, scores and events. */
 function talk(figure: EpipoleFigure, activity_id: string): () => void {
-  /** Message id of the state request that is still open. */
-  let asked: string | undefined;
   let touched = false;
   let unreported = false;
   let reported = -Infinity;
@@ -87,19 +68,9 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
     rest = setTimeout(report, Math.max(REST_MS, reported + REPORT_MS - performance.now()));
   };
 
-  const onMessage = ({ source, data }: MessageEvent) => {
-    if (source !== parent) return;
-    const message = recordOf(data);
-    if (message?.["subject"] === "SPLICE.flushState") {
-      const hadState = report();
-      post({ subject: "SPLICE.flushState.response", message_id: message["message_id"], success: true, hadState });
-    }
-    if (message?.["subject"] !== "SPLICE.getState.response") return;
-    if (asked === undefined || message["message_id"] !== asked) return;
-    asked = undefined;
-    // Hosts without stored state answer with an error or not at all.
-    if (message["error"] != null || !figure.isConnected || touched) return;
-    const saved = readSaved(message["state"], figure.getAttribute("name") ?? "");
+  const take = (state: unknown) => {
+    if (!figure.isConnected || touched) return;
+    const saved = readSaved(state, figure.getAttribute("name") ?? "");
     if (typeof saved === "string") void figure.whenReady().then(() => figure.warn(saved));
     else if (saved) void restore(saved);
   };
@@ -128,7 +99,6 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
   };
   const onHide = () => void report();
 
-  addEventListener("message", onMessage);
   addEventListener("pagehide", onHide);
   figure.addEventListener("epipole-change", reportLater);
   figure.addEventListener("epipole-challenge", onChallenge);
@@ -136,11 +106,11 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
   figure.addEventListener("epipole-ready", onReady);
   for (const type of ["pointerdown", "keydown"]) figure.addEventListener(type, onTouch, { capture: true });
   if (figure.hasAttribute("data-ready")) onReady();
-  asked = tell("SPLICE.getState", {});
+  const endAnswers = answerHost({ restore: take, flush: report });
 
   return () => {
     clearTimeout(rest);
-    removeEventListener("message", onMessage);
+    endAnswers();
     removeEventListener("pagehide", onHide);
     figure.removeEventListener("epipole-change", reportLater);
     figure.removeEventListener("epipole-challenge", onChallenge);
@@ -148,19 +118,6 @@ function talk(figure: EpipoleFigure, activity_id: string): () => void {
     figure.removeEventListener("epipole-ready", onReady);
     for (const type of ["pointerdown", "keydown"]) figure.removeEventListener(type, onTouch, { capture: true });
   };
-}
-
-/** A message as an object; it may arrive as JSON text. */
-function recordOf(data: unknown): Record<string, unknown> | undefined {
-  let value = data;
-  if (typeof data === "string") {
-    try {
-      value = JSON.parse(data);
-    } catch {
-      return undefined;
-    }
-  }
-  return typeof value === "object" && value !== null ? (value as Record<string, unknown>) : undefined;
 }
 
 /**

@@ -4,14 +4,26 @@ export type Theme = "light" | "dark" | "high-contrast";
 
 const queries = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "(forced-colors: active)"];
 
+/** Whether the reader wants more contrast, by a setting of the page or of the system. */
+export function wantsContrast(): boolean {
+  const ofPage = document.documentElement.dataset["contrast"] === "more";
+  return ofPage || queries.slice(1).some((query) => matchMedia(query).matches);
+}
+
+/** Whether the reader wants reduced motion, by a setting of the page or of the system. */
+export function wantsStillness(): boolean {
+  const ofPage = document.documentElement.dataset["motion"] === "reduced";
+  return ofPage || matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
 /**
- * Theme for a figure: its `theme` attribute; else high contrast if the system asks for it; else the
+ * Theme for a figure: its `theme` attribute; else high contrast if the reader wants it; else the
  * nearest `data-theme`, else its `color-scheme`, else light or dark by the background behind it.
  */
 function themeOf(element: HTMLElement): Theme {
   const wish = element.getAttribute("theme");
   if (wish === "light" || wish === "dark" || wish === "high-contrast") return wish;
-  if (queries.slice(1).some((query) => matchMedia(query).matches)) return "high-contrast";
+  if (wantsContrast()) return "high-contrast";
 
   for (const at of outwards(element)) {
     const named = at.dataset["theme"];
@@ -140,9 +152,4 @@ export function watchDensity(changed: () => void): () => void {
   };
   watch();
   return () => list.removeEventListener("change", again);
-}
-
-/** Whether the reader prefers reduced motion. */
-export function wantsStillness(): boolean {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

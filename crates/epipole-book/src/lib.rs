@@ -3,20 +3,26 @@
 //! Stages run one way: [`parse`] reads chapters to data, [`resolve`] asks the core for what they
 //! show, [`render`] makes pages, [`write`](mod@write) makes the site. Each directive of the
 //! authors' notation is a file in `directives`, which uses the first three. [`site`] runs the
-//! stages, [`serve`] shows the result while chapters are edited.
+//! stages, [`serve`] shows the result while chapters are edited. [`edition`] takes the scripts out
+//! of the pages, for paper ([`print`](mod@print)) and for reading systems ([`mod@epub`]).
 //!
 //! Problems in the content are reported together, with file and line, and fail the build.
 
 mod directives;
+pub mod edition;
+pub mod epub;
 mod hash;
 pub mod html;
 mod parallel;
 pub mod parse;
 pub mod phases;
+pub mod print;
 pub mod problems;
+mod reading;
 pub mod render;
 pub mod resolve;
 pub mod serve;
 pub mod site;
+mod slides;
 mod tools;
 pub mod write;

@@ -1,14 +1,17 @@
-//! `epipole-book build | serve | check`.
+//! `epipole-book build | serve | print | epub | check`.
 
 use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
+use epipole_book::edition::EditionOptions;
+use epipole_book::epub::{EpubOptions, epub};
 use epipole_book::phases::Phases;
+use epipole_book::print::print;
 use epipole_book::resolve::figures::Widgets;
 use epipole_book::serve;
 use epipole_book::site::{Options, Outcome, build};
 use epipole_book::write::assets::{make_lab, make_vision};
 use epipole_book::write::stills;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -60,6 +63,27 @@ enum Command {
     },
     /// Make the WebAssembly modules of the npm package of the core.
     Vision,
+    /// Write the book as one document for paper, which `make pdf` prints.
+    Print {
+        /// Output folder; target/print if not given.
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Address of the published book, for links to its figures.
+        #[arg(long)]
+        address: Option<String>,
+    },
+    /// Write the book as an EPUB 3 file.
+    Epub {
+        /// Output file; target/epub/epipole.epub if not given.
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Address of the published book, for links to its figures.
+        #[arg(long)]
+        address: Option<String>,
+        /// Time of the last change in UTC.
+        #[arg(long, default_value = "1980-01-01T00:00:00Z")]
+        modified: String,
+    },
     /// Look for mistakes in the content only, without making the site.
     Check,
     /// Write the notebooks of the chapters only.
@@ -133,6 +157,38 @@ fn run(cli: &Cli) -> Result<bool> {
             );
             Ok(true)
         }
+        Command::Print {
+            out: chosen,
+            address,
+        } => {
+            let options = EditionOptions {
+                out: chosen.clone().unwrap_or(project.join("target/print")),
+                project,
+                address: address.clone(),
+            };
+            reported(Some(&options.out), cli.timings, |phases| {
+                print(&options, &Widgets, phases)
+            })
+        }
+        Command::Epub {
+            out: chosen,
+            address,
+            modified,
+        } => {
+            let file = project.join("target/epub/epipole.epub");
+            let options = EpubOptions {
+                edition: EditionOptions {
+                    out: chosen.clone().unwrap_or(file),
+                    project,
+                    address: address.clone(),
+                },
+                modified: modified.clone(),
+                font: true,
+            };
+            reported(Some(&options.edition.out), cli.timings, |phases| {
+                epub(&options, &Widgets, phases)
+            })
+        }
         Command::Check => {
             options.assets = false;
             options.check = true;
@@ -158,9 +214,21 @@ fn run(cli: &Cli) -> Result<bool> {
 
 /// Builds once and prints the outcome. False if the content has problems.
 fn once(options: &Options, timings: bool) -> Result<bool> {
+    let out = (!options.check).then_some(&*options.out);
+    reported(out, timings, |phases| build(options, &Widgets, phases))
+}
+
+/// Runs a build and prints its outcome. False if the content has problems.
+///
+/// * `out`: the folder it wrote to, if any
+fn reported(
+    out: Option<&Path>,
+    timings: bool,
+    build: impl FnOnce(&Phases) -> Result<Outcome>,
+) -> Result<bool> {
     let start = Instant::now();
     let phases = Phases::on_stderr();
-    let outcome = build(options, &Widgets, &phases)?;
+    let outcome = build(&phases)?;
     if timings {
         eprint!("{}", phases.timings());
     }
@@ -178,11 +246,12 @@ fn once(options: &Options, timings: bool) -> Result<bool> {
         }
         Outcome::Built { pages, files } => {
             let seconds = start.elapsed().as_secs_f64();
-            if options.check {
-                println!("{pages} pages, no problems ({seconds:.1} s)");
-            } else {
-                let out = options.out.display();
-                println!("{pages} pages, {files} files in {out} ({seconds:.1} s)");
+            match out {
+                None => println!("{pages} pages, no problems ({seconds:.1} s)"),
+                Some(out) => {
+                    let out = out.display();
+                    println!("{pages} pages, {files} files in {out} ({seconds:.1} s)");
+                }
             }
             Ok(true)
         }

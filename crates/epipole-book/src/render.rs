@@ -16,6 +16,7 @@ pub mod page;
 pub(crate) mod panels;
 pub(crate) mod pictures;
 mod progress;
+mod reading_time;
 pub(crate) mod symbols;
 mod tables;
 pub(crate) mod terms;

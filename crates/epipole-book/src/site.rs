@@ -1,33 +1,31 @@
 //! The whole site, stage by stage: chapters to data, answers of the core, pages, files.
 
-use crate::directives::VOCABULARY;
 use crate::html::path_to_root;
-use crate::parallel;
-use crate::parse::book::{self, Chapter, Manuscript};
-use crate::parse::content::Content;
+use crate::parse::book;
 use crate::phases::Phases;
-use crate::problems::{Problem, Problems};
-use crate::render::chapter::Draft;
+use crate::reading::{Joined, Reading};
 use crate::render::links::LAB_FOLDER;
 use crate::render::page::{Page, PanelRequest};
-use crate::render::{join, panels};
-use crate::resolve::book::Book;
-use crate::resolve::cache::Cache;
+use crate::render::panels;
 use crate::resolve::figures::Gallery;
-use crate::tools::target_folder;
+use crate::resolve::posters::Medium;
+use crate::slides;
 use crate::write::address;
 use crate::write::assets::{self, Assets, Modules};
+use crate::write::cards;
 use crate::write::compress;
 use crate::write::disk::{STAND_IN, write};
 use crate::write::frames::{self, Frame};
-use crate::write::gathered;
 use crate::write::manifest::{MANIFEST, manifest};
 use crate::write::manual::{Manual, read_reference};
-use crate::write::template::{Nav, Template};
-use anyhow::{Context, Result, bail};
+use crate::write::page_files;
+use crate::write::template::{NOT_FOUND, Nav, Template};
+use anyhow::{Result, bail};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::thread::ScopedJoinHandle;
+
+pub use crate::reading::Outcome;
 
 /// Options of a build.
 #[derive(Debug, Clone)]
@@ -49,20 +47,6 @@ pub struct Options {
     pub js_reference: Option<PathBuf>,
     /// For `serve`: pages reload themselves, and files are not compressed.
     pub live: bool,
-}
-
-/// Outcome of a build.
-#[derive(Debug)]
-pub enum Outcome {
-    /// The site is in place.
-    Built {
-        /// Number of pages.
-        pages: usize,
-        /// Number of files, compressed ones included.
-        files: usize,
-    },
-    /// The content has problems; nothing was written.
-    Problems(Vec<Problem>),
 }
 
 /// Files of the site by their paths.
@@ -99,37 +83,35 @@ fn build_beside(
     phases: &Phases,
     modules: impl FnOnce() -> Result<Option<Modules>>,
 ) -> Result<Outcome> {
-    let content = Content::new(&options.project.join("content"));
-    let problems = Problems::default();
-    let read = phases.run("read chapters", 0, |_| book::read(&content, &problems))?;
-    let Some(manuscript) = read else {
-        return Ok(Outcome::Problems(problems.sorted()));
-    };
-    let Manuscript {
-        config,
-        contents,
-        chapters,
-    } = manuscript;
-    let draws_posters = !options.check;
-    let book = Book::new(&content, gallery, cache(options)?, draws_posters, &problems);
-    let mut pages = pages(chapters, &content, &book, phases);
-    let panels = match options.assets && !options.check {
+    let medium = (!options.check).then_some(Medium::Screen);
+    let reading = Reading::new(&options.project, gallery, medium, phases);
+    let panels = |pages: &[Page]| match options.assets && !options.check {
         true => phases.run("make panels", 0, |_| {
             let requests = pages.iter().flat_map(|page| &page.panels);
             let requests: Vec<&PanelRequest> = requests.collect();
             panels::make(&options.project, &requests)
-        })?,
-        false => Vec::new(),
+        }),
+        false => Ok(Vec::new()),
     };
-    phases.run("check links", 0, |_| {
-        join::join(&mut pages, &panels, &problems);
-        join::check(&pages, &content, &problems);
-    });
-    if !problems.sorted().is_empty() {
-        return Ok(Outcome::Problems(problems.sorted()));
-    }
+    reading.joined(panels, |joined| {
+        write_site(options, joined, phases, modules)
+    })
+}
 
-    let mut files = gathered::files(&mut pages, &content);
+fn write_site(
+    options: &Options,
+    joined: Joined,
+    phases: &Phases,
+    modules: impl FnOnce() -> Result<Option<Modules>>,
+) -> Result<Outcome> {
+    let Joined {
+        config,
+        contents,
+        mut pages,
+        content,
+        book,
+    } = joined;
+    let mut files = page_files::files(&mut pages, content);
     if let Some(folder) = &options.notebooks {
         let notebooks = files
             .iter()
@@ -143,7 +125,7 @@ fn build_beside(
             files: 0,
         });
     }
-    let frames = phases.run("draw frames", 0, |_| frames::draw(&book))?;
+    let frames = phases.run("draw frames", 0, |_| frames::draw(book))?;
     let assets = if options.assets {
         let used = assets::used_letters(&pages);
         let modules = phases.run("wait for WebAssembly", 0, |_| modules())?;
@@ -179,36 +161,6 @@ fn build_beside(
     Ok(report)
 }
 
-/// Cache of posters and snapshots.
-fn cache(options: &Options) -> Result<Cache> {
-    let folder = target_folder(&options.project).join("book-work/posters");
-    std::fs::create_dir_all(&folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    Ok(Cache::new(&folder))
-}
-
-/// Parses, resolves and renders all chapters.
-fn pages(chapters: Vec<Chapter>, content: &Content, book: &Book, phases: &Phases) -> Vec<Page> {
-    let (count, problems) = (chapters.len(), book.problems);
-    let parsed: Vec<_> = phases.run("parse chapters", 0, |_| {
-        let chapters = chapters.into_iter();
-        chapters
-            .map(|chapter| Draft::parse(chapter, VOCABULARY, content, problems))
-            .collect()
-    });
-    let resolved: Vec<_> = phases.run("ask figures and draw posters", count, |steps| {
-        parallel::map(parsed, |draft| {
-            let resolved = draft.resolve(book);
-            steps.done();
-            resolved
-        })
-    });
-    phases.run("render pages", 0, |_| {
-        let pages = resolved.into_iter().map(|draft| draft.render(problems));
-        pages.collect()
-    })
-}
-
 /// The pages with their surroundings.
 struct Bound<'a> {
     config: &'a mdbook_driver::config::Config,
@@ -235,7 +187,7 @@ impl Bound<'_> {
         let search = serde_json::to_vec(&sections.collect::<Vec<_>>())?;
         let search = assets::add_hashed(files, "search", "json", search);
         let file = options.project.join("web/theme/index.hbs");
-        let template = Template::load(
+        let mut template = Template::load(
             &file,
             config,
             assets,
@@ -249,20 +201,25 @@ impl Bound<'_> {
             let address = format!("{}{styles}", path_to_root(&page.path));
             page.html = page.html.replace(panels::STYLES, &address);
         }
+        let root = address::address(config);
+        if root.is_some() {
+            let title = config.book.title.as_deref().unwrap_or("Book");
+            template.add_cards(cards::add(files, title, pages)?);
+        }
         for (index, page) in pages.iter().enumerate() {
             let nav = Nav::new(contents, pages, index);
             files.insert(page.path.clone(), template.page(page, &nav)?.into_bytes());
         }
         frames::add(files, &options.project, config, assets, frames)?;
+        slides::add(files, &options.project, config, assets, pages)?;
         if !files.contains_key("index.html")
             && let Some(first) = pages.first()
             && let Some(html) = files.get(&first.path).cloned()
         {
             files.insert("index.html".to_owned(), html);
         }
-        let root = address::address(config);
         let others = [
-            ("404.html".to_owned(), template.not_found(contents, pages)?),
+            (NOT_FOUND.to_owned(), template.not_found(contents, pages)?),
             (
                 format!("{LAB_FOLDER}/index.html"),
                 template.without_lab(contents, pages)?,

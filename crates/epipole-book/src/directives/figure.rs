@@ -166,14 +166,17 @@ impl Answered {
             page.page.goals.extend(goals);
         }
         let number = page.page.next_figure_number();
-        page.page.figures.push(FigureEntry {
-            id: id.clone(),
-            number: number.clone(),
-            place: figure.place,
-        });
         let sizes = posters.sizes();
         let pictures = pictures::add(page, name, posters);
         let description = facts.description();
+        page.page.figures.push(FigureEntry {
+            name: name.clone(),
+            id: id.clone(),
+            number: number.clone(),
+            poster: pictures.poster,
+            description: description.to_owned(),
+            place: figure.place,
+        });
         page.page.words.push_str(description);
         page.page.words.push(' ');
         let caption = figure.caption.inline(page);

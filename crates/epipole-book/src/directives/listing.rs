@@ -231,6 +231,7 @@ impl Opened {
                 id: format!("{name}-{}", tab.key),
                 source: tab.fence.code.clone(),
                 prints: tab.prints.clone(),
+                solution: None,
             });
         }
         if cells.len() > 1 {

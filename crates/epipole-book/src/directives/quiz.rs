@@ -19,8 +19,6 @@ pub(super) struct Quiz<T> {
     name: String,
     /// The questions without problems.
     questions: Vec<Question<T>>,
-    /// Number of questions in the file.
-    count: usize,
 }
 
 impl Directive for Quiz<ParsedText> {
@@ -39,11 +37,9 @@ impl Directive for Quiz<ParsedText> {
             return Err(format!("there is no quizzes/{name}.toml"));
         };
         let mut text = |written: &str, place: &Place| parser.verbatim(written, place);
-        let (questions, count) = file::parse(&source, &mut text, parser.problems);
         Ok(Quiz {
             name: name.to_owned(),
-            questions,
-            count,
+            questions: file::parse(&source, &mut text, parser.problems),
         })
     }
 
@@ -54,17 +50,16 @@ impl Directive for Quiz<ParsedText> {
         Ok(Quiz {
             name: self.name,
             questions: questions.collect(),
-            count: self.count,
         })
     }
 
     fn render(quiz: Quiz<Text>, page: &mut Writer) -> Insert {
-        let html = form::quiz(&quiz.name, quiz.questions, &mut |text: Text| {
+        let (html, questions) = form::quiz(&quiz.name, quiz.questions, &mut |text: Text| {
             text.inline(page)
         });
         page.page.quizzes.push(QuizEntry {
             name: quiz.name,
-            questions: quiz.count,
+            questions,
         });
         Insert::Block { html }
     }

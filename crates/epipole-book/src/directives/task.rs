@@ -10,7 +10,8 @@ use crate::render::code::{COPY, Heading, run_button, shown, take_name};
 use crate::render::directive::{Directive, ParsedText, Parser, Text};
 use crate::render::insert::{Block, Fence, Insert, Words};
 use crate::render::listing::pre;
-use crate::render::notebook::{self, Cell};
+use crate::render::notebook::{self, Cell, Tasks};
+use crate::render::page::Solvable;
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
@@ -94,11 +95,17 @@ impl Opened {
         let solved = pre(&shown(solution, page), language);
         if language == "js" {
             let chapter = page.page.path.trim_end_matches(".html").replace('/', "-");
-            let hash = fnv(format!("{}{}", start.code, check.code).as_bytes());
+            let hash = format!(
+                "{:016x}",
+                fnv(format!("{}{}", start.code, check.code).as_bytes())
+            );
             page.page.has_programs = true;
-            page.page.tasks += 1;
+            page.page.tasks.push(Solvable {
+                id: format!("task-{name}"),
+                hash: hash.clone(),
+            });
             return Ok(format!(
-                "{words}<div class=\"listing task\" id=\"task-{name}\" data-chapter=\"{chapter}\" data-hash=\"{hash:016x}\" \
+                "{words}<div class=\"listing task\" id=\"task-{name}\" data-chapter=\"{chapter}\" data-hash=\"{hash}\" \
                  role=\"group\" aria-labelledby=\"task-{name}-title\">\n\
                  <div class=\"listing-bar\"><p class=\"listing-title\" id=\"task-{name}-title\">{html}</p>\
                  {run}{COPY}<p class=\"listing-only\">JavaScript</p></div>\n\
@@ -110,22 +117,23 @@ impl Opened {
                 check = escape(&check.code),
             ));
         }
-        let cell = |word: &str, fence: &Fence| Cell::Code {
+        let cell = |word: &str, fence: &Fence, solution: Option<&Fence>| Cell::Code {
             id: format!("{name}-{word}"),
             source: fence.code.clone(),
             prints: String::new(),
+            solution: solution.map(|fence| fence.code.clone()),
         };
         page.page.cells.extend([
             Cell::text(format!(
                 "## Your turn: {title}\n\n{}",
                 words.markdown.trim()
             )),
-            cell("start", start),
+            cell("start", start, Some(solution)),
             Cell::text("The next cell looks at your function and says what is missing.".to_owned()),
-            cell("check", check),
+            cell("check", check, None),
         ]);
         let (file, root) = (
-            notebook::path(&page.page.path),
+            notebook::path(&page.page.path, Tasks::Open),
             path_to_root(&page.page.path),
         );
         Ok(format!(

@@ -2,17 +2,17 @@
 
 use super::content::Content;
 use super::outline::Outline;
+use super::placeholders;
 use super::source::Source;
-use super::stand_ins;
 use super::syntax::{Call, Piece, split};
 use crate::problems::{Place, Problems, name_list};
 
-/// Markdown in which stand-ins take the place of directives. `D` is what a stage has of a
+/// Markdown in which placeholders take the place of directives. `D` is what a stage has of a
 /// directive.
 pub(crate) struct Text<D> {
-    /// The Markdown with its stand-ins.
+    /// The Markdown with its placeholders.
     pub(crate) source: Source,
-    /// The directives by the index of their stand-ins; none where a problem was reported.
+    /// The directives by the index of their placeholders; none where a problem was reported.
     pub(crate) directives: Vec<Option<D>>,
 }
 
@@ -88,10 +88,10 @@ impl<D> Parser<'_, D> {
                 }
                 Piece::Directive(call) => {
                     let place = source.place(call.span.start);
-                    let stand_in = stand_ins::of(text.directives.len());
+                    let placeholder = placeholders::of(text.directives.len());
                     text.directives
                         .push(self.directive(source, &call, place.clone()));
-                    text.source.push(&stand_in, place);
+                    text.source.push(&placeholder, place);
                 }
             }
         }

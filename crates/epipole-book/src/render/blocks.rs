@@ -3,8 +3,8 @@
 use super::insert::{Block, Fence, Insert};
 use super::listing::info;
 use crate::parse::events::{Located, end_of};
+use crate::parse::placeholders;
 use crate::parse::source::Source;
-use crate::parse::stand_ins;
 use crate::problems::Place;
 use pulldown_cmark::{Event, Tag};
 use std::ops::Range;
@@ -113,5 +113,5 @@ fn lone_index(inner: &[Located]) -> Option<usize> {
             _ => return None,
         }
     }
-    stand_ins::index_of(words.trim())
+    placeholders::index_of(words.trim())
 }

@@ -1,8 +1,9 @@
 //! A chapter on its way through the stages: parsed, resolved, rendered.
 
 use super::directive::{Parsed, Parser, Resolved};
-use super::notebook;
+use super::notebook::{self, Cell, Tasks};
 use super::page::Page;
+use super::reading_time::{reading_time, reading_time_min};
 use super::writer::Writer;
 use crate::html::path_to_root;
 use crate::parse::book::Chapter;
@@ -69,8 +70,10 @@ impl Draft<Resolved> {
         let mut writer = Writer::new(self.page, &self.symbols, problems);
         let html = self.text.block(&mut writer);
         let mut page = writer.page;
-        page.html = html + &add_notebook(&mut page);
         page.end_section();
+        page.reading_time_min = reading_time_min(&page);
+        let notebook = add_notebook(&mut page);
+        page.html = reading_time(page.reading_time_min) + &html + &notebook + &deck_link(&page);
         let headings = page.headings.iter();
         if headings.filter(|heading| heading.level == 1).count() != 1 {
             let message = "a chapter starts with its title, `# …`, and has no other of that level";
@@ -80,19 +83,43 @@ impl Draft<Resolved> {
     }
 }
 
-/// Adds the notebook of a page that has Python. Returns a link to it.
+/// Adds the notebook of a page that has Python, and the same with its tasks solved. Returns links.
 fn add_notebook(page: &mut Page) -> String {
     if page.cells.is_empty() {
         return String::new();
     }
-    let path = notebook::path(&page.path);
     let title = page.headings.first().map_or("", |heading| &heading.title);
-    let notebook = notebook::notebook(title, &page.cells);
-    page.files.insert(path.clone(), notebook.into_bytes());
+    let mut add = |tasks| {
+        let path = notebook::path(&page.path, tasks);
+        let notebook = notebook::notebook(title, &page.cells, tasks);
+        page.files.insert(path.clone(), notebook.into_bytes());
+        path
+    };
+    let path = add(Tasks::Open);
+    let root = path_to_root(&page.path);
+    let has_task = |cell: &Cell| matches!(cell, Cell::Code { solution, .. } if solution.is_some());
+    let solved = match page.cells.iter().any(has_task) {
+        true => format!(
+            ". <a href=\"{root}{}\" download>The same with its task solved</a>",
+            add(Tasks::Solved)
+        ),
+        false => String::new(),
+    };
     let name = path.rsplit('/').next().unwrap_or(&path);
     format!(
         "<p class=\"notebook\"><a href=\"{root}{path}\" download>Download the notebook of this chapter</a> \
-         <span>{name}: all of its Python, to run and to change in Jupyter, VS Code or Colab</span></p>\n",
-        root = path_to_root(&page.path),
+         <span>{name}: all of its Python, to run and to change in Jupyter, VS Code or Colab{solved}</span></p>\n",
     )
+}
+
+/// A link to the slides of a numbered chapter.
+fn deck_link(page: &Page) -> String {
+    let root = path_to_root(&page.path);
+    let link = page.deck().map(|path| {
+        format!(
+            "<p class=\"deck-link\"><a href=\"{root}{path}\">Slides of this chapter</a> \
+             <span>figures to operate, questions, and notes for the speaker</span></p>\n"
+        )
+    });
+    link.unwrap_or_default()
 }

@@ -2,7 +2,7 @@
 
 use super::writer::Writer;
 use crate::html::escape;
-use crate::parse::stand_ins::{Part, parts};
+use crate::parse::placeholders::{Part, parts};
 use crate::problems::Place;
 
 /// Rendered form of a directive.
@@ -78,7 +78,7 @@ impl Insert {
     }
 }
 
-/// Replaces the stand-ins of a text by the inserts, each rendered by `form`.
+/// Replaces the placeholders of a text by the inserts, each rendered by `form`.
 pub(crate) fn substitute(words: &str, inserts: &[Insert], form: fn(&Insert) -> String) -> String {
     let mut text = String::new();
     for part in parts(words) {

@@ -4,8 +4,8 @@ use super::page::Page;
 use super::progress::{progress_table, solved_mark};
 use super::terms::Terms;
 use super::tokens::{
-    DEFINITION, NUMBER_OF_FIGURE, PAGE_OF_FIGURE, PAGE_OF_GLOSSARY, PAGE_OF_REFERENCES, PANEL,
-    PROGRESS, SOLVED, fill,
+    CHAPTERS_OF_FIGURE, DEFINITION, NUMBER_OF_FIGURE, PAGE_OF_FIGURE, PAGE_OF_GLOSSARY,
+    PAGE_OF_REFERENCES, PANEL, PROGRESS, SOLVED, fill,
 };
 use crate::html::{attributes, escape, forbidden_inline, path_to_root};
 use crate::parse::content::Content;
@@ -23,6 +23,7 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
     let list = page_of_references(pages, problems);
     let terms = Terms::collect(pages, problems);
     let progress = progress_table(pages);
+    let numbered = in_chapters(pages);
     let marks: Vec<String> = pages.iter().map(solved_mark).collect();
     let paths: Vec<String> = pages.iter().map(|page| page.path.clone()).collect();
     let mut panels = panels;
@@ -40,6 +41,7 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
                 .get(name)
                 .map(|(_, number)| format!("Figure {number}"))
                 .unwrap_or_default(),
+            CHAPTERS_OF_FIGURE => links_to(numbered.get(name), &root),
             SOLVED => {
                 // Chapters name each other's files.
                 let wanted = Path::new(name).with_extension("html");
@@ -90,6 +92,31 @@ fn figures(pages: &[Page]) -> Figures {
     figures
 }
 
+/// Address and number of each figure in a numbered chapter, by its name.
+fn in_chapters(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
+    let mut named: BTreeMap<String, Vec<_>> = BTreeMap::new();
+    for page in pages.iter().filter(|page| page.number.is_some()) {
+        for figure in &page.figures {
+            let address = format!("{}#{}", page.path, escape(&figure.id));
+            let figures = named.entry(figure.name.clone()).or_default();
+            figures.push((address, figure.number.clone()));
+        }
+    }
+    named
+}
+
+/// The places of a figure in the book, each with its address and number.
+fn links_to(places: Option<&Vec<(String, String)>>, root: &str) -> String {
+    let Some(places) = places else {
+        return String::new();
+    };
+    let links = places
+        .iter()
+        .map(|(address, number)| format!("<a href=\"{root}{address}\">Figure {number}</a>"));
+    let links: Vec<String> = links.collect();
+    format!("<p>In the book: {}.</p>\n", links.join(", "))
+}
+
 /// Reports references to figures that do not exist.
 fn check_figures(pages: &[Page], figures: &Figures, problems: &Problems) {
     for (id, place) in pages.iter().flat_map(|page| &page.wanted_figures) {
@@ -135,6 +162,7 @@ fn check_links(pages: &[Page], problems: &Problems) {
         let Some(ids) = anchors.get(link.page.as_str()) else {
             let chapters: Vec<String> = pages
                 .iter()
+                .filter(|page| page.parent.is_none())
                 .map(|page| page.path.replace(".html", ".md"))
                 .collect();
             let known = name_list(&chapters);

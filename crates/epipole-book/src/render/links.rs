@@ -110,13 +110,13 @@ fn to_the_lab(own: &str, written: &str) -> Option<String> {
 }
 
 /// `https:`, `mailto:` and the like.
-fn is_external(written: &str) -> bool {
+pub(crate) fn is_external(written: &str) -> bool {
     let scheme = written.split(['/', '#', '?']).next().unwrap_or("");
     scheme.contains(':') || written.starts_with("//")
 }
 
 /// The path that `written` means on the page at `own`.
-fn resolve_path(own: &str, written: &str) -> String {
+pub(crate) fn resolve_path(own: &str, written: &str) -> String {
     let mut parts: Vec<&str> = own.split('/').collect();
     parts.pop();
     for part in written.split('/') {

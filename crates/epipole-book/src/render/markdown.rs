@@ -1,4 +1,4 @@
-//! Renders Markdown to HTML: stand-ins replace directives while Markdown is parsed, and are
+//! Renders Markdown to HTML: placeholders replace directives while Markdown is parsed, and are
 //! replaced by the directives' HTML afterwards.
 
 use super::blocks::{code_of, collect, lone_block, lone_opening};
@@ -13,14 +13,14 @@ use super::words::{callout, neighbors, plain};
 use super::writer::Writer;
 use crate::html::{escape, forbidden_inline, slug};
 use crate::parse::events::{Located, end_of, section_starts, take_footnotes};
+use crate::parse::placeholders::{self, Part, parts};
 use crate::parse::source::Source;
-use crate::parse::stand_ins::{self, Part, parts};
 use crate::parse::syntax::markdown_options;
 use crate::problems::Place;
 use pulldown_cmark::{CowStr, Event, Parser, Tag, TagEnd};
 use std::collections::HashMap;
 
-/// Markdown with stand-ins, and their inserts.
+/// Markdown with placeholders, and their inserts.
 pub(crate) struct Markdown {
     pub(crate) source: Source,
     pub(crate) inserts: Vec<Insert>,
@@ -314,7 +314,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Emits text with the stand-ins of directives replaced.
+    /// Emits text with the placeholders of directives replaced.
     fn text(&mut self, words: &str, text: &Text, out: &mut Vec<Event>) {
         for part in parts(words) {
             match part {
@@ -327,7 +327,7 @@ impl Writer<'_> {
                         continue;
                     };
                     if let Insert::Block { .. } | Insert::Opening(_) = insert {
-                        let at = text.source.text().find(&stand_ins::of(index));
+                        let at = text.source.text().find(&placeholders::of(index));
                         let place = text.source.place(at.unwrap_or(0));
                         self.report(place, "this must stand in a paragraph of its own");
                         continue;

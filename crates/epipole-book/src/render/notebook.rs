@@ -15,7 +15,18 @@ pub enum Cell {
         source: String,
         /// Empty if nothing, or nothing that is always the same.
         prints: String,
+        /// Solution of the task that begins here.
+        solution: Option<String>,
     },
+}
+
+/// Code in the tasks of a notebook.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tasks {
+    /// The beginning, for students.
+    Open,
+    /// The solution.
+    Solved,
 }
 
 impl Cell {
@@ -26,13 +37,16 @@ impl Cell {
 }
 
 /// Path of a page's notebook, from the root of the site.
-pub(crate) fn path(page: &str) -> String {
+pub(crate) fn path(page: &str, tasks: Tasks) -> String {
     let name = page.trim_end_matches(".html").replace('/', "-");
-    format!("notebooks/{name}.ipynb")
+    match tasks {
+        Tasks::Open => format!("notebooks/{name}.ipynb"),
+        Tasks::Solved => format!("notebooks/{name}-solutions.ipynb"),
+    }
 }
 
 /// The notebook of a chapter, in the format 4.5.
-pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
+pub(crate) fn notebook(title: &str, cells: &[Cell], tasks: Tasks) -> String {
     let (names, packages) = needs(cells);
     let head = format!(
         "# {title}\n\nThe code of this chapter of *Epipole*, to run and to change. It needs {names}: \
@@ -42,12 +56,20 @@ pub(crate) fn notebook(title: &str, cells: &[Cell]) -> String {
     for (number, cell) in cells.iter().enumerate() {
         all.push(match cell {
             Cell::Text(words) => text_cell(&format!("text-{number}"), words),
-            Cell::Code { id, source, prints } => json!({
+            Cell::Code {
+                id,
+                source,
+                prints,
+                solution,
+            } => json!({
                 "cell_type": "code",
                 "id": id,
                 "metadata": {},
                 "execution_count": Value::Null,
-                "source": lines(source.trim_end()),
+                "source": lines(match (tasks, solution) {
+                    (Tasks::Solved, Some(solution)) => solution.trim_end(),
+                    _ => source.trim_end(),
+                }),
                 "outputs": match prints.as_str() {
                     "" => json!([]),
                     prints => json!([{
@@ -110,9 +132,12 @@ mod tests {
                 id: "rays-numpy".to_owned(),
                 source: "import numpy\nprint(1)\n".to_owned(),
                 prints: "1".to_owned(),
+                solution: Some("print(2)\n".to_owned()),
             },
         ];
-        let made: Value = serde_json::from_str(&notebook("A title", &cells)).unwrap();
+        let read =
+            |tasks| -> Value { serde_json::from_str(&notebook("A title", &cells, tasks)).unwrap() };
+        let made = read(Tasks::Open);
         let all = made["cells"].as_array().unwrap();
         assert_eq!(all.len(), 3);
         let head = all[0]["source"][0].as_str().unwrap();
@@ -120,7 +145,14 @@ mod tests {
         assert_eq!(all[1]["source"], json!(["## Rays"]));
         assert_eq!(all[2]["source"], json!(["import numpy\n", "print(1)"]));
         assert_eq!(all[2]["outputs"][0]["text"], json!(["1\n"]));
-        assert_eq!(path("part/one.html"), "notebooks/part-one.ipynb");
+        assert_eq!(
+            read(Tasks::Solved)["cells"][2]["source"],
+            json!(["print(2)"])
+        );
+        assert_eq!(
+            path("part/one.html", Tasks::Open),
+            "notebooks/part-one.ipynb"
+        );
     }
 
     #[test]
@@ -132,6 +164,7 @@ mod tests {
                     id: "a".to_owned(),
                     source: source.to_owned(),
                     prints: String::new(),
+                    solution: None,
                 },
             ])
             .1

@@ -21,10 +21,16 @@ pub struct Heading {
 /// A figure of a page.
 #[derive(Debug, Clone)]
 pub struct FigureEntry {
+    /// Such as `ransac-race`.
+    pub name: String,
     /// Its permanent anchor.
     pub id: String,
     /// `4.1`.
     pub number: String,
+    /// Path of its light poster for a column, in the site.
+    pub poster: String,
+    /// Description of its initial state.
+    pub description: String,
     /// Location in the chapter.
     pub place: Place,
 }
@@ -64,8 +70,17 @@ pub struct Section {
 pub struct QuizEntry {
     /// Its file, without `.toml`.
     pub name: String,
-    /// Number of questions.
-    pub questions: usize,
+    /// Its questions.
+    pub questions: Vec<Solvable>,
+}
+
+/// A question or a task.
+#[derive(Debug, Clone)]
+pub struct Solvable {
+    /// Its anchor.
+    pub id: String,
+    /// Hash of its wording: a solution of another wording does not count.
+    pub hash: String,
 }
 
 /// Input of `web/prerender.mjs` for one figure.
@@ -105,10 +120,14 @@ pub struct Page {
     pub title: String,
     /// The chapter's number, such as `4`.
     pub number: Option<String>,
+    /// Path of the page that it belongs to, if the contents do not list it.
+    pub parent: Option<String>,
     /// The body.
     pub html: String,
     /// The first paragraph in plain words, for search engines.
     pub description: String,
+    /// Estimate for a chapter; other pages have none.
+    pub reading_time_min: Option<usize>,
     /// All headings.
     pub headings: Vec<Heading>,
     /// All figures.
@@ -121,8 +140,8 @@ pub struct Page {
     pub listings: Vec<String>,
     /// Whether it has JavaScript that readers run.
     pub has_programs: bool,
-    /// Number of tasks that are solved in the page.
-    pub tasks: usize,
+    /// Tasks that are solved in the page.
+    pub tasks: Vec<Solvable>,
     /// Cells of the chapter's notebook.
     pub cells: Vec<Cell>,
     /// Letters that the chapter's figures also draw.
@@ -149,6 +168,8 @@ pub struct Page {
     pub files: BTreeMap<String, Vec<u8>>,
     /// Files that it links to or shows.
     pub wanted_files: Vec<WantedFile>,
+    /// Pages that belong to it; empty once all pages are rendered.
+    pub parts: Vec<Page>,
     /// Words of the section that is being rendered.
     pub(crate) words: String,
 }
@@ -161,6 +182,18 @@ impl Page {
             Some(number) => format!("{number}.{count}"),
             None => count.to_string(),
         }
+    }
+
+    /// Path of its slides, from the root of the site; numbered chapters have some.
+    pub(crate) fn deck(&self) -> Option<String> {
+        let name = self.path.trim_end_matches(".html").replace('/', "-");
+        self.number.as_ref().map(|_| format!("slides/{name}.html"))
+    }
+
+    /// Its goals between blanks, for an attribute.
+    pub(crate) fn goal_list(&self) -> String {
+        let goals: Vec<&str> = self.goals.iter().map(String::as_str).collect();
+        goals.join(" ")
     }
 
     /// Attribute of the last figure's picture: the first of a page may be visible at once, the

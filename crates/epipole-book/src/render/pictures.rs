@@ -17,33 +17,39 @@ pub(crate) struct Pictures {
     pub(crate) sources: String,
     /// The widest, light.
     pub(crate) src: String,
+    /// The light one for a column, or for a phone if there is no other: path in the site.
+    pub(crate) poster: String,
 }
 
 /// Adds the posters to the page's files.
 pub(crate) fn add(page: &mut Writer, name: &str, posters: Posters) -> Pictures {
     let root = path_to_root(&page.page.path);
     let mut add = |encoded: Encoded, suffix: &str| {
-        let path = page.add_asset(&format!("figures/{name}-{suffix}"), "webp", encoded.webp);
+        let ending = encoded.ending();
+        let path = page.add_asset(&format!("figures/{name}-{suffix}"), ending, encoded.bytes);
         (format!("{root}{path}"), encoded.size)
     };
     let mut pictures = Pictures::default();
     let count = posters.0.len();
     for (index, shades) in posters.0.into_iter().enumerate() {
         let width = shades.width;
-        let (light, light_size) = add(shades.light, &format!("{width}-light"));
-        let (dark, dark_size) = add(shades.dark, &format!("{width}-dark"));
         // The widest is for all pages that the ones before leave.
         let pages = [PHONE, COLUMN].get(index).filter(|_| index + 1 < count);
-        let when_dark = pages.map_or(DARK.to_owned(), |pages| format!("{pages} and {DARK}"));
-        for (src, media, (width, height)) in [
-            (&dark, when_dark.as_str(), dark_size),
-            (&light, pages.unwrap_or(&"all"), light_size),
-        ] {
+        let light = add(shades.light, &format!("{width}-light"));
+        pictures.src.clone_from(&light.0);
+        if index < 2 {
+            pictures.poster = light.0[root.len()..].to_owned();
+        }
+        let mut sources = vec![(light, (*pages.unwrap_or(&"all")).to_owned())];
+        if let Some(dark) = shades.dark {
+            let when_dark = pages.map_or(DARK.to_owned(), |pages| format!("{pages} and {DARK}"));
+            sources.insert(0, (add(dark, &format!("{width}-dark")), when_dark));
+        }
+        for ((src, (width, height)), media) in sources {
             pictures.sources.push_str(&format!(
                 "<source srcset=\"{src}\" media=\"{media}\" width=\"{width}\" height=\"{height}\">"
             ));
         }
-        pictures.src = light;
     }
     pictures
 }

@@ -1,6 +1,6 @@
 //! Placeholders for the reader's progress, which the script of a page fills in.
 
-use super::page::Page;
+use super::page::{Page, Solvable};
 use crate::html::escape;
 
 /// Placeholder below a small picture for the solved share of its page's quiz, filled in by the
@@ -11,8 +11,8 @@ pub(super) fn solved_mark(page: &Page) -> String {
         format!(
             "<span class=\"solved\" data-quiz=\"{}\" data-questions=\"{}\" data-goals=\"{}\" hidden></span>",
             escape(&quiz.name),
-            quiz.questions,
-            escape(&goals(page))
+            quiz.questions.len(),
+            escape(&page.goal_list())
         )
     })
 }
@@ -32,31 +32,41 @@ pub(super) fn progress_table(pages: &[Page]) -> String {
             0 => "<td>no goals</td>".to_owned(),
             count => format!(
                 "<td class=\"reached\" data-goals=\"{}\">– of {count}</td>",
-                escape(&goals(page))
+                escape(&page.goal_list())
             ),
         };
-        let tasks = match page.tasks {
-            0 => "<td>no tasks</td>".to_owned(),
-            count => format!("<td class=\"tasks\" data-tasks=\"{count}\">– of {count}</td>"),
+        let tasks = match page.tasks.is_empty() {
+            true => "<td>no tasks</td>".to_owned(),
+            false => solved_cell("tasks", &page.tasks),
         };
         html.push_str(&format!(
             "<tr data-quiz=\"{}\"><td><a href=\"{}\">{}</a></td>\
-             <td class=\"solved\" data-questions=\"{}\">– of {}</td>{tasks}{reached}</tr>\n",
+             {}{tasks}{reached}</tr>\n",
             escape(&quiz.name),
             page.path,
             escape(&page.title),
-            quiz.questions,
-            quiz.questions
+            solved_cell("solved", &quiz.questions),
         ));
     }
     html.push_str(
-        "</tbody>\n</table></div>\n<p><button type=\"button\" class=\"reset-progress\" hidden>\
-         Forget my progress</button></p>\n</div>\n",
+        "</tbody>\n</table></div>\n<p class=\"progress-actions\" hidden>\
+         <button type=\"button\" class=\"save-progress\">Save as a file</button> \
+         <button type=\"button\" class=\"open-progress\">Open a file</button> \
+         <button type=\"button\" class=\"reset-progress\">Forget my progress</button></p>\n\
+         <p class=\"progress-said\" role=\"status\"></p>\n</div>\n",
     );
     html
 }
 
-fn goals(page: &Page) -> String {
-    let goals: Vec<&str> = page.goals.iter().map(String::as_str).collect();
-    goals.join(" ")
+/// A cell that counts the solved among some questions or tasks, and names their wordings.
+fn solved_cell(class: &str, all: &[Solvable]) -> String {
+    let wordings: Vec<String> = all
+        .iter()
+        .map(|Solvable { id, hash }| format!("{id}:{hash}"))
+        .collect();
+    format!(
+        "<td class=\"{class}\" data-wordings=\"{}\">– of {}</td>",
+        escape(&wordings.join(" ")),
+        all.len()
+    )
 }

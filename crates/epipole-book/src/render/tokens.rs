@@ -10,6 +10,8 @@ pub(crate) const DEFINITION: &str = "definition";
 pub(crate) const PAGE_OF_FIGURE: &str = "figure-page";
 /// `Figure 4.1`.
 pub(crate) const NUMBER_OF_FIGURE: &str = "figure-number";
+/// Links to all figures of this name in chapters.
+pub(crate) const CHAPTERS_OF_FIGURE: &str = "figure-chapters";
 /// Number of solved questions of a page's quiz.
 pub(crate) const SOLVED: &str = "solved";
 /// The table of quizzes and goals.

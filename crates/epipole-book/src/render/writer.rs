@@ -23,17 +23,23 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// A page that belongs to this one.
+    pub(crate) fn beside(&self, page: Page) -> Writer<'a> {
+        Writer::new(page, self.symbols, self.problems)
+    }
+
     /// Notes a problem.
     pub(crate) fn report(&self, place: Place, message: impl Into<String>) {
         self.problems.report(place, message);
     }
 
-    /// A note in the margin (below its line on a narrow screen).
+    /// A note in the margin. On a narrow screen, its mark unfolds it below its line.
     pub(crate) fn note(&mut self, html: &str) -> String {
         self.notes += 1;
         let number = self.notes;
         format!(
-            "<sup class=\"note-mark\">{number}</sup><small class=\"note\" role=\"note\">\
+            "<sup class=\"note-mark\"><label><input type=\"checkbox\" class=\"visually-hidden\" \
+             aria-label=\"Note {number}\">{number}</label></sup><small class=\"note\" role=\"note\">\
              <sup class=\"note-number\">{number}</sup> {html}</small>"
         )
     }

@@ -3,7 +3,7 @@
 use super::cache::Cache;
 use super::facts::Facts;
 use super::figures::{Gallery, Room};
-use super::posters::{self, Posters};
+use super::posters::{self, Medium, Posters};
 use super::references::References;
 use crate::parse::content::Content;
 use crate::problems::Problems;
@@ -21,8 +21,8 @@ pub(crate) struct Book<'a> {
     pub(crate) gallery: &'a dyn Gallery,
     pub(crate) references: References,
     cache: Cache,
-    /// Whether posters are drawn: not by a check of the content.
-    draws_posters: bool,
+    /// Medium of the posters; a check of the content draws none.
+    medium: Option<Medium>,
     facts: Mutex<BTreeMap<State, Arc<Facts>>>,
 }
 
@@ -31,7 +31,7 @@ impl<'a> Book<'a> {
         content: &Content,
         gallery: &'a dyn Gallery,
         cache: Cache,
-        draws_posters: bool,
+        medium: Option<Medium>,
         problems: &'a Problems,
     ) -> Self {
         let references = content.read("references.toml");
@@ -41,7 +41,7 @@ impl<'a> Book<'a> {
             gallery,
             references: references.unwrap_or_default(),
             cache,
-            draws_posters,
+            medium,
             facts: Mutex::default(),
         }
     }
@@ -69,7 +69,7 @@ impl<'a> Book<'a> {
         Ok(facts)
     }
 
-    /// Posters of a figure in a state, narrow ones first; none in a check.
+    /// Posters of a figure in a state, narrow ones first; none in a check. Paper has one width.
     ///
     /// # Errors
     /// A sentence.
@@ -80,9 +80,14 @@ impl<'a> Book<'a> {
         rooms: &[Room],
     ) -> Result<Posters, String> {
         let figure = self.gallery.open(name, settings)?;
-        match self.draws_posters {
-            true => posters::draw(figure.as_ref(), name, settings, rooms, &self.cache),
-            false => Ok(Posters::default()),
-        }
+        let rooms = match self.medium {
+            None => return Ok(Posters::default()),
+            Some(Medium::Screen) => (Medium::Screen, rooms),
+            Some(Medium::Paper) if rooms.contains(&Room::Column) => {
+                (Medium::Paper, &[Room::Column][..])
+            }
+            Some(Medium::Paper) => (Medium::Paper, rooms),
+        };
+        posters::draw(figure.as_ref(), name, settings, rooms, &self.cache)
     }
 }

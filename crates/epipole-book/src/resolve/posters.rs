@@ -3,16 +3,30 @@
 use super::cache::Cache;
 use super::figures::{Figure, Poster, Room};
 use crate::parallel;
+use image::codecs::jpeg::JpegEncoder;
+use image::{ExtendedColorType, ImageEncoder, ImageError};
 
-/// Device pixels of a poster to a CSS pixel.
+/// Device pixels of a poster to a CSS pixel. On paper, 720 CSS pixels on 160 mm are 229 dots an
+/// inch.
 const SCALE: u32 = 2;
 
 /// Quality of lossy posters, of 100. At two device pixels to a CSS pixel text stays crisp.
 const QUALITY: f32 = 76.0;
+/// Quality of JPEGs on paper, of 100: the book is less than 25 MB.
+const PAPER_QUALITY: u8 = 72;
 
 /// Colors above which no lossless poster is tried: it takes long and was never the smaller one.
 /// Of 514 posters, the ten that are smaller without loss have at most 2731.
 const MOST_COLORS: usize = 4096;
+
+/// Medium that posters are drawn for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Medium {
+    /// WebP for the widths of a page, light and dark.
+    Screen,
+    /// JPEG for one width, light: PDF files hold it as it is.
+    Paper,
+}
 
 /// Posters of a figure for some widths of a page, narrow ones first.
 #[derive(Debug, Default)]
@@ -23,17 +37,18 @@ pub(crate) struct Posters(pub(crate) Vec<Shades>);
 pub(crate) struct Shades {
     /// CSS pixels.
     pub(crate) width: u32,
+    /// CSS pixels.
+    pub(crate) height: f64,
     pub(crate) light: Encoded,
-    pub(crate) dark: Encoded,
+    /// None on paper.
+    pub(crate) dark: Option<Encoded>,
 }
 
 impl Posters {
     /// Width and height of each, CSS pixels.
     pub(crate) fn sizes(&self) -> Vec<(u32, f64)> {
-        let height = |light: &Encoded| f64::from(light.size.1) / f64::from(SCALE);
         let all = self.0.iter();
-        all.map(|shades| (shades.width, height(&shades.light)))
-            .collect()
+        all.map(|shades| (shades.width, shades.height)).collect()
     }
 }
 
@@ -42,19 +57,33 @@ pub(super) fn draw(
     figure: &dyn Figure,
     name: &str,
     settings: &[(String, String)],
-    rooms: &[Room],
+    (medium, rooms): (Medium, &[Room]),
     cache: &Cache,
 ) -> Result<Posters, String> {
     let shades = |room: Room| {
         let width = room.width();
         let make = || {
             let [light, dark] = figure.posters(room, SCALE)?;
-            let made = [encode(&light)?, encode(&dark)?];
+            let made = match medium {
+                Medium::Screen => vec![encode(&light)?, encode(&dark)?],
+                Medium::Paper => vec![encode_for_paper(&light)?],
+            };
             let bytes = pack(&made);
             Ok((made, bytes))
         };
-        let [light, dark] = cache.get_or((name, settings, &width.to_string()), unpack, make)?;
-        Ok(Shades { width, light, dark })
+        let what = match medium {
+            Medium::Screen => width.to_string(),
+            Medium::Paper => format!("paper {width}"),
+        };
+        let made = cache.get_or((name, settings, &what), unpack, make)?;
+        let mut made = made.into_iter();
+        let light = made.next().ok_or("no poster was drawn")?;
+        Ok(Shades {
+            width,
+            height: f64::from(light.size.1) / f64::from(SCALE),
+            light,
+            dark: made.next(),
+        })
     };
     let drawn = parallel::map(rooms.to_vec(), shades).into_iter();
     let drawn: Result<_, String> = drawn.collect();
@@ -65,8 +94,18 @@ pub(super) fn draw(
 /// picture.
 #[derive(Debug)]
 pub(crate) struct Encoded {
-    pub(crate) webp: Vec<u8>,
+    pub(crate) bytes: Vec<u8>,
     pub(crate) size: (u32, u32),
+}
+
+impl Encoded {
+    /// Extension of its file.
+    pub(crate) fn ending(&self) -> &'static str {
+        match &self.bytes[..] {
+            [0xff, 0xd8, ..] => "jpg",
+            _ => "webp",
+        }
+    }
 }
 
 /// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs
@@ -91,8 +130,30 @@ fn encode(poster: &Poster) -> Result<Encoded, String> {
         webp = std::cmp::min_by_key(lossless, webp, Vec::len);
     }
     Ok(Encoded {
-        webp,
+        bytes: webp,
         size: (poster.width, poster.height),
+    })
+}
+
+/// JPEG on white.
+fn encode_for_paper(poster: &Poster) -> Result<Encoded, String> {
+    let failed = |error: ImageError| format!("the poster could not be encoded: {error}");
+    let on_white = |[r, g, b, a]: &[u8; 4]| {
+        [*r, *g, *b].map(|level| {
+            let alpha = u32::from(*a);
+            ((u32::from(level) * alpha + 255 * (255 - alpha) + 127) / 255) as u8
+        })
+    };
+    let (pixels, _) = poster.rgba.as_chunks();
+    let rgb: Vec<u8> = pixels.iter().flat_map(on_white).collect();
+    let mut bytes = Vec::new();
+    let (width, height, kind) = (poster.width, poster.height, ExtendedColorType::Rgb8);
+    JpegEncoder::new_with_quality(&mut bytes, PAPER_QUALITY)
+        .write_image(&rgb, width, height, kind)
+        .map_err(failed)?;
+    Ok(Encoded {
+        bytes,
+        size: (width, height),
     })
 }
 
@@ -106,36 +167,36 @@ fn has_many_colors(rgba: &[u8]) -> bool {
     })
 }
 
-fn pack(posters: &[Encoded; 2]) -> Vec<u8> {
+fn pack(posters: &[Encoded]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for poster in posters {
-        let length = u32::try_from(poster.webp.len()).unwrap_or(u32::MAX);
+        let length = u32::try_from(poster.bytes.len()).unwrap_or(u32::MAX);
         for number in [poster.size.0, poster.size.1, length] {
             bytes.extend(number.to_le_bytes());
         }
-        bytes.extend(&poster.webp);
+        bytes.extend(&poster.bytes);
     }
     bytes
 }
 
-fn unpack(bytes: &[u8]) -> Option<[Encoded; 2]> {
+fn unpack(bytes: &[u8]) -> Option<Vec<Encoded>> {
     let mut rest = bytes;
-    let mut next = || {
+    let mut posters = Vec::new();
+    while !rest.is_empty() {
         let mut number = || {
             let (first, after) = rest.split_first_chunk::<4>()?;
             rest = after;
             Some(u32::from_le_bytes(*first))
         };
         let (width, height, length) = (number()?, number()?, number()?);
-        let (webp, after) = rest.split_at_checked(length as usize)?;
+        let (bytes, after) = rest.split_at_checked(length as usize)?;
         rest = after;
-        Some(Encoded {
-            webp: webp.to_vec(),
+        posters.push(Encoded {
+            bytes: bytes.to_vec(),
             size: (width, height),
-        })
-    };
-    let posters = [next()?, next()?];
-    rest.is_empty().then_some(posters)
+        });
+    }
+    Some(posters)
 }
 
 #[cfg(test)]
@@ -160,7 +221,7 @@ mod tests {
                 .flat_map(|n| (level(n) | 0xff00_0000).to_le_bytes())
                 .collect(),
         };
-        let kind = |poster: &Poster| encode(poster).unwrap().webp[12..16].to_vec();
+        let kind = |poster: &Poster| encode(poster).unwrap().bytes[12..16].to_vec();
         let drawing = poster(|n| {
             if n % 256 < 100 {
                 0x30_60_c0
@@ -172,17 +233,19 @@ mod tests {
         assert!(!has_many_colors(&drawing.rgba));
         let photograph = poster(|n| n.wrapping_mul(2_654_435_761) >> 8);
         assert_ne!(kind(&photograph), b"VP8L");
+        let start = |poster: &Poster| encode_for_paper(poster).unwrap().bytes[..4].to_vec();
+        assert_eq!(start(&drawing)[..3], [0xff, 0xd8, 0xff]);
         assert!(has_many_colors(&photograph.rgba));
     }
 
     #[test]
     fn posters_are_webp_and_unpack_as_packed() {
         let posters = [poster(9), poster(200)];
-        assert_eq!(&posters[0].webp[8..12], b"WEBP");
+        assert_eq!(&posters[0].bytes[8..12], b"WEBP");
         assert_eq!(posters[0].size, (4, 2));
         let packed = pack(&posters);
         let again = unpack(&packed).unwrap();
-        assert_eq!(again[1].webp, posters[1].webp);
+        assert_eq!(again[1].bytes, posters[1].bytes);
         assert_eq!(again[1].size, posters[1].size);
         assert!(unpack(&packed[1..]).is_none());
         assert!(unpack(b"broken").is_none());

@@ -10,7 +10,7 @@ pub(crate) fn address(config: &Config) -> Option<String> {
 }
 
 /// Canonical address of a page below `root`. An index is its folder.
-pub(super) fn of_page(root: &str, path: &str) -> String {
+pub(crate) fn of_page(root: &str, path: &str) -> String {
     let path = match path.strip_suffix("index.html") {
         Some(folder) if folder.is_empty() || folder.ends_with('/') => folder,
         _ => path,

@@ -5,9 +5,9 @@ mod bundle;
 mod embed;
 mod files;
 mod fonts;
+mod function_order;
 mod lab;
 mod letters;
-mod likeness;
 mod offline;
 mod programs;
 mod scripts;
@@ -36,6 +36,14 @@ pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
     wasm::make(&Tools::find(project)?).map(Some)
 }
 
+/// The font of formulas, cut down to their letters.
+///
+/// # Errors
+/// A tool that is missing or fails, named with the remedy.
+pub(crate) fn math_font(project: &Path, letters: &Letters) -> Result<Vec<u8>> {
+    fonts::math(&Tools::find(project)?, letters)
+}
+
 /// Makes everything else, and puts the figures to it.
 ///
 /// # Errors
@@ -55,6 +63,7 @@ pub(crate) fn make(
     scripts::add_pages(&tools, &look, &runs, live, &mut assets)?;
     if let Some(modules) = modules {
         scripts::add_elements(&tools, modules, &look, live, &mut assets)?;
+        scripts::add_deck(&tools, live, &mut assets)?;
     }
     let icon = read(&tools.project.join("web/theme/icon.svg"))?;
     assets.icon = add_hashed(&mut assets.files, "icon", "svg", icon);

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The mark of a folder with the page that stands where the Lab will be.
-pub(crate) const STAND_IN: &str = ".stand-in";
+pub(crate) const STAND_IN: &str = ".placeholder";
 
 /// Writes the site beside its place and then moves it there, so that a reader never sees half.
 pub(crate) fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {

@@ -54,7 +54,7 @@ pub(crate) fn draw(book: &Book) -> Result<Vec<Frame>> {
             ..Page::default()
         };
         let mut writer = Writer::new(page, &[], book.problems);
-        let Pictures { sources, src } = pictures::add(&mut writer, name, posters);
+        let Pictures { sources, src, .. } = pictures::add(&mut writer, name, posters);
         Ok(Frame {
             name: name.clone(),
             title: book.gallery.about(name).0,

@@ -1,8 +1,9 @@
 //! The template of a page, `web/theme/index.hbs`, and its variables.
 
-use super::address::{address, of_page};
 use super::assets::Assets;
+use super::cards::Card;
 use super::policy::{CONTENT_SECURITY_POLICY, PROGRAM_POLICY};
+use super::published::Published;
 use crate::html::path_to_root;
 use crate::parse::book::Entry;
 use crate::render::links::LAB_FOLDER;
@@ -11,7 +12,11 @@ use anyhow::{Context, Result};
 use handlebars::Handlebars;
 use mdbook_driver::config::Config;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Page for addresses that do not exist.
+pub(crate) const NOT_FOUND: &str = "404.html";
 
 /// The template and the content shared by all pages.
 pub(crate) struct Template<'a> {
@@ -19,8 +24,10 @@ pub(crate) struct Template<'a> {
     book_title: String,
     description: String,
     language: String,
-    /// Of the published book.
-    address: Option<String>,
+    /// If the address of the published book is known.
+    published: Option<Published>,
+    /// By the path of their page.
+    cards: BTreeMap<String, Card>,
     assets: &'a Assets,
     search: &'a str,
     has_manual: bool,
@@ -36,7 +43,11 @@ struct Data<'a> {
     book_title: &'a str,
     description: &'a str,
     /// Address of the published page.
-    canonical: Option<String>,
+    canonical: Option<&'a str>,
+    /// Facts for search engines, as JSON.
+    structured: Option<String>,
+    /// Picture beside links to the published page.
+    card: Option<Card>,
     /// From this page to the folder of the site: empty or `../`s.
     root: &'a str,
     policy: &'a str,
@@ -47,6 +58,8 @@ struct Data<'a> {
     /// Titles of works are in italics everywhere on their page, so nothing should move when those
     /// come.
     has_references: bool,
+    /// Goals of a chapter's figures, each `figure/goal`, between blanks.
+    goals: Option<String>,
     search: &'a str,
     /// Whether the manual of the Python package is part of the site.
     has_manual: bool,
@@ -73,7 +86,8 @@ struct NavEntry {
     number: Option<String>,
     title: String,
     path: Option<String>,
-    current: bool,
+    /// `aria-current` of the entry of this page, or of the page that it belongs to.
+    current: Option<&'static str>,
     sections: Vec<NavSection>,
 }
 
@@ -116,26 +130,28 @@ impl Nav {
                     path,
                 } => {
                     let page = current.filter(|page| path.as_ref() == Some(&page.path));
+                    let part = current.filter(|page| path.is_some() && *path == page.parent);
                     let sections = page.map(sections).unwrap_or_default();
                     NavEntry {
                         chapter: true,
                         number: number.clone(),
                         title: title.clone(),
                         path: path.clone(),
-                        current: page.is_some(),
+                        current: page.map(|_| "page").or(part.map(|_| "true")),
                         sections,
                         ..NavEntry::default()
                     }
                 }
             })
             .collect();
+        // Of the same list: chapters, or the parts of one page.
+        let is_beside = |page: &&Page| current.is_none_or(|current| page.parent == current.parent);
+        let previous = index.checked_sub(1).and_then(|before| pages.get(before));
+        let next = pages.get(index + 1);
         Nav {
             entries,
-            previous: index
-                .checked_sub(1)
-                .and_then(|before| pages.get(before))
-                .map(link),
-            next: pages.get(index + 1).map(link),
+            previous: previous.filter(is_beside).map(link),
+            next: next.filter(is_beside).map(link),
         }
     }
 }
@@ -180,13 +196,19 @@ impl<'a> Template<'a> {
                 .language
                 .clone()
                 .unwrap_or_else(|| "en".to_owned()),
-            address: address(config),
+            published: Published::of(config),
+            cards: BTreeMap::new(),
             assets,
             search,
             has_manual,
             has_js_reference,
             live,
         })
+    }
+
+    /// Takes the cards of the pages, by their paths.
+    pub(crate) fn add_cards(&mut self, cards: BTreeMap<String, Card>) {
+        self.cards = cards;
     }
 
     /// The HTML of a page.
@@ -201,7 +223,14 @@ impl<'a> Template<'a> {
         } else {
             &page.description
         };
-        let root = path_to_root(&page.path);
+        // Servers send that page for any address.
+        let is_anywhere = page.path == NOT_FOUND;
+        let root = match &self.published {
+            Some(book) if is_anywhere => book.folder().to_owned(),
+            _ => path_to_root(&page.path),
+        };
+        let published = self.published.as_ref().filter(|_| !is_anywhere);
+        let canonical = published.map(|book| book.address_of(page));
         let class = if page.number.is_some() {
             "chapter"
         } else {
@@ -212,7 +241,9 @@ impl<'a> Template<'a> {
             title,
             book_title: &self.book_title,
             description,
-            canonical: (self.address.as_ref()).map(|address| of_page(address, &page.path)),
+            canonical: canonical.as_deref(),
+            card: published.and_then(|book| Some(book.with_address(self.cards.get(&page.path)?))),
+            structured: published.and_then(|book| book.facts(page, description)),
             root: &root,
             policy: match page.has_programs {
                 true => PROGRAM_POLICY,
@@ -223,6 +254,7 @@ impl<'a> Template<'a> {
             assets: self.assets,
             has_figures: !page.figures.is_empty() && self.assets.elements.is_some(),
             has_references: page.has_references,
+            goals: page.number.as_ref().map(|_| page.goal_list()),
             search: self.search,
             has_manual: self.has_manual,
             has_js_reference: self.has_js_reference,
@@ -233,10 +265,11 @@ impl<'a> Template<'a> {
         html.with_context(|| format!("the page {} cannot be made", page.path))
     }
 
-    /// Page for an address that does not exist. Its links are relative to the folder of the site.
+    /// Page for an address that does not exist. Its links begin at the root of the server if the
+    /// address of the book is known, or else are relative to the folder of the site.
     pub(crate) fn not_found(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
         let page = Page {
-            path: "404.html".to_owned(),
+            path: NOT_FOUND.to_owned(),
             title: "Page not found".to_owned(),
             html: "<h1>There is no such page</h1>\n<p>The address may have changed. The contents \
                    and the search lead to every chapter.</p>\n"

@@ -124,9 +124,10 @@ fn every_figure_has_a_page_for_frames() {
 
 #[test]
 fn with_an_address_pages_are_found_under_it() {
-    let book = Book::of_chapter("# One\n\nOld.\n");
+    let book = Book::of_chapter("# One\n\n{{#figure dot | First.}}\n");
     book.must_build();
     assert!(!book.page("one.html").contains("canonical"));
+    assert!(book.page("404.html").contains("href=\"index.html\""));
     assert!(!book.out().join("sitemap.xml").exists());
     book.write("content/book.toml", PUBLISHED);
     book.must_build();
@@ -137,6 +138,15 @@ fn with_an_address_pages_are_found_under_it() {
     ] {
         assert!(page.contains(part), "{part}: {page}");
     }
+    let missing = book.page("404.html");
+    assert!(!missing.contains("a.example"));
+    assert!(missing.contains("href=\"/book/index.html\""), "{missing}");
+    let card = "<meta property=\"og:image\" content=\"https://a.example/book/";
+    let card = page.split(card).nth(1).unwrap().split('"').next().unwrap();
+    assert!(card.starts_with("assets/cards/one-"), "{card}");
+    assert!(book.out().join(card).is_file());
+    let alt = "<meta property=\"og:image:alt\" content=\"One. A &quot;dot&quot; of size 3.\">";
+    assert!(page.contains(alt), "{page}");
     let sitemap = book.page("sitemap.xml");
     assert!(sitemap.contains("<loc>https://a.example/book/one.html</loc>"));
     let robots = book.page("robots.txt");
@@ -145,6 +155,39 @@ fn with_an_address_pages_are_found_under_it() {
 
 /// A configuration with the address of the published book.
 const PUBLISHED: &str = "[book]\ntitle = \"Tiny\"\nsrc = \".\"\n[output.epipole]\naddress = \"https://a.example/book\"\n";
+
+#[test]
+fn with_an_address_chapters_tell_search_engines_of_themselves() {
+    const START: &str = "<script type=\"application/ld+json\">";
+    let book = Book::new(&[
+        (
+            "SUMMARY.md",
+            "[Start](index.md)\n- [One](one.md)\n- [Terms](terms.md)\n",
+        ),
+        ("index.md", "# Start\n"),
+        (
+            "one.md",
+            "# One\n\nOf {{#define epipolar-line}} and `</script>`.\n",
+        ),
+        ("terms.md", "# Terms\n\n{{#glossary}}\n"),
+        ("glossary.toml", "[epipolar-line]\ntext = \"A line.\"\n"),
+    ]);
+    book.must_build();
+    assert!(!book.page("one.html").contains(START));
+    book.write("content/book.toml", PUBLISHED);
+    book.must_build();
+    assert!(!book.page("index.html").contains(START));
+    let page = book.page("one.html");
+    let facts = page.split(START).nth(1).unwrap();
+    let facts = facts.split("</script>").next().unwrap();
+    let facts: serde_json::Value = serde_json::from_str(facts).unwrap();
+    assert_eq!(facts["@type"], "LearningResource");
+    assert_eq!(facts["url"], "https://a.example/book/one.html");
+    assert_eq!(facts["description"], "Of epipolar line and </script>.");
+    assert_eq!(facts["isPartOf"]["name"], "Tiny");
+    assert_eq!(facts["timeRequired"], "PT1M");
+    assert_eq!(facts["teaches"][0], "epipolar line");
+}
 
 #[test]
 fn with_an_address_frames_tell_oembed_of_themselves() {
@@ -169,15 +212,25 @@ fn with_an_address_frames_tell_oembed_of_themselves() {
 }
 
 #[test]
-fn the_gallery_shows_what_can_be_set_and_read() {
+fn the_gallery_leads_to_a_page_of_each_figure() {
     let book = Book::of_chapter("# All\n\n{{#gallery}}\n");
     book.must_build();
-    let page = book.article("one.html");
+    let list = book.article("one.html");
     for part in [
-        "<section class=\"gallery\" data-name=\"dot\">",
-        "<h2 id=\"dot\"><a href=\"#dot\">A dot</a></h2>",
+        "<ul class=\"gallery\">",
+        "<li id=\"dot\"><a href=\"figures/dot.html\"><picture>",
+        "<span>A dot</span></a> <code>dot</code></li>",
+    ] {
+        assert!(list.contains(part), "{part}: {list}");
+    }
+    assert!(!list.contains("epipole-figure"), "{list}");
+    let page = book.article("figures/dot.html");
+    for part in [
+        "<p class=\"up\"><a href=\"../one.html\">",
+        "<h1 id=\"dot\">A dot</h1>",
         "<figure class=\"epipole\" id=\"figure-dot\">",
-        "href=\"embed/dot.html\"",
+        "href=\"../embed/dot.html\"",
+        "<section class=\"embedding\" data-name=\"dot\">",
         "&lt;epipole-figure name=&quot;dot&quot;&gt;&lt;/epipole-figure&gt;",
         "<code>size</code></th>",
         "<code>area</code></th><td>",
@@ -193,4 +246,10 @@ fn the_gallery_shows_what_can_be_set_and_read() {
     ] {
         assert!(!page.contains(absent), "{absent}: {page}");
     }
+    let whole = book.page("figures/dot.html");
+    assert!(
+        whole.contains("<li class=\"current\"><a href=\"../one.html\" aria-current=\"true\">"),
+        "{whole}"
+    );
+    assert!(!whole.contains("rel=\"prev\""), "{whole}");
 }

@@ -50,6 +50,8 @@ fn a_listing_has_tabs_and_says_what_it_prints() {
     for hidden in ["assert", "Not yet", "{{"] {
         assert!(!article.contains(hidden), "{hidden}: {article}");
     }
+    let solved = book.page("notebooks/one-solutions.ipynb");
+    assert!(solved.contains("x / 2"), "{solved}");
     let notebook = book.page("notebooks/one.ipynb");
     let notebook: serde_json::Value = serde_json::from_str(&notebook).unwrap();
     let cells = notebook["cells"].as_array().unwrap();

@@ -11,13 +11,24 @@ fn a_tiny_chapter_as_html() {
     book.must_build();
     assert_eq!(
         book.article("one.html"),
-        "<h1 id=\"a-title\"><span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter \
+        "<div class=\"reading-time\">About 1 min</div>\n\
+         <h1 id=\"a-title\"><span class=\"chapter-number\"><span class=\"visually-hidden\">Chapter \
          </span>0</span> A <em>title</em></h1>\n\
          <p>Is it <span class=\"value\">70</span>? “Yes”.</p>\n\
          <section>\n<h2 id=\"next\">Next part <a class=\"anchor\" href=\"#next\" \
          aria-label=\"Link to the section Next part\">#</a></h2>\n\
-         <p><a href=\"#next\">Up</a> and <code>a &lt; b</code>.</p>\n</section>"
+         <p><a href=\"#next\">Up</a> and <code>a &lt; b</code>.</p>\n</section>\n\
+         <p class=\"deck-link\"><a href=\"slides/one.html\">Slides of this chapter</a> \
+         <span>figures to operate, questions, and notes for the speaker</span></p>"
     );
+    let deck = book.page("slides/one.html");
+    for part in [
+        "<title>Slides: One · Tiny</title>",
+        "<section data-kind=\"words\">\n<h2>Next part</h2>",
+        "<aside class=\"notes\"><p><a href=\"../one.html#next\">Up</a>",
+    ] {
+        assert!(deck.contains(part), "{part}: {deck}");
+    }
     let page = book.page("one.html");
     assert!(page.contains("<title>One · Tiny</title>"), "{page}");
     assert!(
@@ -54,7 +65,8 @@ fn marks_stay_with_their_formulas() {
     );
     assert!(bound[1].ends_with("</math>),</span> "), "{one}");
     assert!(bound[2].contains("</math>:</span> and <math"), "{one}");
-    assert!(bound[3].ends_with("</math>’</span>s.</p>"), "{one}");
+    assert!(bound[3].starts_with("<math"), "{one}");
+    assert!(bound[3].contains("</math>’</span>s.</p>\n"), "{one}");
 }
 
 #[test]
@@ -92,6 +104,10 @@ fn notes_and_footnotes_go_to_the_margin() {
         .matches("<small class=\"note\" role=\"note\">")
         .count();
     assert_eq!(notes, 2, "{article}");
+    for number in ["1", "2"] {
+        let mark = format!("aria-label=\"Note {number}\">{number}</label></sup><small");
+        assert!(article.contains(&mark), "{article}");
+    }
     assert!(
         article.contains("<sup class=\"note-number\">1</sup> <em>one</em></small>"),
         "{article}"
@@ -233,17 +249,28 @@ fn quizzes_work_without_a_script_and_appear_on_the_page_of_progress() {
     assert!(
         article.contains("<details class=\"solution\">") && article.contains("<strong>7</strong>")
     );
+    // The page of progress knows the wording that counts.
+    let (_, form) = article
+        .split_once("id=\"quiz-one-a\" data-hash=\"")
+        .unwrap();
+    let hash = form.split('"').next().unwrap();
     let progress = book.article("progress.html");
     assert!(
-        progress.contains(
+        progress.contains(&format!(
             "<tr data-quiz=\"one\"><td><a href=\"one.html\">One</a></td>\
-             <td class=\"solved\" data-questions=\"1\">– of 1</td>"
-        ),
+             <td class=\"solved\" data-wordings=\"quiz-one-a:{hash}\">– of 1</td>"
+        )),
         "{progress}"
     );
     // The goals of its figures are counted, too.
     let goals = "<td class=\"reached\" data-goals=\"dot/large\">– of 1</td>";
     assert!(progress.contains(goals), "{progress}");
+    // The page around a chapter's frame hears of them.
+    let page = book.page("one.html");
+    assert!(
+        page.contains("<article data-goals=\"dot/large\">"),
+        "{page}"
+    );
     // A picture that links to a chapter has room for the chapter's solved questions.
     let mark = "<span class=\"solved\" data-quiz=\"one\" data-questions=\"1\" data-goals=\"dot/large\" hidden></span></a>";
     assert_eq!(progress.matches(mark).count(), 1, "{progress}");

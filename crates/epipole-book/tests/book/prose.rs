@@ -1,7 +1,7 @@
 //! Properties of the published chapters.
 
-use epipole_book::parse::rhythm::stretches;
 use epipole_book::parse::source::Source;
+use epipole_book::parse::stretches::stretches;
 use epipole_book::problems::Place;
 use std::fs;
 use std::path::Path;

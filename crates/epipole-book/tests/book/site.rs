@@ -90,11 +90,11 @@ fn links_to_the_lab_are_not_dead_while_there_is_no_lab() {
             contents.contains("<a href=\"../lab/index.html\">"),
             "{contents}"
         );
-        let stand_in = book.page("lab/index.html");
-        assert!(stand_in.contains("make lab"), "{stand_in}");
+        let placeholder = book.page("lab/index.html");
+        assert!(placeholder.contains("make lab"), "{placeholder}");
         assert!(
-            stand_in.contains("<a href=\"../part/one.html\">"),
-            "{stand_in}"
+            placeholder.contains("<a href=\"../part/one.html\">"),
+            "{placeholder}"
         );
     }
     let book = Book::of_chapter("# One\n\n[Try it](lab/nothing.html).\n");

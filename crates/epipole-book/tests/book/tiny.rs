@@ -1,5 +1,7 @@
 //! A gallery of one figure, and books of a few lines in temporary folders.
 
+use epipole_book::edition::EditionOptions;
+use epipole_book::epub::{EpubOptions, epub};
 use epipole_book::phases::Phases;
 use epipole_book::resolve::figures::{Figure, Gallery, Poster, Room};
 use epipole_book::site::{Options, Outcome, build};
@@ -63,7 +65,19 @@ impl Figure for Dot {
     }
 }
 
-/// A project with the real template and these content files.
+/// Files of the project that are the real ones.
+const TEMPLATES: [&str; 8] = [
+    "web/theme/index.hbs",
+    "web/theme/frame.hbs",
+    "web/slides/deck.hbs",
+    "web/epub/book.css",
+    "web/epub/contents.hbs",
+    "web/epub/package.hbs",
+    "web/epub/page.hbs",
+    "web/epub/title.hbs",
+];
+
+/// A project with the real templates and these content files.
 pub(crate) struct Book {
     folder: TempDir,
     /// Folder of the manual, if it is part of the site.
@@ -80,7 +94,7 @@ impl Book {
             manual: None,
             js_reference: None,
         };
-        for template in ["web/theme/index.hbs", "web/theme/frame.hbs"] {
+        for template in TEMPLATES {
             let own = Path::new(env!("CARGO_MANIFEST_DIR"))
                 .join("../..")
                 .join(template);
@@ -125,6 +139,23 @@ impl Book {
         build(&options, &OneDot, &Phases::silent())
     }
 
+    /// Writes the EPUB file, and returns its path.
+    pub(crate) fn epub(&self, address: Option<&str>) -> PathBuf {
+        let options = EpubOptions {
+            edition: EditionOptions {
+                project: self.folder.path().to_path_buf(),
+                out: self.path("target/epub/tiny.epub"),
+                address: address.map(str::to_owned),
+            },
+            modified: "2026-01-31T12:00:00Z".to_owned(),
+            font: false,
+        };
+        match epub(&options, &OneDot, &Phases::silent()).unwrap() {
+            Outcome::Built { .. } => options.edition.out,
+            Outcome::Problems(problems) => panic!("{problems:#?}"),
+        }
+    }
+
     /// A path inside the project.
     pub(crate) fn path(&self, path: &str) -> PathBuf {
         self.folder.path().join(path)
@@ -140,10 +171,10 @@ impl Book {
 
     pub(crate) fn article(&self, path: &str) -> String {
         let page = self.page(path);
-        let start = page.find("<article>").unwrap() + "<article>".len();
-        page[start..page.find("</article>").unwrap()]
-            .trim()
-            .to_owned()
+        let (_, article) = page.split_once("<article").unwrap();
+        let (_, inner) = article.split_once('>').unwrap();
+        let (inner, _) = inner.split_once("</article>").unwrap();
+        inner.trim().to_owned()
     }
 
     #[track_caller]

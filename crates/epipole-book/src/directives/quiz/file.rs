@@ -79,18 +79,18 @@ pub(super) struct Choice<T> {
 /// Makes a text of what is written at a place.
 pub(super) type MakeText<'a, T> = dyn FnMut(&str, &Place) -> T + 'a;
 
-/// The questions of a file that have no problems, and the number of all. Problems are reported.
+/// The questions of a file that have no problems. Problems are reported.
 pub(super) fn parse<T>(
     source: &Source,
     text: &mut MakeText<T>,
     problems: &Problems,
-) -> (Vec<Question<T>>, usize) {
+) -> Vec<Question<T>> {
     let file: File = match toml::from_str(source.text()) {
         Ok(file) => file,
         Err(error) => {
             let at = error.span().map_or(0, |span| span.start);
             problems.report(source.place(at), error.message());
-            return (Vec::new(), 0);
+            return Vec::new();
         }
     };
     let mut ids: Vec<&str> = Vec::new();
@@ -115,7 +115,7 @@ pub(super) fn parse<T>(
             Err(message) => problems.report(place, format!("question \"{id}\": {message}")),
         }
     }
-    (questions, file.question.len())
+    questions
 }
 
 fn kind<T>(written: &Written, place: &Place, text: &mut MakeText<T>) -> Result<Kind<T>, String> {

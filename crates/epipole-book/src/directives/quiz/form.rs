@@ -4,22 +4,30 @@ use super::file::{Choice, Kind, Question};
 use super::numeric::Answer;
 use crate::hash::fnv;
 use crate::html::escape;
+use crate::render::page::Solvable;
 use epipole::math::random::Random;
 
 /// Renders a text that stands inside a paragraph.
 type Inline<'a, T> = dyn FnMut(T) -> String + 'a;
 
-/// The HTML of a quiz.
-pub(super) fn quiz<T>(name: &str, questions: Vec<Question<T>>, inline: &mut Inline<T>) -> String {
+/// The HTML of a quiz, and its questions.
+pub(super) fn quiz<T>(
+    name: &str,
+    questions: Vec<Question<T>>,
+    inline: &mut Inline<T>,
+) -> (String, Vec<Solvable>) {
     let mut html = format!("<div class=\"quiz\" data-quiz=\"{}\">\n", escape(name));
+    let mut solvable = Vec::new();
     for question in questions {
-        html.push_str(&form(name, question, inline));
+        let (form, entry) = form(name, question, inline);
+        html.push_str(&form);
+        solvable.push(entry);
     }
     html.push_str("</div>\n");
-    html
+    (html, solvable)
 }
 
-fn form<T>(name: &str, question: Question<T>, inline: &mut Inline<T>) -> String {
+fn form<T>(name: &str, question: Question<T>, inline: &mut Inline<T>) -> (String, Solvable) {
     let key = format!("{name}/{}", question.id);
     let group = escape(&format!("{name}-{}", question.id));
     let (fields, answer) = match question.kind {
@@ -29,12 +37,14 @@ fn form<T>(name: &str, question: Question<T>, inline: &mut Inline<T>) -> String 
         // Resolved questions have their answers.
         Kind::Number(_) => (String::new(), String::new()),
     };
-    let id = escape(&format!("quiz-{name}-{}", question.id));
+    let id = format!("quiz-{name}-{}", question.id);
     let number = question.number;
     let prompt = inline(question.prompt);
     let explanation = inline(question.explanation);
-    format!(
-        "<form class=\"question\" id=\"{id}\" data-hash=\"{hash:08x}\" autocomplete=\"off\">\n\
+    let hash = fnv(format!("{prompt}{fields}").as_bytes()) as u32;
+    let hash = format!("{hash:08x}");
+    let html = format!(
+        "<form class=\"question\" id=\"{anchor}\" data-hash=\"{hash}\" autocomplete=\"off\">\n\
          <fieldset>\n<legend><span class=\"question-number\">Question {number}</span> \
          {prompt}</legend>\n{fields}\
          <p class=\"question-actions\" hidden><button type=\"submit\">Check</button></p>\n\
@@ -42,8 +52,9 @@ fn form<T>(name: &str, question: Question<T>, inline: &mut Inline<T>) -> String 
          <details class=\"solution\"><summary>Answer<span class=\"visually-hidden\"> to \
          question {number}</span></summary>\n<p><strong>{answer}</strong></p>\n\
          <p>{explanation}</p>\n</details>\n</fieldset>\n</form>\n",
-        hash = fnv(format!("{prompt}{fields}").as_bytes()) as u32,
-    )
+        anchor = escape(&id),
+    );
+    (html, Solvable { id, hash })
 }
 
 /// Radio buttons or check boxes, and the answer in words.
@@ -143,10 +154,10 @@ mod tests {
         let problems = Problems::default();
         let source = Source::new(toml, Place::new("quiz.toml", 1));
         let mut text = |written: &str, _: &Place| written.to_owned();
-        let (questions, _) = file::parse(&source, &mut text, &problems);
+        let questions = file::parse(&source, &mut text, &problems);
         let questions = questions.into_iter();
         let questions = questions.filter_map(|question| question.resolve(|text| text, &problems));
-        let html = quiz("q", questions.collect(), &mut |text: String| escape(&text));
+        let (html, _) = quiz("q", questions.collect(), &mut |text: String| escape(&text));
         (
             html,
             problems.sorted().iter().map(ToString::to_string).collect(),
@@ -224,7 +235,7 @@ mod tests {
                 Place::new(&path, 1),
             );
             let mut text = |written: &str, _: &Place| written.to_owned();
-            let (questions, _) = file::parse(&source, &mut text, &Problems::default());
+            let questions = file::parse(&source, &mut text, &Problems::default());
             for question in questions {
                 let Kind::Choices(choices) = &question.kind else {
                     continue;

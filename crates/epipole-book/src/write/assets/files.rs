@@ -21,6 +21,10 @@ pub struct Assets {
     pub frame: Option<String>,
     /// Their style sheet.
     pub frame_css: String,
+    /// The script of the slides.
+    pub deck: String,
+    /// Their style sheet, besides that of the pages.
+    pub deck_css: String,
     /// Fonts that every page needs at once.
     pub preload: Vec<String>,
     /// The italic font.

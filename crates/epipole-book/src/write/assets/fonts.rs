@@ -23,11 +23,12 @@ const FONTS: &[(&str, &str)] = &[
         "text-bold",
         "@fontsource/stix-two-text/files/stix-two-text-latin-600-normal.woff2",
     ),
-    (
-        "math",
-        "@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2",
-    ),
+    MATH,
 ];
+const MATH: (&str, &str) = (
+    "math",
+    "@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2",
+);
 
 /// Cuts the fonts and leaves them, with their hashed names, in `assets`.
 /// The style sheet, bundled later, finds them by [`font_url`].
@@ -52,6 +53,12 @@ pub(super) fn add(tools: &Tools, letters: &Letters, assets: &mut Assets) -> Resu
         }
     }
     Ok(())
+}
+
+/// The font of formulas alone.
+pub(super) fn math(tools: &Tools, letters: &Letters) -> Result<Vec<u8>> {
+    let (name, source) = MATH;
+    subset(tools, name, source, &letters.math)
 }
 
 /// The hashed file name of a font.

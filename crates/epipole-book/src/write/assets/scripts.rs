@@ -62,6 +62,25 @@ pub(super) fn add_pages(
     Ok(())
 }
 
+/// Script and style sheet of the slides, in the folder of these: no page needs them.
+pub(super) fn add_deck(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
+    let mut made = Assets::default();
+    let mut add = |entry: &str| -> Result<String> {
+        let names = bundle(tools, entry, &["--format=esm"], fast, &mut made)?;
+        let path = names.get("deck").context("esbuild made no deck")?;
+        Ok(in_slides(path))
+    };
+    assets.deck = add("web/slides/deck.ts")?;
+    assets.deck_css = add("web/slides/deck.css")?;
+    let files = made.files.into_iter();
+    (assets.files).extend(files.map(|(path, bytes)| (in_slides(&path), bytes)));
+    Ok(())
+}
+
+fn in_slides(path: &str) -> String {
+    path.replacen("assets/", "slides/", 1)
+}
+
 /// The custom elements: `web/src/worker.ts` first, as the elements name it, then
 /// `web/src/index.ts`. The sources find the other files beside their own through the constants
 /// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, the generated bindings as the modules

@@ -4,7 +4,7 @@
 //! computations, which a worker loads when a figure asks for one. The npm package of the core has
 //! one module per part.
 
-use super::likeness;
+use super::function_order;
 use crate::tools::{Tools, newest, read, target_folder};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
@@ -248,7 +248,7 @@ pub(super) fn build(tools: &Tools, package: &str, feature: &str) -> Result<Modul
         .generate(bindings(tools))
         .context("wasm-bindgen failed")?;
     let path = path(tools, package, feature);
-    let wasm = likeness::ordered(&read(&path)?)?;
+    let wasm = function_order::ordered(&read(&path)?)?;
     std::fs::write(&path, &wasm).with_context(|| format!("cannot write {}", path.display()))?;
     load(tools, package, feature)
 }

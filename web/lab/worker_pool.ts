@@ -9,7 +9,7 @@ export interface Order {
   wanted: string;
 }
 
-export type Told = { work: number } & (
+export type WorkerMessage = { work: number } & (
   | { share: number; words: string }
   | { soFar: Uint8Array }
   | { answer: Uint8Array }
@@ -30,12 +30,12 @@ interface Member {
 /** Idle time after which a worker is terminated, milliseconds. */
 const IDLE_MS = 20_000;
 
-export class Crew {
+export class WorkerPool {
   readonly capacity: number;
   readonly #members: Member[] = [];
-  readonly #hear: (told: Told) => void;
+  readonly #hear: (message: WorkerMessage) => void;
 
-  constructor(hear: (told: Told) => void) {
+  constructor(hear: (message: WorkerMessage) => void) {
     this.#hear = hear;
     this.capacity = Math.min(6, Math.max(1, navigator.hardwareConcurrency || 2));
     setInterval(() => this.#tidy(), IDLE_MS / 2);
@@ -65,7 +65,7 @@ export class Crew {
   #hire(branch: Branch): Member {
     const worker = new Worker(new URL(LAB_WORKER, import.meta.url), { type: "module", name: branch });
     const member: Member = { worker, branch, work: undefined, wanted: "", idleSince: performance.now() };
-    worker.onmessage = ({ data }: MessageEvent<Told>) => {
+    worker.onmessage = ({ data }: MessageEvent<WorkerMessage>) => {
       if (!("share" in data || "soFar" in data)) {
         member.work = undefined;
         URL.revokeObjectURL(member.wanted);
