@@ -20,6 +20,40 @@ const OPENINGS: &[&str] = &[
     "What", "Who", "Whoever", "Whatever", "Where", "Wherever", "How", "So many", "As many", "That",
 ];
 
+/// Names that tell nothing to someone who knows the field: no type or module has one.
+const NAMES: &[&str] = &[
+    "Arrival",
+    "Asked",
+    "Brought",
+    "Crew",
+    "Errand",
+    "Fate",
+    "Given",
+    "Kept",
+    "Life",
+    "Teller",
+    "Told",
+    "Wares",
+    "What",
+    "Wish",
+    "finale",
+    "gathered",
+    "likeness",
+    "rhythm",
+    "stand_ins",
+];
+
+/// Words before a declared name.
+const DECLARING: &[&str] = &[
+    "struct",
+    "enum",
+    "trait",
+    "type",
+    "mod",
+    "class",
+    "interface",
+];
+
 /// Maximum length of a comment's lines by folder, characters.
 const WIDTHS: &[(&str, usize)] = &[("crates", 100), ("tests", 100), ("web", 120)];
 
@@ -67,6 +101,41 @@ fn comments_and_documents_are_plain() {
     let count = findings.len();
     let list = findings.join("\n");
     assert!(findings.is_empty(), "{list}\n{count} lines to reword");
+}
+
+#[test]
+fn types_and_modules_have_telling_names() {
+    let mut findings = Vec::new();
+    for (folder, extensions) in SOURCES {
+        for file in files_below(&root().join(folder), extensions) {
+            let path = file.strip_prefix(root()).unwrap().display().to_string();
+            let code = fs::read_to_string(&file).unwrap();
+            for (index, line) in code.lines().enumerate() {
+                let found = declared(line).filter(|name| NAMES.contains(name));
+                findings.extend(found.map(|name| format!("{path}:{}: {name}", index + 1)));
+            }
+        }
+    }
+    assert!(findings.is_empty(), "{}", findings.join("\n"));
+}
+
+/// Name of the type or module that a line declares, as far as its words tell.
+fn declared(line: &str) -> Option<&str> {
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    let mut words = line
+        .split(|c| !is_letter(c))
+        .filter(|word| !word.is_empty());
+    words.find(|word| DECLARING.contains(word))?;
+    words.next()
+}
+
+#[test]
+fn declarations_are_found() {
+    assert_eq!(declared("pub(crate) struct Camera {"), Some("Camera"));
+    let union = "export type Order = { work: number } & (";
+    assert_eq!(declared(union), Some("Order"));
+    assert_eq!(declared("    pub mod stereo;"), Some("stereo"));
+    assert_eq!(declared("let camera = Camera::default();"), None);
 }
 
 /// The rules that a line breaks, in words.

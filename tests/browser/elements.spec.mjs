@@ -1,6 +1,6 @@
 // Behavior of elements that only some figures have, and browser settings of readers.
 
-import { expect, figures, first, gripOf, hear, heard, plain, ready, snapshots, test, told } from "./fixtures.mjs";
+import { expect, figures, first, gripOf, hear, heard, plain, ready, test, told } from "./fixtures.mjs";
 
 const running = first(
   ({ controls }) => controls.some(({ role }) => role === "run") && controls.some(({ id }) => id === "outliers"),
@@ -271,20 +271,6 @@ test("a photograph can be dropped on the figure, and taken where there is a came
   const camera = figure.locator("input[capture]").first();
   await expect(camera).toHaveAttribute("capture", "environment");
   await expect(camera).toBeHidden();
-});
-
-test("parameters are properties of every element", async ({ page, open }) => {
-  for (const [figureName, { controls }] of snapshots) {
-    const figure = await open(page, [figureName]);
-    const shown = controls.filter(({ place }) => place !== "hidden");
-    const control = shown.find(({ kind }) => kind === "slider") ?? shown.find(({ kind }) => kind === "choice");
-    const { id, kind, max, min, value: before, options } = control;
-    const other = kind === "slider" ? (before === max ? min : max) : options.find(([name]) => name !== before)[0];
-    await figure.evaluate((element, [id, wanted]) => (element[id] = wanted), [id, other]);
-    await figure.evaluate((element) => element.flush());
-    expect(await figure.evaluate((element, id) => element[id], id)).toBe(other);
-    expect(Object.keys((await told(figure)).state)).toContain(id);
-  }
 });
 
 test("the poster stays until somebody takes an interest", async ({ page, open }) => {

@@ -1,8 +1,10 @@
 // Requirements for every figure of the gallery in a browser.
 
-import { SLIDER, change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, test, told } from "./fixtures.mjs";
+import { SLIDER, change, expect, expectAccessible, figures, gripOf, hear, heard, layoutWidth, listen, middle, ready, settled, snapshots, test, told } from "./fixtures.mjs";
 
 test.use({ shared: true });
+
+const controlsOf = new Map(snapshots.map(([name, { controls }]) => [name, controls]));
 
 test("there are figures to test", () => {
   expect(figures.length).toBeGreaterThan(0);
@@ -27,9 +29,14 @@ test("without script there are poster and caption", async ({ browser, site }) =>
 
 for (const { name, title, help } of figures) {
   test.describe(name, () => {
-    test("is drawn, told, set by sliders and keys, reset, and saved", async ({ page, open }) => {
+    test("is drawn, operated, reset, saved, linked and accessible, alone and with another", async ({ page, open }) => {
       const figure = await open(page, [name]);
       const asked = await told(figure);
+      const reset = async () => {
+        await figure.getByRole("button", { name: "Reset", exact: true }).click();
+        await expect.poll(() => told(figure)).toEqual(asked);
+      };
+
       await test.step("draws its first frame and says what it is", async () => {
         const canvas = figure.locator("canvas");
         await expect(canvas).toBeVisible();
@@ -129,8 +136,19 @@ for (const { name, title, help } of figures) {
         if (grip) await page.keyboard.press("ArrowLeft");
         else await change(page, figure);
         expect(await told(figure)).not.toEqual(asked);
-        await figure.getByRole("button", { name: "Reset", exact: true }).click();
-        await expect.poll(() => told(figure)).toEqual(asked);
+        await reset();
+      });
+
+      await test.step("parameters are properties of the element", async () => {
+        const shown = controlsOf.get(name).filter(({ place }) => place !== "hidden");
+        const control = shown.find(({ kind }) => kind === "slider") ?? shown.find(({ kind }) => kind === "choice");
+        const { id, kind, max, min, value: before, options } = control;
+        const other = kind === "slider" ? (before === max ? min : max) : options.find(([option]) => option !== before)[0];
+        await figure.evaluate((element, [id, wanted]) => (element[id] = wanted), [id, other]);
+        await figure.evaluate((element) => element.flush());
+        expect(await figure.evaluate((element, id) => element[id], id)).toBe(other);
+        expect(Object.keys((await told(figure)).state)).toContain(id);
+        await reset();
       });
 
       await test.step("the picture is saved as a PNG at twice the size of its layout", async () => {
@@ -145,10 +163,10 @@ for (const { name, title, help } of figures) {
         const room = await figure.locator(".picture").evaluate((picture) => picture.clientWidth - 32);
         expect(bytes.readUInt32BE(16)).toBe(2 * layoutWidth(room));
       });
-    });
 
-    test("goes with the mouse, and comes back by its permalink", async ({ page, open, context, complaints }) => {
-      const figure = await open(page, [name]);
+      // From the place on the page where a fresh figure is.
+      await page.evaluate(() => scrollTo(0, 0));
+      await ready(figure);
       await test.step("a mouse drags a handle, and where it took hold stays", async () => {
         await hear(figure, "epipole-change", "epipole-readout");
         const at = await gripOf(figure);
@@ -191,13 +209,55 @@ for (const { name, title, help } of figures) {
         const link = await figure.evaluate((element) => element.permalink);
         expect(link).toContain("#fig-1");
 
-        const other = await context.newPage();
-        listen(other, complaints);
-        await other.goto(link);
-        const again = other.locator("epipole-figure");
-        await ready(again);
-        await expect.poll(() => told(again)).toEqual(before);
-        await expect(again.locator(".notice")).toBeHidden();
+        await page.goto(link);
+        await ready(figure);
+        await expect.poll(() => told(figure)).toEqual(before);
+        await expect(figure.locator(".notice")).toBeHidden();
+      });
+
+      await test.step("axe finds nothing wrong, light or dark", async () => {
+        const wears = async (theme) => {
+          await expect(figure.locator(".root")).toHaveAttribute("data-theme", theme);
+          const isBright = () =>
+            figure.locator("canvas").evaluate((canvas) => {
+              const [red, green, blue] = canvas.getContext("2d").getImageData(1, 1, 1, 1).data;
+              return red + green + blue > 384;
+            });
+          await expect.poll(isBright, "the picture wears the theme").toBe(theme === "light");
+        };
+        await page.emulateMedia({ colorScheme: "light" });
+        await open(page, [name]);
+        await wears("light");
+        await figure.evaluate((element) => {
+          for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
+          element.setAttribute("goals", "all");
+        });
+        await expectAccessible(page);
+        await page.emulateMedia({ colorScheme: "dark" });
+        await wears("dark");
+        await expectAccessible(page, { colors: true });
+        await page.emulateMedia({ colorScheme: "light" });
+      });
+
+      await test.step("two on a page keep to themselves", async () => {
+        const both = await open(page, [name, name]);
+        await ready(both.nth(1));
+        await ready(both.nth(0));
+        const idle = () => settled(both);
+        await idle();
+        const untouched = await told(both.nth(1));
+        await change(page, both.nth(0));
+        expect((await told(both.nth(0))).state).not.toEqual({});
+        await idle();
+        expect(await told(both.nth(1))).toEqual(untouched);
+        const link = await both.nth(0).evaluate((element) => element.permalink);
+        expect(link).toMatch(/[?&]fig-1\./);
+        const first = await told(both.nth(0));
+        await page.goto(link);
+        await ready(both.nth(0));
+        await ready(both.nth(1));
+        await expect.poll(() => told(both.nth(0))).toEqual(first);
+        await expect.poll(() => told(both.nth(1))).toEqual(untouched);
       });
     });
 
@@ -264,50 +324,6 @@ for (const { name, title, help } of figures) {
         await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(top);
       });
       await context.close();
-    });
-
-    test("axe finds nothing wrong, light or dark", async ({ page, open }) => {
-      const wears = async (figure, theme) => {
-        await expect(figure.locator(".root")).toHaveAttribute("data-theme", theme);
-        const isBright = () =>
-          figure.locator("canvas").evaluate((canvas) => {
-            const [red, green, blue] = canvas.getContext("2d").getImageData(1, 1, 1, 1).data;
-            return red + green + blue > 384;
-          });
-        await expect.poll(isBright, "the picture wears the theme").toBe(theme === "light");
-      };
-      await page.emulateMedia({ colorScheme: "light" });
-      const figure = await open(page, [name]);
-      await wears(figure, "light");
-      await figure.evaluate((element) => {
-        for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
-        element.setAttribute("goals", "all");
-      });
-      await expectAccessible(page);
-      await page.emulateMedia({ colorScheme: "dark" });
-      await wears(figure, "dark");
-      await expectAccessible(page, { colors: true });
-    });
-
-    test("two on a page keep to themselves", async ({ page, open }) => {
-      const both = await open(page, [name, name]);
-      await ready(both.nth(1));
-      await ready(both.nth(0));
-      const idle = () => settled(both);
-      await idle();
-      const untouched = await told(both.nth(1));
-      await change(page, both.nth(0));
-      expect((await told(both.nth(0))).state).not.toEqual({});
-      await idle();
-      expect(await told(both.nth(1))).toEqual(untouched);
-      const link = await both.nth(0).evaluate((element) => element.permalink);
-      expect(link).toMatch(/[?&]fig-1\./);
-      const first = await told(both.nth(0));
-      await page.goto(link);
-      await ready(both.nth(0));
-      await ready(both.nth(1));
-      await expect.poll(() => told(both.nth(0))).toEqual(first);
-      await expect.poll(() => told(both.nth(1))).toEqual(untouched);
     });
   });
 }

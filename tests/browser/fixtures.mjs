@@ -39,9 +39,13 @@ const test = base.extend({
     { scope: "worker" },
   ],
 
-  /** Address of the book as published: under a sub-path, with its own policy. */
+  /**
+   * Address of the book as published: under a sub-path, with its own policy. EPIPOLE_LIBRARY names
+   * another server.
+   */
   library: [
     async ({}, use) => {
+      if (process.env.EPIPOLE_LIBRARY) return use(process.env.EPIPOLE_LIBRARY);
       const server = await serve({ mounts: { course: book }, policy: BOOK_POLICY });
       await use(`${server.origin}/course`);
       await server.close();
@@ -78,7 +82,7 @@ const test = base.extend({
         await ready(found.first());
         // Some figures compute after their first frame.
         if (options.settle !== false) {
-          await expect(found.first().locator("[aria-busy]")).toHaveCount(0);
+          await idle(found.first());
           // On a busy page, the first picture may be drawn later than the computation ends.
           await expect(found.first().locator("canvas")).toBeVisible();
         }
@@ -156,16 +160,24 @@ export async function allReady(figures) {
   await figures.evaluateAll(firstFrames, LIMIT_MS);
 }
 
-/** Waits for computations. Draws first, as a computation starts with the next frame. */
-export async function settled(some) {
-  const busy = await some.evaluateAll(async (elements, limit) => {
-    for (const element of elements) element.flush();
+/**
+ * Waits until figures compute nothing; with `flush`, draws first. Looks in the page, as `expect`
+ * looks again only after up to a second.
+ */
+export async function idle(some, { flush = false } = {}) {
+  const busy = await some.evaluateAll(async (elements, [limit, flush]) => {
+    if (flush) for (const element of elements) element.flush();
     const isBusy = (element) => [element, element.shadowRoot].some((root) => root?.querySelector("[aria-busy]"));
     const end = performance.now() + limit;
     while (elements.some(isBusy) && performance.now() < end) await new Promise((done) => setTimeout(done, 10));
     return elements.filter(isBusy).map((element) => element.getAttribute("name"));
-  }, LIMIT_MS);
+  }, [LIMIT_MS, flush]);
   expect(busy, "figures that compute").toEqual([]);
+}
+
+/** Waits for computations. Draws first, as a computation starts with the next frame. */
+export async function settled(some) {
+  await idle(some, { flush: true });
 }
 
 /**

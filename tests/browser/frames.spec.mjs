@@ -1,6 +1,6 @@
-// The book's iframe pages of single figures, and the gallery page.
+// The book's iframe pages of single figures, the list of all figures, and the page of each.
 
-import { expect, figures, ready, settled, test, told } from "./fixtures.mjs";
+import { expect, expectAccessible, figures, ready, settled, test, told } from "./fixtures.mjs";
 import { book } from "./places.mjs";
 
 test.skip(!book, "these are pages of the book");
@@ -47,10 +47,63 @@ test("without script a frame shows the picture and says what is on it", async ({
   await context.close();
 });
 
-test("the page of all figures has words to copy for the state that the reader sets", async ({ page, library }) => {
+test("the list of all figures leads to the page of each, and from there to the chapters", async ({ page, library }) => {
   await page.goto(`${library}/gallery.html`);
-  const section = page.locator('.gallery[data-name="ransac-race"]');
-  const figure = section.locator("epipole-figure");
+  const items = page.locator(".gallery li");
+  await expect(items).toHaveCount(figures.length);
+  for (const { name, title } of figures) {
+    await expect(items.filter({ has: page.locator(`a[href="figures/${name}.html"]`) })).toContainText(title);
+    const html = await (await page.request.get(`${library}/figures/${name}.html`)).text();
+    expect(html).toContain(`<epipole-figure name="${name}">`);
+  }
+  await items.filter({ hasText: "ransac-race" }).getByRole("link").click();
+  await expect(page).toHaveURL(/figures\/ransac-race\.html$/);
+  await expect(page.locator('.contents [aria-current="true"]')).toHaveText("All figures");
+  await page.locator("article").getByRole("link", { name: /^Figure 10\./ }).first().click();
+  await expect(page).toHaveURL(/sandbox\.html#/);
+});
+
+test("a reader chooses what a figure shows on other pages", async ({ page, library, complaints }) => {
+  await page.goto(`${library}/figures/ransac-race.html`);
+  const figure = page.locator("epipole-figure");
+  const section = page.locator(".embedding");
+  await ready(figure);
+  await section.getByText("What can be set").click();
+  await section.getByRole("checkbox", { name: "Show outliers" }).uncheck();
+  await expect(figure.getByRole("slider", { name: "Outlier ratio" })).toBeHidden();
+  const code = section.locator(".snippet code");
+  await expect(code).toContainText(/controls="[a-z_ -]+"/);
+  await expect(code).not.toContainText(/controls="[^"]*outliers/);
+  await section.getByText("What can be read").click();
+  for (const box of await section.locator('[data-shown-by="readouts"] input').all()) await box.uncheck();
+  await section.getByLabel("Goals shown").selectOption("none");
+  await expect(code).toContainText('readouts="none" goals="none"');
+  await section.getByLabel("Kind of page").selectOption({ label: "Python notebook" });
+  await expect(code).toContainText('readouts_shown="none", goals="none")');
+  await expectAccessible(page);
+  // axe measures by inline styles, which the policy forbids.
+  complaints.length = 0;
+  // Its page for frames takes the same words.
+  await page.goto(await section.locator(".frame-page").evaluate((link) => link.href));
+  await ready(figure);
+  await expect(figure.getByRole("slider", { name: "Outlier ratio" })).toBeHidden();
+  await page.goto(`${library}/figures/ransac-race.html`);
+  await ready(figure);
+  // The kind of page is kept.
+  await expect(code).toHaveText('from epipole.figures import Figure\n\nFigure("ransac-race")');
+  await section.getByLabel("Kind of page").selectOption({ label: "HTML" });
+  // Ticked again, nothing is said about it.
+  const box = section.getByRole("checkbox", { name: "Show outliers" });
+  await section.getByText("What can be set").click();
+  await box.uncheck();
+  await box.check();
+  await expect(code).not.toContainText("controls=");
+});
+
+test("the page of a figure has words to copy for the state that the reader sets", async ({ page, library }) => {
+  await page.goto(`${library}/figures/ransac-race.html`);
+  const figure = page.locator("epipole-figure");
+  const section = page.locator(".embedding");
   await ready(figure);
   await settled(figure);
   const code = section.locator(".snippet code");
@@ -60,13 +113,12 @@ test("the page of all figures has words to copy for the state that the reader se
   const kinds = section.getByLabel("Kind of page");
   await kinds.selectOption({ label: "Python notebook" });
   await expect(code).toHaveText('from epipole.figures import Figure\n\nFigure("ransac-race", outliers=0.6)');
-  await expect(page.locator(".gallery .snippet code").first()).toContainText('Figure("');
   await kinds.selectOption({ label: "Frame (courses, wikis)" });
   // The copied snippet works.
   const words = await code.textContent();
   const address = /src="([^"]+)"/.exec(words)[1];
   expect(address).toBe(`${library}/embed/ransac-race.html?outliers=0.60`);
-  await expect(section.locator(".own-page")).toHaveAttribute("href", /\?outliers=0\.60$/);
+  await expect(section.locator(".frame-page")).toHaveAttribute("href", /\?outliers=0\.60$/);
   await page.goto(address);
   await ready(page.locator("epipole-figure"));
   expect((await told(page.locator("epipole-figure"))).state).toEqual({ outliers: "0.60" });

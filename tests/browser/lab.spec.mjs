@@ -4,9 +4,45 @@
 import { mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { inflateRawSync } from "node:zlib";
 import { choose, expect, expectAccessible, file, press, read, said, solved, test } from "./lab.mjs";
 
 test.describe.configure({ mode: "serial" });
+
+/** Export of the sample. */
+let exported;
+/** The page with the model in it. */
+let modelPage;
+
+/** A file of a zip archive. */
+function entry(archive, name) {
+  const at = archive.indexOf(name) - 30;
+  const method = archive.readUInt16LE(at + 8);
+  const start = at + 30 + name.length + archive.readUInt16LE(at + 28);
+  const content = archive.subarray(start, start + archive.readUInt32LE(at + 18));
+  return method === 0 ? content : inflateRawSync(content);
+}
+
+/** Measures between two points or vertices of the page of a model that no control covers. */
+async function measure(page) {
+  const places = await page.evaluate(() => {
+    const seen = [];
+    const now = currentView();
+    const all = showsSurface() ? surface.positions : positions;
+    const step = 3 * Math.ceil(all.length / 60);
+    for (let i = 0; i < all.length && seen.length < 2; i += step) {
+      const ray = add(all.subarray(i, i + 3), now.eye, -1);
+      const depth = dot(ray, now.forward);
+      const u = (1 + (dot(ray, now.right) * now.focal[0]) / depth) * (canvas.clientWidth / 2);
+      const v = (1 - (dot(ray, now.up) * now.focal[1]) / depth) * (canvas.clientHeight / 2);
+      if (document.elementFromPoint(u, v) === canvas) seen.push([u, v]);
+    }
+    return seen;
+  });
+  for (const [u, v] of places) await page.mouse.click(u, v);
+  await expect(page.locator("#help")).toHaveText(/^Distance [\d.e-]+ in units of the model$/);
+}
 
 test("the sample is solved, looked at in every step, and saved", async ({ lab }) => {
   await solved(lab);
@@ -27,10 +63,30 @@ test("the sample is solved, looked at in every step, and saved", async ({ lab })
   ]);
   expect(download.suggestedFilename()).toBe("reconstruction.zip");
   const bytes = await read(download);
+  exported = bytes;
   expect(bytes.subarray(0, 2).toString()).toBe("PK");
   for (const name of ["sparse/0/cameras.txt", "sparse/0/points3D.txt", "points.ply", "images/table-9.png"]) {
     expect(bytes.includes(name), name).toBe(true);
   }
+  modelPage = join(mkdtempSync(join(tmpdir(), "model-")), "model.html");
+  writeFileSync(modelPage, entry(bytes, "model.html"));
+});
+
+test("the page in the export turns and measures the model without a network", async ({ blank: page }) => {
+  const requests = [];
+  page.on("request", (request) => requests.push(request.url()));
+  await page.goto(pathToFileURL(modelPage).href);
+  expect(requests).toHaveLength(1);
+  await expect(page).toHaveTitle(/^3-D model: 9 images, \d+ points$/);
+  await expectAccessible(page);
+  await measure(page);
+  const before = await page.screenshot();
+  await page.locator("canvas").press("ArrowLeft");
+  await expect.poll(async () => (await page.screenshot()).equals(before)).toBe(false);
+  await page.locator("#view").selectOption("3");
+  await page.locator("canvas").press("Home");
+  await expect(page.locator("#view")).toHaveValue("");
+  await expect(page.locator("#help")).toHaveText(/^Drag to turn/);
 });
 
 test("the sample comes solved and light; what is left out is computed once somebody asks for it", async ({ blank: lab, library }) => {
@@ -280,6 +336,34 @@ test("every pixel of a pair gets a depth, which becomes part of the files", asyn
   }
 });
 
+test("all views become points and a surface, which the page of the export shows", async ({ lab, library }) => {
+  await lab.goto(`${library}/lab/index.html?step=depth&all-views-megapixels=0.05`);
+  await press(lab, "button", "All views");
+  await press(lab, "button", "Depth of all views");
+  await expect(said(lab)).toContainText(/\d+ points from all views\./, { timeout: 90_000 });
+  await press(lab, "radio", "surface");
+  await press(lab, "button", "Export");
+  await expect(said(lab)).toContainText(/\d+ points from all views\./);
+  const [download] = await Promise.all([
+    lab.waitForEvent("download"),
+    press(lab, "button", "Save reconstruction.zip"),
+  ]);
+  const bytes = await read(download);
+  for (const name of ["fused.ply", "mesh.ply"]) expect(bytes.includes(name), name).toBe(true);
+  const path = join(mkdtempSync(join(tmpdir(), "surface-")), "model.html");
+  writeFileSync(path, entry(bytes, "model.html"));
+  const page = await lab.context().newPage();
+  await page.goto(pathToFileURL(path).href);
+  await expect(page).toHaveTitle(/^3-D model: 9 images, \d+ points, \d+ triangles$/);
+  await expectAccessible(page);
+  const withSurface = await page.screenshot();
+  await page.locator("#show").selectOption("points");
+  await expect.poll(async () => (await page.screenshot()).equals(withSurface)).toBe(false);
+  await page.locator("#show").selectOption("surface");
+  await measure(page);
+  await page.close();
+});
+
 test("photographs of a board give a camera, which is saved and used", async ({ lab }) => {
   await solved(lab);
   await press(lab, "button", "Calibrate");
@@ -449,7 +533,19 @@ test("photographs dropped onto the picture are added, and a text among them is n
     await lab.locator("#lab").dispatchEvent(kind, { dataTransfer: transfer });
   }
   await expect(said(lab)).toContainText("2 photographs.", { timeout: 30_000 });
-  await expect(said(lab)).toContainText("notes.txt: not a photograph");
+  await expect(said(lab)).toContainText("notes.txt: neither a photograph nor a camera file");
+});
+
+test("cameras of another program are taken for its photographs, and given up", async ({ lab }) => {
+  await solved(lab);
+  const files = (folder, names) => names.map((name) => ({ name, mimeType: "", buffer: entry(exported, `${folder}/${name}`) }));
+  await lab.locator("#photographs").setInputFiles(files("images", ["table-1.png", "table-2.png", "table-3.png"]));
+  await expect(said(lab)).toContainText("3 photographs.", { timeout: 30_000 });
+  await press(lab, "button", "Reconstruction");
+  await lab.locator("#camera-files").setInputFiles(files("sparse/0", ["cameras.txt", "images.txt"]));
+  await expect(said(lab)).toContainText(/3 of 3 photographs have a camera.*Cameras of 3 of 3 photographs come from cameras.txt/, { timeout: 90_000 });
+  await press(lab, "button", "Find the cameras instead");
+  await expect(said(lab)).not.toContainText("come from cameras.txt");
 });
 
 test("a page with unsaved photographs asks before it closes", async ({ lab }) => {

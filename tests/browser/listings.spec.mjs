@@ -132,14 +132,22 @@ test("on a phone all tabs are in a row, and the choice is remembered", async ({ 
   }
 });
 
-test("every chapter with Python has its notebook", async ({ page, request, library }) => {
+test("every chapter with Python has its notebook, and the same with its task solved", async ({ page, request, library }) => {
   for (const name of ["rays", "corners", "epipolar", "eight-point", "ransac", "stereo", "sfm", "planes", "calibration"]) {
     await page.goto(`${library}/${name}.html`);
-    const link = page.locator(".notebook a");
-    await expect(link).toBeVisible();
-    const answer = await request.get(await link.evaluate(({ href }) => href));
-    expect(answer.ok()).toBe(true);
-    const notebook = await answer.json();
-    expect(notebook.cells.filter(({ cell_type }) => cell_type === "code").length).toBeGreaterThan(1);
+    const links = page.locator(".notebook a");
+    await expect(links).toHaveCount(2);
+    const sources = [];
+    for (const link of await links.all()) {
+      await expect(link).toBeVisible();
+      const answer = await request.get(await link.evaluate(({ href }) => href));
+      expect(answer.ok()).toBe(true);
+      const { cells } = await answer.json();
+      sources.push(cells.filter(({ cell_type }) => cell_type === "code").map(({ source }) => source.join("")));
+    }
+    const [open, solved] = sources;
+    expect(open.length).toBeGreaterThan(1);
+    // One cell differs, in which the task begins.
+    expect(solved.filter((source, index) => source !== open[index]).length).toBe(1);
   }
 });

@@ -1,5 +1,6 @@
 // Course pages with a figure in an iframe, each imitating the listener of a real platform.
 
+import { course, heard } from "./course.mjs";
 import { expect, settled, test, told } from "./fixtures.mjs";
 import { script } from "./places.mjs";
 import { serve } from "./server.mjs";
@@ -11,35 +12,12 @@ async function inside(site, figures = '<epipole-figure name="ransac-race"></epip
   return serve({ mounts: { "": () => page }, policy: false });
 }
 
-/**
- * Serves a course page: `hear` is the code of its listener, `frame` are attributes of the iframe.
- */
-async function course(page, address, hear = "", frame = "") {
-  const html = `<!doctype html><html lang="en"><title>A course</title>
-    <iframe src="${address}" title="Figure" width="900" height="400" ${frame}></iframe>
-    <script>
-      window.heard = [];
-      const iframe = document.querySelector("iframe");
-      addEventListener("message", (event) => {
-        // A frame whose page has gone since has no window any more.
-        if (event.source && event.source !== iframe.contentWindow) return;
-        window.heard.push(event.data);
-        const data = typeof event.data === "string" ? JSON.parse(event.data) : event.data;
-        const answer = (message) => event.source.postMessage(message, "*");
-        ${hear}
-      });
-    </script>`;
-  const outer = await serve({ mounts: { "": () => html }, policy: false });
-  await page.goto(outer.origin);
-  const figure = page.frameLocator("iframe").locator("epipole-figure").first();
+/** Opens a course page once its figure is ready. */
+async function opened(page, address, hear, frame) {
+  const { inner, close } = await course(page, address, hear, frame);
+  const figure = inner.locator("epipole-figure").first();
   await expect(figure).toHaveAttribute("data-ready", "");
-  return { figure, close: outer.close };
-}
-
-/** Messages that the page has received, parsed. */
-async function heard(page, subject) {
-  const all = await page.evaluate(() => window.heard.map((data) => (typeof data === "string" ? { text: data, ...JSON.parse(data) } : data)));
-  return subject ? all.filter((message) => message.subject === subject) : all;
+  return { figure, close };
 }
 
 const subjects = (page) => page.evaluate(() => window.heard.map((data) => data.subject ?? "text"));
@@ -52,7 +30,7 @@ for (const [kind, check] of [
   test(`a page that hears ${kind} gives the frame the height of its figure`, async ({ page, site }) => {
     const inner = await inside(site);
     const listen = `${check} if (data.subject === "lti.frameResize") iframe.style.height = data.height + "px";`;
-    const { figure, close } = await course(page, inner.origin, listen);
+    const { figure, close } = await opened(page, inner.origin, listen);
     const height = () => figure.evaluate((element) => Math.ceil(element.getBoundingClientRect().height));
     const frame = () => page.locator("iframe").evaluate((element) => element.clientHeight);
     await expect.poll(async () => (await frame()) - (await height())).toBe(0);
@@ -74,7 +52,7 @@ for (const [kind, check] of [
 test("a figure at rest tells its height three times at most, a compact one never", async ({ page, site }) => {
   for (const [attribute, most] of [["", 3], [" compact", 0]]) {
     const inner = await inside(site, `<epipole-figure name="ransac-race"${attribute}></epipole-figure>`);
-    const { close } = await course(page, inner.origin);
+    const { close } = await opened(page, inner.origin);
     await page.waitForTimeout(1500);
     const count = (await heard(page, "lti.frameResize")).filter(({ text }) => text === undefined).length;
     expect(count).toBeLessThanOrEqual(most);
@@ -97,7 +75,7 @@ for (const [kind, state] of [
       // A second answer counts for nothing.
       answer({ subject: "SPLICE.getState.response", message_id: data.message_id, state: { ...state, state: { points: "20" } } });
     }`;
-    const { figure, close } = await course(page, inner.origin, answer);
+    const { figure, close } = await opened(page, inner.origin, answer);
     await expect.poll(async () => (await told(figure)).state).toEqual({ outliers: "0.30", points: "40" });
     await page.waitForTimeout(1500);
     expect((await told(figure)).state).toEqual({ outliers: "0.30", points: "40" });
@@ -119,7 +97,7 @@ for (const [what, answer, words] of [
     const inner = await inside(site);
     const listen = `if (data.subject === "SPLICE.getState")
       answer(JSON.stringify({ subject: "SPLICE.getState.response", message_id: data.message_id, state: ${JSON.stringify(answer)} }));`;
-    const { figure, close } = await course(page, inner.origin, listen);
+    const { figure, close } = await opened(page, inner.origin, listen);
     await expect(figure.locator(".notice")).toContainText(words);
     await figure.locator("input[type=range]").first().press("ArrowRight");
     expect(Object.keys((await told(figure)).state)).toHaveLength(1);
@@ -132,7 +110,7 @@ for (const code of ["unsupported_subject", "bad_request", "wrong_origin", "unaut
   test(`a page that answers ${code} is left in peace`, async ({ page, site }) => {
     const inner = await inside(site);
     const listen = `if (data.subject) answer({ subject: data.subject + ".response", message_id: data.message_id, error: { code: "${code}", message: "no" } });`;
-    const { figure, close } = await course(page, inner.origin, listen);
+    const { figure, close } = await opened(page, inner.origin, listen);
     await settled(figure);
     await page.waitForTimeout(300);
     await expect(figure.locator(".notice")).toBeHidden();
@@ -146,7 +124,7 @@ test("an answer that comes after the reader's hand changes nothing", async ({ pa
   const inner = await inside(site);
   const listen = `if (data.subject === "SPLICE.getState") window.late = () =>
     answer({ subject: "SPLICE.getState.response", message_id: data.message_id, state: ${JSON.stringify(saved({ points: "20" }))} });`;
-  const { figure, close } = await course(page, inner.origin, listen);
+  const { figure, close } = await opened(page, inner.origin, listen);
   await figure.locator("input[type=range]").first().press("ArrowRight");
   const { state } = await told(figure);
   await page.evaluate(() => window.late());
@@ -158,7 +136,7 @@ test("an answer that comes after the reader's hand changes nothing", async ({ pa
 
 test("what the reader reaches is reported: at each goal, at rest, when asked", async ({ page, site }) => {
   const inner = await inside(site);
-  const { figure, close } = await course(page, inner.origin);
+  const { figure, close } = await opened(page, inner.origin);
   expect((await heard(page, "SPLICE.sendEvent")).map(({ name, data }) => [name, data])).toEqual([["ready", { figure: "ransac-race" }]]);
   const goals = await figure.evaluate((element) => element.goals.length);
 
@@ -196,7 +174,7 @@ test("what the reader reaches is reported: at each goal, at rest, when asked", a
 
 test("what has not been reported is, when the page goes", async ({ page, site }) => {
   const inner = await inside(site);
-  const { figure, close } = await course(page, inner.origin);
+  const { figure, close } = await opened(page, inner.origin);
   await figure.getByRole("slider", { name: "Outlier ratio" }).press("Home");
   await expect.poll(async () => (await heard(page, "SPLICE.reportScoreAndState")).length).toBe(1);
   await figure.evaluate((element) => (element.points = 24, element.flush()));
@@ -208,7 +186,7 @@ test("what has not been reported is, when the page goes", async ({ page, site })
 
 test("an exercise page hears once that everything is solved", async ({ page, site }) => {
   const inner = await inside(site);
-  const { figure, close } = await course(page, inner.origin);
+  const { figure, close } = await opened(page, inner.origin);
   const ids = await figure.evaluate((element) => element.goals.map(({ id }) => id));
   const passed = async () => (await heard(page)).filter(({ testsPassed }) => testsPassed);
   // All but the last were solved on an earlier visit.
@@ -227,7 +205,7 @@ test("an exercise page hears once that everything is solved", async ({ page, sit
 
 test("a frame without an origin of its own works and talks", async ({ page, site }) => {
   const inner = await inside(site);
-  const { figure, close } = await course(page, inner.origin, "", 'sandbox="allow-scripts"');
+  const { figure, close } = await opened(page, inner.origin, "", 'sandbox="allow-scripts"');
   await figure.locator("input[type=range]").first().press("ArrowRight");
   expect(Object.keys((await told(figure)).state)).toHaveLength(1);
   expect(await subjects(page)).toContain("SPLICE.getState");
@@ -242,7 +220,7 @@ test("outside of frames nothing is said; of several figures only those that the 
     globalThis.connectB = () => (globalThis.end = connect(document.getElementById("b"), { activity: "week-5" }));
   </script>`;
   const inner = await inside(site, two, more);
-  const { close } = await course(page, inner.origin);
+  const { close } = await opened(page, inner.origin);
   await page.waitForTimeout(300);
   expect(await subjects(page)).toEqual([]);
   const frame = page.frames()[1];

@@ -11,7 +11,11 @@ const { Figure } = await loadBindings();
 /** Parts that must be visible together. */
 const CORE = [".sheet", ".under", ".panel > .main", ".panel > .inputs"];
 const HIGHEST_PX = 640;
+const SCREENS = [{ width: 1280, height: 720 }, { width: 1024, height: 768 }];
 const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+/** A page 320 px wide; one of 1280 × 720 px enlarged to 200 %. */
+const NARROW = { width: 320, height: 640 };
+const ENLARGED = { viewport: { width: 640, height: 360 }, deviceScaleFactor: 2 };
 
 /** Distance from the top of the highest to the bottom of the lowest of the parts, CSS pixels. */
 function height(figure, parts) {
@@ -76,7 +80,7 @@ function strayed(page, text, cuts) {
     ({ text, cuts }) => {
       const main = document.querySelector("main");
       const sheets = document.querySelector("epipole-figure").shadowRoot.adoptedStyleSheets;
-      const places = (html) => {
+      const parts = (html) => {
         main.querySelector("figure").remove();
         main.insertAdjacentHTML("beforeend", "<div></div>");
         const room = main.lastElementChild;
@@ -84,21 +88,18 @@ function strayed(page, text, cuts) {
         room.replaceWith(...room.childNodes);
         const { shadowRoot } = main.querySelector("epipole-figure");
         shadowRoot.adoptedStyleSheets = sheets;
-        const all = [...shadowRoot.querySelectorAll(".root, .root *:not(svg *, option)")];
-        return all.map((part) => {
-          const { x, y, width, height } = part.getBoundingClientRect();
-          const seen = width * height > 0 && part.checkVisibility({ visibilityProperty: true });
-          return { name: part.className || part.localName, seen, x, y };
-        });
+        return [...shadowRoot.querySelectorAll(".root, .root *:not(svg *, option)")];
       };
-      const whole = places(text);
+      const whole = parts(text).map((part) => part.getBoundingClientRect());
       const found = [];
       for (const cut of cuts) {
-        for (const [index, { name, seen, x, y }] of places(text.slice(0, cut)).entries()) {
+        for (const [index, part] of parts(text.slice(0, cut)).entries()) {
+          const { x, y, width, height } = part.getBoundingClientRect();
           const then = whole[index];
           // Browsers count a layout shift from three pixels on.
-          if (seen && Math.max(Math.abs(x - then.x), Math.abs(y - then.y)) >= 3) {
-            found.push(`${name} at ${x}, ${y}, later at ${then.x}, ${then.y}: ${text.slice(cut - 60, cut)}`);
+          if (Math.max(Math.abs(x - then.x), Math.abs(y - then.y)) < 3) continue;
+          if (width * height > 0 && part.checkVisibility({ visibilityProperty: true })) {
+            found.push(`${part.className || part.localName} at ${x}, ${y}, later at ${then.x}, ${then.y}: ${text.slice(cut - 60, cut)}`);
           }
         }
       }
@@ -108,124 +109,160 @@ function strayed(page, text, cuts) {
   );
 }
 
+/** Keeps the layout shifts of the pages that follow in `window.shifts`. */
+function watchShifts(page) {
+  return page.addInitScript(() => {
+    window.shifts = [];
+    new PerformanceObserver((list) => {
+      for (const { value, sources } of list.getEntries()) {
+        window.shifts.push([value, ...sources.map(({ node }) => node?.className || node?.localName)]);
+      }
+    }).observe({ type: "layout-shift", buffered: true });
+  });
+}
+
+/** Opens a figure with all folds open, and expects it within the width of the page. */
+async function expectNoSidewaysScroll(page, open, name) {
+  const figure = await open(page, [name]);
+  await figure.evaluate((element) => {
+    for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
+  });
+  const { width } = page.viewportSize();
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
+  const outside = await figure.evaluate((element, edge) => {
+    const all = [...element.shadowRoot.querySelectorAll("*")].filter((part) => part.checkVisibility());
+    const out = (part) => part.getBoundingClientRect().right > edge && !part.closest(".marks, .spoken, .help");
+    return all.filter(out).map((part) => part.outerHTML.slice(0, 120));
+  }, width);
+  expect(outside).toEqual([]);
+}
+
+/**
+ * Opens a figure with its script held back, and expects its parts where the prerendered page has
+ * them, and nothing wrong from axe. The page must watch its layout shifts.
+ */
+async function expectSamePlaces(page, open, name) {
+  const { width } = page.viewportSize();
+  // Hold back the script until the prerendered page has been measured.
+  let release;
+  const released = new Promise((resolve) => (release = resolve));
+  const held = /\/elements\/.*\.js$/;
+  await page.route(held, async (route) => {
+    await released;
+    await route.fallback();
+  });
+  const query = { wide: "1", poster: String(widthOf(name, width)) };
+  const opened = open(page, [name], { query, wait: false });
+  const figure = page.locator("epipole-figure");
+  const root = figure.locator(".root");
+  await expect(root).toHaveAttribute("aria-busy", "true");
+  await expect(figure.locator("canvas")).toHaveCount(0);
+  await expect.poll(() => root.evaluate((element) => getComputedStyle(element).borderStyle)).toBe("solid");
+  const places = () =>
+    figure.evaluate((element) => {
+      const parts = [".root", ".sheet", ".main", ".panel > .inputs", ".challenges", ".folds"];
+      return parts.map((part) => {
+        const box = element.shadowRoot.querySelector(part)?.getBoundingClientRect();
+        return box ? [box.y + scrollY, box.height] : [];
+      });
+    });
+  // Posters are whole pixels high, pictures need not be.
+  const expectSame = (now, then) => {
+    const moved = now.flatMap((box, part) => box.map((at, index) => Math.abs(at - then[part][index])));
+    expect(Math.max(...moved), JSON.stringify([then, now])).toBeLessThanOrEqual(1.01);
+  };
+  const before = await places();
+  release();
+  await opened;
+  await page.unroute(held);
+  await expect(figure).toHaveAttribute("data-ready", "");
+  await expect(figure.locator("link")).toHaveCount(0);
+  expectSame(await places(), before);
+  await ready(figure);
+  await expect(figure.locator("canvas")).toBeVisible();
+  await settled(figure);
+  expectSame(await places(), before);
+  expect(await page.evaluate(() => window.shifts)).toEqual([]);
+  await expectAccessible(page);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+  return figure;
+}
+
 for (const { name } of figures) {
   test.describe(name, () => {
-    test("320 px wide, and enlarged to 200 %, nothing has to be scrolled sideways", async ({ browser, open, complaints }) => {
-      for (const options of [
-        { viewport: { width: 320, height: 640 } },
-        { viewport: { width: 640, height: 360 }, deviceScaleFactor: 2 },
-      ]) {
+    test("fits on one screen, and nothing moves as it comes or is shown", async ({ page, open }) => {
+      prepare(name);
+      await watchShifts(page);
+      for (const { width, height: down } of SCREENS) {
+        await test.step(`poster and living figure fill the same places of ${width} × ${down}, and axe finds nothing wrong`, async () => {
+          await page.setViewportSize({ width, height: down });
+          const figure = await expectSamePlaces(page, open, name);
+          expect(await height(figure, CORE), `at ${width} × ${down}`).toBeLessThanOrEqual(HIGHEST_PX);
+        });
+      }
+
+      await test.step("320 px wide, nothing has to be scrolled sideways", async () => {
+        await page.setViewportSize(NARROW);
+        await expectNoSidewaysScroll(page, open, name);
+      });
+
+      await test.step("what a page has brought of it so far stays where it is as the rest comes", async () => {
+        const scripts = /\/elements\/.*\.js$/;
+        await page.route(scripts, (route) => route.fulfill({ body: "", contentType: "text/javascript" }));
+        for (const [width, height] of [[1280, 720], [700, 720], [390, 844]]) {
+          await page.setViewportSize({ width, height });
+          await open(page, [name], { query: { wide: "1", poster: String(widthOf(name, width)) }, wait: false });
+          const text = (await page.evaluate(async () => (await fetch(location.href)).text())).match(TEXT)[0];
+          const unstyled = text.replace(/<link[^>]*>/, "");
+          const ends = [...unstyled.matchAll(/>/g)].map(({ index }) => index + 1);
+          const inTree = ends.filter((end) => end > unstyled.indexOf("<template") && end < unstyled.indexOf("</template>"));
+          expect(inTree.length).toBeGreaterThan(40);
+          expect(await strayed(page, unstyled, inTree.filter((_, nth) => nth % 3 === 0)), `at ${width}`).toEqual([]);
+        }
+        await page.unroute(scripts);
+      });
+
+      await test.step("each goal is shown how to reach, without moving what is below the figure", async () => {
+        await page.setViewportSize({ width: 1000, height: 900 });
+        await page.emulateMedia({ reducedMotion: "reduce" });
+        const figure = await open(page, [`${name} goals=all`]);
+        const goals = await figure.locator("[data-challenge]").all();
+        expect(goals.length).toBeGreaterThan(0);
+        const height = async () => (await figure.boundingBox()).height;
+        for (const goal of goals) {
+          // The current goal is above the list.
+          if (await goal.isVisible()) await goal.getByRole("button").click();
+          const before = await height();
+          await figure.getByRole("button", { name: "Show how" }).click();
+          await expect(figure.locator(".goal-line .mark").first()).toHaveText(/^Shown: /);
+          await expect(goal).not.toHaveAttribute("data-solved", "");
+          await expect(figure.getByRole("button", { name: "Show how" })).toBeVisible();
+          expect(Math.abs((await height()) - before)).toBeLessThan(1);
+        }
+      });
+    });
+
+    test("fits on a phone, and enlarged to 200 %", async ({ browser, open, complaints }) => {
+      prepare(name);
+      const pageOf = async (options) => {
         const context = await browser.newContext(options);
         const page = await context.newPage();
         listen(page, complaints);
-        const figure = await open(page, [name]);
-        await figure.evaluate((element) => {
-          for (const fold of element.shadowRoot.querySelectorAll("details")) fold.open = true;
-        });
-        const { width } = options.viewport;
-        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(width);
-        const outside = await figure.evaluate((element, edge) => {
-          const all = [...element.shadowRoot.querySelectorAll("*")].filter((part) => part.checkVisibility());
-          const out = (part) => part.getBoundingClientRect().right > edge && !part.closest(".marks, .spoken, .help");
-          return all.filter(out).map((part) => part.outerHTML.slice(0, 120));
-        }, width);
-        expect(outside).toEqual([]);
-        await context.close();
-      }
-    });
+        return page;
+      };
+      await test.step("poster and living figure fill the same places of a phone, and axe finds nothing wrong", async () => {
+        const page = await pageOf(PHONE);
+        await watchShifts(page);
+        const figure = await expectSamePlaces(page, open, name);
+        expect(await hiding(figure)).toEqual([]);
+        await page.context().close();
+      });
 
-    test("poster and living figure fill the same places of one screen, and axe finds nothing wrong", async ({ browser, open, complaints }) => {
-      prepare(name);
-      for (const options of [{ viewport: { width: 1280, height: 720 } }, { viewport: { width: 1024, height: 768 } }, PHONE]) {
-        const context = await browser.newContext(options);
-        const page = await context.newPage();
-        listen(page, complaints);
-        await page.addInitScript(() => {
-          window.shifts = [];
-          new PerformanceObserver((list) => {
-            for (const { value, sources } of list.getEntries()) {
-              window.shifts.push([value, ...sources.map(({ node }) => node?.className || node?.localName)]);
-            }
-          }).observe({ type: "layout-shift", buffered: true });
-        });
-        // Hold back the script until the prerendered page has been measured.
-        let release;
-        const released = new Promise((resolve) => (release = resolve));
-        await page.route(/\/elements\/.*\.js$/, async (route) => {
-          await released;
-          await route.continue();
-        });
-        const query = { wide: "1", poster: String(widthOf(name, options.viewport.width)) };
-        const opened = open(page, [name], { query, wait: false });
-        const figure = page.locator("epipole-figure");
-        const root = figure.locator(".root");
-        await expect(root).toHaveAttribute("aria-busy", "true");
-        await expect(figure.locator("canvas")).toHaveCount(0);
-        await expect.poll(() => root.evaluate((element) => getComputedStyle(element).borderStyle)).toBe("solid");
-        const places = () =>
-          figure.evaluate((element) => {
-            const parts = [".root", ".sheet", ".main", ".panel > .inputs", ".challenges", ".folds"];
-            return parts.map((part) => {
-              const box = element.shadowRoot.querySelector(part)?.getBoundingClientRect();
-              return box ? [box.y + scrollY, box.height] : [];
-            });
-          });
-        // Posters are whole pixels high, pictures need not be.
-        const expectSame = (now, then) => {
-          const moved = now.flatMap((box, part) => box.map((at, index) => Math.abs(at - then[part][index])));
-          expect(Math.max(...moved), JSON.stringify([then, now])).toBeLessThanOrEqual(1.01);
-        };
-        const before = await places();
-        release();
-        await opened;
-        await expect(figure).toHaveAttribute("data-ready", "");
-        await expect(figure.locator("link")).toHaveCount(0);
-        expectSame(await places(), before);
-        await ready(figure);
-        await expect(figure.locator("canvas")).toBeVisible();
-        await settled(figure);
-        expectSame(await places(), before);
-        expect(await page.evaluate(() => window.shifts)).toEqual([]);
-        await expectAccessible(page);
-        const { width, height: down } = options.viewport;
-        expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
-        if (options === PHONE) expect(await hiding(figure)).toEqual([]);
-        else expect(await height(figure, CORE), `at ${width} × ${down}`).toBeLessThanOrEqual(HIGHEST_PX);
-        await context.close();
-      }
-    });
-
-    test("what a page has brought of it so far stays where it is as the rest comes", async ({ page, open }) => {
-      prepare(name);
-      await page.route(/\/elements\/.*\.js$/, (route) => route.fulfill({ body: "", contentType: "text/javascript" }));
-      for (const [width, height] of [[1280, 720], [700, 720], [390, 844]]) {
-        await page.setViewportSize({ width, height });
-        await open(page, [name], { query: { wide: "1", poster: String(widthOf(name, width)) }, wait: false });
-        const text = (await page.evaluate(async () => (await fetch(location.href)).text())).match(TEXT)[0];
-        const unstyled = text.replace(/<link[^>]*>/, "");
-        const ends = [...unstyled.matchAll(/>/g)].map(({ index }) => index + 1);
-        const inTree = ends.filter((end) => end > unstyled.indexOf("<template") && end < unstyled.indexOf("</template>"));
-        expect(inTree.length).toBeGreaterThan(40);
-        expect(await strayed(page, unstyled, inTree.filter((_, nth) => nth % 3 === 0)), `at ${width}`).toEqual([]);
-      }
-    });
-
-    test("each goal is shown how to reach, without moving what is below the figure", async ({ page, open }) => {
-      await page.emulateMedia({ reducedMotion: "reduce" });
-      const figure = await open(page, [`${name} goals=all`]);
-      const goals = await figure.locator("[data-challenge]").all();
-      expect(goals.length).toBeGreaterThan(0);
-      const height = async () => (await figure.boundingBox()).height;
-      for (const goal of goals) {
-        // The current goal is above the list.
-        if (await goal.isVisible()) await goal.getByRole("button").click();
-        const before = await height();
-        await figure.getByRole("button", { name: "Show how" }).click();
-        await expect(figure.locator(".goal-line .mark").first()).toHaveText(/^Shown: /);
-        await expect(goal).not.toHaveAttribute("data-solved", "");
-        await expect(figure.getByRole("button", { name: "Show how" })).toBeVisible();
-        expect(Math.abs((await height()) - before)).toBeLessThan(1);
-      }
+      await test.step("enlarged to 200 %, nothing has to be scrolled sideways", async () => {
+        const page = await pageOf(ENLARGED);
+        await expectNoSidewaysScroll(page, open, name);
+        await page.context().close();
+      });
     });
   });
 }

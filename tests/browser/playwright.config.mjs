@@ -11,7 +11,7 @@ export default defineConfig({
   workers: 2,
   timeout: 120_000,
   expect: { timeout: 15_000 },
-  reporter: [["list", { printSteps: false }]],
+  reporter: [["list", { printSteps: false }], ["./slowest.mjs"]],
   // The worker of the book would answer for the tests' servers; its own tests allow it.
   use: { serviceWorkers: "block", browserName: "chromium", launchOptions, viewport: { width: 1000, height: 900 } },
 });

@@ -2,7 +2,8 @@
 
 /** Everything that the book stores besides quiz progress, with the format of each value. */
 const KEPT = {
-  "epipole-theme": /^(light|dark)$/,
+  "epipole-places": /^(\[|\["[\w-]+","[^"]+","[^"]+"\]|,|\])+$/,
+  "epipole-settings": /^\{"theme":"(light|dark)"\}$/,
   "epipole-contents": /^folded$/,
   "epipole-listing": /^(numpy|opencv|epipole|rust)$/,
   "epipole-host": /^[A-Z][\w ,()]+$/,

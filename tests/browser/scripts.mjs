@@ -2,6 +2,7 @@
 // `crates/epipole-web/examples/trace.rs` plays them natively.
 
 import { execFileSync } from "node:child_process";
+import { join } from "node:path";
 import { jobsWasm, root, wasm } from "./places.mjs";
 
 /** A script that operates every control and handle of a figure, drawing a frame now and then. */
@@ -48,12 +49,23 @@ export function write(Figure, name, { width, scale, theme, seed, rounds = 5 }) {
   return script;
 }
 
+/** Programs that play scripts, by profile. Asking cargo each time takes longer than a script. */
+const programs = new Map();
+
+function programOf(profile) {
+  if (!programs.has(profile)) {
+    const flags = profile === "release" ? ["--release"] : [];
+    // Without --package, so that dependencies have the same features as in the tests.
+    execFileSync("cargo", ["build", "--quiet", "--example", "trace", ...flags], { cwd: root, stdio: "ignore" });
+    programs.set(profile, join(root, "target", profile, "examples", "trace"));
+  }
+  return programs.get(profile);
+}
+
 /** Native results of scripts; with `--time`, the milliseconds of each. */
 export function playNatively(scripts, ...flags) {
-  const profile = flags.includes("--time") ? ["--release"] : [];
-  // Without --package, so that dependencies have the same features as in the tests.
-  const run = ["run", "--quiet", "--example", "trace", ...profile];
-  const output = execFileSync("cargo", [...run, "--", ...flags], {
+  const program = programOf(flags.includes("--time") ? "release" : "debug");
+  const output = execFileSync(program, flags, {
     cwd: root,
     input: JSON.stringify(scripts),
     maxBuffer: 1 << 30,

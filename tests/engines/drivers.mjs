@@ -17,6 +17,8 @@ export const WINDOW = { width: 1280, height: 900 };
 const PATIENCE_MS = 240_000;
 /** Time for an engine to end when asked, milliseconds. */
 const GRACE_MS = 10_000;
+/** Time without requests after which a page is loaded, milliseconds. */
+const IDLE_MS = 200;
 
 const FIREFOX = ["/usr/bin/firefox-esr", "/usr/bin/firefox", "/Applications/Firefox.app/Contents/MacOS/firefox"];
 const MINI_BROWSERS = ["x86_64-linux-gnu", "aarch64-linux-gnu"].flatMap((machine) =>
@@ -56,7 +58,13 @@ async function byPuppeteer(name, options) {
   return {
     name,
     complaints,
-    open: (url) => page.goto(url, { waitUntil: "load" }),
+    open: async (url) => {
+      // Firefox reports requests that a service worker answers when their page is left. The last
+      // ones start when a page is idle.
+      await page.evaluate(() => new Promise((resolve) => requestIdleCallback(resolve)));
+      await page.waitForNetworkIdle({ idleTime: IDLE_MS, timeout: PATIENCE_MS });
+      await page.goto(url, { waitUntil: "load" });
+    },
     run: (work, argument) => page.evaluate(work, argument),
     press: async (...keys) => {
       for (const key of keys) await page.keyboard.press(key);

@@ -22,12 +22,9 @@ const ENGINES = { firefox, webkit };
 const ONE_MS = 300_000;
 const WHOLE_MS = 1_500_000;
 const chosen = Object.keys(ENGINES).filter((name) => name.includes(process.env.ONLY ?? ""));
-// The gallery comes last: most of its figures have been tested in their chapters.
-const LAST = "gallery.html";
-const pages = readdirSync(book)
-  .filter((name) => name.endsWith(".html") && name !== "404.html" && name.includes(process.env.PAGES ?? ""))
-  .sort((a, b) => Number(a === LAST) - Number(b === LAST));
 const plans = plan();
+/** Figures' own pages count only with a figure that no chapter shows in that state. */
+const pages = [...plans.keys()].filter((page) => !page.includes("/") || plans.get(page).toured.length > 0);
 /** A page whose first figure takes photographs of the reader. */
 const OWN = "corners.html";
 
@@ -45,6 +42,9 @@ const player = () => '<!doctype html><html lang="en"><title>Play</title><script 
  * figures that an earlier page has with the same attributes.
  */
 function plan() {
+  const pagesIn = (folder) => readdirSync(join(book, folder)).map((name) => join(folder, name));
+  const isPage = (name) => name.endsWith(".html") && name !== "404.html" && name.includes(process.env.PAGES ?? "");
+  const pages = [...pagesIn(""), ...pagesIn("figures")].filter(isPage);
   const [seen, linked] = [new Set(), new Set()];
   const isNew = (set, key) => !set.has(key) && set.add(key) !== undefined;
   return new Map(

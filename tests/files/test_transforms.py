@@ -74,7 +74,7 @@ def test_frames_of_instant_ngp_are_read(epipole, tmp_path):
 
 def loaded_by_nerfstudio(path):
     """The rays that nerfstudio 1.1.5 sees through pixels, by its loader `nerfstudio_dataparser.py` and its
-    `cameras.py`, whose package needs PyTorch: keys of the file before those of frames, frames sorted by name, one
+    `cameras.py`, which `test_nerfstudio.py` asks where they are installed: keys of the file before those of frames, frames sorted by name, one
     camera model for all, and from OpenCV's camera to one that looks along −z with y up.
 
     Returns file names, and a function from a frame and pixels with centers at halves to centers and directions."""

@@ -20,11 +20,12 @@ const read = (path) => readFileSync(join(root, path), "utf8");
 const problems = [];
 
 /** Folders with a package.json and its lock file. */
-const NPM = ["web", "tests/browser", "tests/browser/hosts", "tests/engines", "tests/bench"];
+const NPM = ["web", "web/print", "tests/browser", "tests/browser/hosts", "tests/engines", "tests/bench"];
 /** Requirements files of Python, each for a whole environment. */
 const PIP = [
   "crates/epipole-python/docs/requirements.txt",
   "tests/browser/hosts/requirements.txt",
+  "tests/files/nerfstudio.txt",
   "tests/peers/requirements.txt",
   "tests/requirements.txt",
   "tests/tools/zig.txt",
@@ -43,8 +44,10 @@ const LAB = [
 const VISION = ["homography", "geometry", "images", "all"].map((part) => ["epipole-js", part, part]);
 const READERS = VISION.map(([name, part]) => [name, part, "readers' code"]);
 /** Entry points that esbuild bundles. */
-const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts"];
-const SCRIPTS = [...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/run/sandbox.ts", "web/lab/lab.ts", "web/lab/worker.ts"];
+const ELEMENTS = ["web/src/index.ts", "web/src/worker.ts", "web/src/early.ts", "web/src/scorm.ts", "web/src/scorm_chapter.ts"];
+const SCRIPTS = [
+  ...ELEMENTS, "web/book/head.ts", "web/book/page.ts", "web/book/frame.ts", "web/run/sandbox.ts", "web/slides/deck.ts", "web/lab/lab.ts", "web/lab/worker.ts",
+];
 /** Fonts: the one in the figures, and those from npm that the builder subsets. */
 const FIGURE_SANS = ["Epipole Figure Sans, a renamed subset of IBM Plex Sans, in the modules", "OFL-1.1", "crates/epipole-canvas/assets/EpipoleFigureSans-OFL.txt"];
 const STIX = ["STIX Two Text and STIX Two Math, cut to the letters of the book", "OFL-1.1", "web/node_modules/@fontsource/stix-two-math/LICENSE"];

@@ -2,7 +2,7 @@
 
 import { execFile, spawn } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { promisify } from "node:util";
 import { deflateRawSync } from "node:zlib";
 import { unzipSync } from "../../../web/node_modules/fflate/esm/index.mjs";
@@ -450,18 +450,24 @@ test("a plain script; and a second copy, which leaves everything to the first", 
   await server.close();
 });
 
-test("SCORM 1.2", async ({ page, strangers }) => {
-  const folder = join(work, "made/scorm");
+/**
+ * Serves a learning platform with a SCORM package that `command` makes: a player that stores values
+ * between visits.
+ */
+async function platform(name, ...command) {
+  const folder = join(work, "made", name);
   rmSync(folder, { recursive: true, force: true });
-  mkdirSync(join(folder, "package"), { recursive: true });
-  const zip = join(folder, "race.zip");
-  await tool(folder, "node", join(root, "web/scorm.mjs"), "ransac-race", "seed=3", "--out", zip, "--title", "Who is <right>?");
+  const zip = join(folder, "package.zip");
+  mkdirSync(folder, { recursive: true });
+  await tool(folder, "node", ...command, "--out", zip, "--title", "Who is <right>?");
   const files = unzipSync(readFileSync(zip));
-  for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, "package", name), bytes);
+  for (const [name, bytes] of Object.entries(files)) {
+    mkdirSync(dirname(join(folder, "package", name)), { recursive: true });
+    writeFileSync(join(folder, "package", name), bytes);
+  }
   const listed = [...new TextDecoder().decode(files["imsmanifest.xml"]).matchAll(/<file href="([^"]+)"/g)].map(([, name]) => name);
   expect([...listed, "imsmanifest.xml"].sort()).toEqual(Object.keys(files).sort());
   cpSync(join(tools, "scorm-again/dist/scorm12.min.js"), join(folder, "scorm12.js"));
-  // The platform: a player that stores values between visits.
   writeFileSync(
     join(folder, "index.html"),
     `<!doctype html><html lang="en"><title>A course</title><script src="scorm12.js"></script>
@@ -477,20 +483,52 @@ test("SCORM 1.2", async ({ page, strangers }) => {
       addEventListener("DOMContentLoaded", () => window.visit());
     </script><body></body>`,
   );
-  const server = await fileServer(folder);
+  return fileServer(folder);
+}
+
+const kept = (page, name) => page.evaluate((key) => window.API.lmsGetValue(key), name);
+
+/** Leaves the package and comes back to it. */
+async function visitAgain(page) {
+  const cmi = await page.evaluate(() => JSON.parse(JSON.stringify(window.API.renderCMIToJSONObject?.() ?? window.API.renderCMIToJSON())));
+  await page.evaluate((data) => window.visit(data), cmi);
+}
+
+test("SCORM 1.2", async ({ page, strangers }) => {
+  const server = await platform("scorm", join(root, "web/scorm/figure.mjs"), "ransac-race", "seed=3");
   await visit(page, `${server.origin}/`, strangers);
   const figure = page.frameLocator("iframe").locator("epipole-figure");
   await expect(figure).toHaveAttribute("data-ready", "");
   await figure.getByRole("slider", { name: "Outlier ratio" }).press("Home");
-  const kept = (name) => page.evaluate((key) => window.API.lmsGetValue(key), name);
-  await expect.poll(async () => Number(await kept("cmi.core.score.raw"))).toBeGreaterThan(0);
-  expect(await kept("cmi.core.lesson_status")).toBe("incomplete");
+  await expect.poll(async () => Number(await kept(page, "cmi.core.score.raw"))).toBeGreaterThan(0);
+  expect(await kept(page, "cmi.core.lesson_status")).toBe("incomplete");
   await figure.evaluate((element) => (element.points = 34, element.flush()));
-  await expect.poll(() => kept("cmi.suspend_data")).toContain('"points":"34"');
+  await expect.poll(() => kept(page, "cmi.suspend_data")).toContain('"points":"34"');
   const before = await figure.evaluate((element) => element.saved);
-  const cmi = await page.evaluate(() => JSON.parse(JSON.stringify(window.API.renderCMIToJSONObject?.() ?? window.API.renderCMIToJSON())));
-  await page.evaluate((data) => window.visit(data), cmi);
+  await visitAgain(page);
   await expect(figure).toHaveAttribute("data-ready", "");
   await expect.poll(() => figure.evaluate((element) => element.saved)).toEqual(before);
+  await server.close();
+});
+
+test("SCORM 1.2 of a chapter", async ({ page, strangers }) => {
+  const server = await platform("scorm-chapter", join(root, "web/scorm/chapter.mjs"), "rays");
+  await visit(page, `${server.origin}/`, strangers);
+  const chapter = page.frameLocator("iframe").frameLocator("iframe");
+  await expect(chapter.locator("epipole-figure").first()).toHaveAttribute("data-ready", "");
+  // Of another page, only the words are there.
+  expect(await chapter.locator("a[href*='.html']:not([href^='rays.html'])").count()).toBe(0);
+  const form = chapter.locator(".quiz form").filter({ has: chapter.locator("input[data-answer]") }).first();
+  const input = form.locator("input[data-answer]");
+  await input.fill(await input.getAttribute("data-answer"));
+  await form.getByRole("button", { name: "Check" }).click();
+  await expect.poll(async () => Number(await kept(page, "cmi.core.score.raw"))).toBeGreaterThan(0);
+  expect(await kept(page, "cmi.core.lesson_status")).toBe("incomplete");
+  const data = await kept(page, "cmi.suspend_data");
+  // The state that the platform keeps is enough.
+  await chapter.locator("html").evaluate(() => localStorage.clear());
+  await visitAgain(page);
+  await expect(form.locator(".verdict")).toHaveText("You solved this one.");
+  expect(await kept(page, "cmi.suspend_data")).toBe(data);
   await server.close();
 });
