@@ -14,8 +14,10 @@ PACKAGE := crates/epipole-python
 HOSTS := target/hosts
 # Without -p: so that dependencies have the features that the tests compile them with.
 BOOK := cargo run --locked --quiet --bin epipole-book --
+# Time of the last commit in UTC, if there is one.
+COMMITTED = $(shell TZ=UTC git log -1 --date=format-local:%Y-%m-%dT%H:%M:%SZ --format=%cd 2>/dev/null)
 
-.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-bindings python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision vision-docs test-vision bless-vision python-figures python python-linux test-wheel python-docs site bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
+.PHONY: help setup setup-build setup-test serve build lab test check test-rust test-bindings python-module test-python test-web test-listings test-browser test-lab test-window test-engines test-hosts test-reproducible monkey fuzz fuzz-files vision vision-docs test-vision bless-vision python-figures python python-linux test-wheel python-docs site pdf test-pdf test-nginx epub test-epub test-nerfstudio bench bench-python bench-lab audit api release-check release-files publish-crates bless bless-contract bless-licenses bless-listings pictures new-figure clean
 
 help: ## says what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -31,7 +33,7 @@ build: setup-build ## builds the static site in target/book/
 lab: setup-build ## builds the Lab for the browser in target/book/lab/; `make serve` serves it, too
 	$(BOOK) lab
 
-test: setup check test-rust test-bindings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-reproducible, monkey
+test: setup check test-rust test-bindings test-browser ## runs every test but the slow ones: test-lab, test-window, test-engines, test-hosts, test-wheel, test-pdf, test-epub, test-nginx, test-nerfstudio, test-reproducible, monkey
 
 check: setup-build ## format, lints, types, lock files and licenses, without running anything
 	cargo fmt --all --check
@@ -56,7 +58,7 @@ python-module: setup-build ## builds the native module of the Python package, in
 	mv $(PACKAGE)/python/epipole/new.so $(PACKAGE)/python/epipole/_epipole.abi3.so
 
 test-python: setup-test python-module ## the Python package; files through pycolmap, OpenCV and evo
-	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet $(PACKAGE)/tests
+	PYTHONPATH=$(PACKAGE)/python $(PYTHON) -m pytest --quiet --durations=10 $(PACKAGE)/tests
 	cargo build --locked --quiet --bin epipole
 	$(PYTHON) -m pytest --quiet -rs tests/files
 
@@ -118,6 +120,9 @@ fuzz-files: setup-build ## a million damaged files for every reader, ten minutes
 	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --release --target-dir target/fuzz --package epipole-io --lib fuzz
 	EPIPOLE_FUZZ_CASES=$(FUZZ_FILES) cargo test --locked --workspace --bins fuzz
 
+test-nginx: setup build ## the book through nginx as docs/hosting.md configures it, in Chromium; then pages a second
+	tests/tools/nginx.sh 8932 tests/tools/served.sh
+
 test-hosts: setup build python-module tests/browser/hosts/node_modules/.installed $(HOSTS)/python/.installed ## figures in the pages of others: site generators, slides, bundlers, notebooks
 	@tests/tools/jekyll.sh
 	cargo build --locked --quiet --example mdbook
@@ -147,6 +152,25 @@ python-docs: python-module target/python-docs-venv/.installed ## the manual of t
 
 site: setup-build python-docs vision-docs ## the book with the manuals of the Python and npm packages, in target/book/
 	$(BOOK) build --manual target/python-docs --js-reference target/vision-docs
+
+# ADDRESS is where the book is published: with it, each figure has its link.
+pdf: setup-test web/print/node_modules/.installed ## the book and each chapter as PDF, in target/pdf/: make pdf ADDRESS=https://example.org/book
+	$(BOOK) print $(if $(ADDRESS),--address $(ADDRESS))
+	node web/print/pdf.mjs target/print target/pdf
+
+test-pdf: pdf ## the PDF files: contents, page numbers, answers, tags, sizes
+	node --test --test-reporter=spec web/print/pdf.test.mjs
+
+epub: setup-build ## the book as EPUB 3, in target/epub/: make epub ADDRESS=https://example.org/book
+	$(BOOK) epub $(if $(ADDRESS),--address $(ADDRESS)) $(if $(COMMITTED),--modified $(COMMITTED))
+
+test-epub: epub ## the EPUB file: epubcheck, and every heading, figure and link of the chapters
+	tests/tools/epubcheck.sh target/epub/epipole.epub
+	cargo test --locked --quiet --workspace --test book -- --ignored --nocapture whole_book
+
+test-nerfstudio: target/nerfstudio/.installed ## transforms.json through nerfstudio's own loader, which installs 6 GB
+	cargo build --locked --quiet --bin epipole
+	target/nerfstudio/bin/python -m pytest --quiet -rs tests/files/test_nerfstudio.py
 
 audit: setup-build ## known holes in what we build from; asks the registries, so it needs the network
 	@tests/tools/audit.sh
@@ -205,7 +229,7 @@ new-figure: ## writes a new figure: make new-figure NAME=two-cameras
 
 clean: ## removes everything that was built or installed here
 	cargo clean
-	rm -rf web/node_modules tests/browser/node_modules tests/browser/hosts/node_modules tests/engines/node_modules tests/bench/node_modules $(VENV)
+	rm -rf web/node_modules web/print/node_modules tests/browser/node_modules tests/browser/hosts/node_modules tests/engines/node_modules tests/bench/node_modules $(VENV)
 
 setup-build: web/node_modules/.installed
 	@tests/tools/need.sh cargo rustup node npm
@@ -217,6 +241,11 @@ setup-test: setup-build tests/browser/node_modules/.installed $(VENV)/.installed
 web/node_modules/.installed: web/package-lock.json
 	@tests/tools/need.sh cargo rustup node npm
 	cd web && npm ci --no-audit --no-fund --loglevel error
+	@touch $@
+
+# Only for `make pdf`, so `make setup` leaves them out.
+web/print/node_modules/.installed: web/print/package-lock.json
+	cd web/print && npm ci --no-audit --no-fund --loglevel error
 	@touch $@
 
 tests/browser/node_modules/.installed: tests/browser/package-lock.json
@@ -243,6 +272,13 @@ target/peers/.installed: tests/peers/requirements.txt
 	@tests/tools/need.sh python3
 	python3 -m venv target/peers
 	target/peers/bin/python -m pip install --quiet --disable-pip-version-check -r tests/peers/requirements.txt
+	@touch $@
+
+# Only for `make test-nerfstudio`.
+target/nerfstudio/.installed: tests/files/nerfstudio.txt
+	@tests/tools/need.sh python3
+	python3 -m venv target/nerfstudio
+	target/nerfstudio/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -r tests/files/nerfstudio.txt
 	@touch $@
 
 # A linker for older systems and other processors, only for `make python-linux`.

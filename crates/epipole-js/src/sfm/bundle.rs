@@ -160,7 +160,7 @@ fn observations(name: &str, value: &Value) -> Result<Vec<BundleObservation>> {
 
 structs! {
     /// Cameras, points and observations.
-    struct Given as Bundle {
+    struct BundleInput as Bundle {
         /// Cameras.
         cameras: Vec<PosedCamera>,
         /// Points in the world, interleaved.
@@ -182,13 +182,13 @@ structs! {
 
 impl Output for Bundle {
     fn typescript(types: &mut Types) -> String {
-        Given::typescript(types)
+        BundleInput::typescript(types)
     }
 
     fn into_value(self) -> Value {
         let seen = &self.observations;
         let pixels: Vec<_> = seen.iter().map(|seen| seen.pixel).collect();
-        let given = Given {
+        let given = BundleInput {
             observation_camera: Indices(seen.iter().map(|seen| seen.camera).collect()),
             observation_point: Indices(seen.iter().map(|seen| seen.point).collect()),
             observation_pixel: Numbers::of_points(&pixels),
