@@ -94,6 +94,36 @@ test("a sentence finds its figure while another one leaves its dock, on a slow m
   }
 });
 
+test("late changes of layout keep a sentence and its figure in sight, until the reader does anything", async ({ page, library }) => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.goto(`${library}/sandbox.html`);
+  await page.evaluate(() => document.fonts.ready);
+  for (const words of (await page.locator(".do").all()).slice(0, 2)) {
+    await words.evaluate((element) => element.scrollIntoView({ block: "center" }));
+    await words.click();
+    await expect(await figureOf(page, words)).toHaveAttribute("data-ready", "");
+    const inSight = () => words.evaluate(together);
+    await expect.poll(inSight).toMatchObject({ picture: true, words: true });
+    await page.evaluate(() => {
+      document.documentElement.style.overflowAnchor = "none";
+      const late = document.createElement("div");
+      late.id = "late";
+      late.style.blockSize = "700px";
+      document.querySelector("article").prepend(late);
+    });
+    await expect.poll(inSight).toMatchObject({ picture: true, words: true });
+    await page.keyboard.press("Shift");
+    const scroll = await page.evaluate(async () => {
+      const before = scrollY;
+      document.getElementById("late").remove();
+      for (let frame = 0; frame < 10; frame++) await new Promise(requestAnimationFrame);
+      return [before, scrollY];
+    });
+    expect(scroll[1], "a reader who has pressed a key is left alone").toBe(scroll[0]);
+  }
+});
+
 test("a docked figure goes home when closed, reached or left behind, and moves no text", async ({ page, library }) => {
   await page.setViewportSize(SCREENS[0]);
   await page.emulateMedia({ reducedMotion: "reduce" });

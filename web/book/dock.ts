@@ -40,10 +40,13 @@ export function bringTogether(figure: HTMLElement, words: HTMLElement): void {
   const both = { top: Math.min(picture.top, sentence.top), bottom: Math.max(picture.bottom, sentence.bottom) };
   if (isIn(both, room)) return;
   if (both.bottom - both.top > room.bottom - room.top) docked = new Dock(figure, words);
-  else {
-    const by = both.top < room.top ? both.top - room.top : both.bottom - room.bottom;
-    scrollBy({ top: by, behavior: wantsStillness() ? "instant" : "smooth" });
-  }
+  else scrollInto(both, room);
+}
+
+/** Scrolls the page by the least that brings a part of it into a part of the screen. */
+function scrollInto(part: Span, room: Span): void {
+  const by = part.top < room.top ? part.top - room.top : part.bottom - room.bottom;
+  scrollBy({ top: by, behavior: wantsStillness() ? "instant" : "smooth" });
 }
 
 class Dock {
@@ -79,8 +82,11 @@ class Dock {
   /** Keeps another sentence uncovered from now on. */
   moveTo(words: HTMLElement): void {
     this.#words = words;
-    const [dock, sentence] = [this.figure.getBoundingClientRect(), words.getBoundingClientRect()];
+    const [dock, sentence, room] = [this.figure.getBoundingClientRect(), words.getBoundingClientRect(), viewport(this.#placeholder)];
+    const isAbove = dock.top < room.top + 1;
+    const free = isAbove ? { ...room, top: dock.bottom + GAP_PX } : { ...room, bottom: dock.top - GAP_PX };
     if (sentence.bottom > dock.top && sentence.top < dock.bottom) this.#position();
+    else if (!isIn(sentence, free)) scrollInto(sentence, free);
     this.#onScroll();
   }
 

@@ -16,24 +16,33 @@ function parametersOf(words: HTMLElement): Record<string, string> {
   return JSON.parse(words.dataset.parameters ?? "{}") as Record<string, string>;
 }
 
-/** Watches, until it is asked, whether the reader scrolls or presses anything. */
-function watchReader(): { hasMoved: () => boolean } {
-  const watching = new AbortController();
-  const { signal } = watching;
-  for (const type of ["wheel", "touchmove", "keydown", "pointerdown"]) {
-    addEventListener(type, () => watching.abort(), { signal, passive: true });
-  }
-  return {
-    hasMoved: () => {
-      const { aborted } = signal;
-      watching.abort();
-      return aborted;
-    },
-  };
-}
-
 /** Resolves when the browser has scrolled for changes of layout (scroll anchoring), in the frame that follows them. */
 const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+
+/** The sentence that the page keeps together with its figure. */
+let kept: AbortController | undefined;
+
+/** Calls `act` after each change of layout, until the reader scrolls, presses anything or operates another figure. */
+function keep(act: () => void, changing: Element[]): () => Promise<void> {
+  kept?.abort();
+  const keeping = (kept = new AbortController());
+  const { signal } = keeping;
+  const again = async () => {
+    await scrollAnchored();
+    if (!signal.aborted) act();
+  };
+  // The first report is of sizes that have not changed.
+  let reports = 0;
+  const sizes = new ResizeObserver(() => {
+    if (++reports > 1) void again();
+  });
+  for (const element of changing) sizes.observe(element);
+  signal.addEventListener("abort", () => sizes.disconnect());
+  for (const type of ["wheel", "touchmove", "keydown", "pointerdown"]) {
+    addEventListener(type, () => keeping.abort(), { signal, passive: true });
+  }
+  return again;
+}
 
 /** Makes the words a button without a box of its own, so that they still wrap like text. */
 function startButton(words: HTMLElement, docks: boolean): void {
@@ -50,12 +59,11 @@ function startButton(words: HTMLElement, docks: boolean): void {
     const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
     const together = () => dock?.bringTogether(figure.closest("figure") ?? figure, words);
     together();
-    const reader = watchReader();
+    // Fonts that arrive, figures that come alive or leave their docks, and numbers in sentences move the text.
+    const again = keep(together, [document.body, figure]);
     await figure.glide?.(parametersOf(words), { scroll: docks && !dock });
-    // A figure that came alive, left its dock or computed numbers meanwhile may have moved the text.
     await figure.open?.();
-    await scrollAnchored();
-    if (!reader.hasMoved()) together();
+    await again();
   };
   words.addEventListener("click", () => void act());
   words.addEventListener("keydown", (event) => {
