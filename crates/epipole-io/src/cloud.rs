@@ -1,8 +1,7 @@
 //! Point clouds.
 
-mod ply;
+pub(crate) mod ply;
 
-pub(crate) use ply::ply_of;
 pub use ply::{read_ply, write_ply};
 
 /// Sentence on points that were left out, if any.

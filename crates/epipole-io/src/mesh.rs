@@ -1,6 +1,6 @@
 //! Triangle meshes: PLY, binary glTF, and OBJ.
 
-use crate::cloud::ply_of;
+use crate::cloud::ply::ply_of;
 use crate::gltf::{Buffer, HALF_TURN, TRIANGLES, document};
 use epipole::mvs::Mesh;
 use serde_json::json;
