@@ -11,7 +11,6 @@ use egui::{Button, Ui};
 impl<H: Host> App<H> {
     /// Draws the actions available in every step.
     pub(super) fn bar(&mut self, narrow: bool, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let mut send = |event| actions.push(Action::Send(event));
         ui.add_space(3.0);
         ui.horizontal_wrapped(|ui| {
             let add = match self.project.view().step {
@@ -19,9 +18,10 @@ impl<H: Host> App<H> {
                 Step::Calibrate => "Add photographs of a board…",
                 _ => "Add photographs…",
             };
-            if ui.button(add).clicked() && !self.host.ask_for_photographs() {
-                self.notice = Some("Drop photographs onto this window.".to_owned());
+            if ui.button(add).clicked() {
+                actions.push(Action::AddPhotographs);
             }
+            let mut send = |event| actions.push(Action::Send(event));
             menu(ui, "Samples", |ui| {
                 for sample in Sample::ALL {
                     if item(ui, sample.title()) {

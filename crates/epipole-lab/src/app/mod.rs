@@ -9,7 +9,7 @@ mod files;
 mod host_events;
 mod steps;
 
-use crate::panels::widgets::{controls, look};
+use crate::panels::widgets::{empty, look};
 use egui::{CentralPanel, Panel as Area, ScrollArea, Ui};
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -34,8 +34,8 @@ pub struct App<H> {
     notice: Option<String>,
     panels: [(Step, Box<dyn Panel>); 9],
     views: Views,
-    /// Step in the middle of the row of steps.
-    centered_step: Option<Step>,
+    /// Steps to choose from.
+    steps: steps::Steps,
     /// Description last announced.
     description: String,
     /// Link last set.
@@ -72,7 +72,7 @@ impl<H: Host> App<H> {
             notice: None,
             panels: panels::all(),
             views: Views::default(),
-            centered_step: None,
+            steps: steps::Steps::default(),
             description: String::new(),
             link: String::new(),
             announced: None,
@@ -143,11 +143,14 @@ impl<H: Host> App<H> {
     pub fn ui(&mut self, ui: &mut Ui) {
         let mut actions = Vec::new();
         keys(ui, &mut actions);
+        let running = self.jobs.steps();
+        self.steps
+            .update(&self.project, running, ui.input(|input| input.time));
         let narrow = ui.available_width() < NARROW;
         Area::top("bar").show(ui, |ui| self.bar(narrow, ui, &mut actions));
         if narrow {
             Area::top("steps in a row").show(ui, |ui| {
-                steps::row(&self.project, &mut self.centered_step, ui, &mut actions);
+                self.steps.row(&self.project, ui, &mut actions);
             });
             let height = ui.available_height();
             Area::bottom("knobs below")
@@ -159,7 +162,7 @@ impl<H: Host> App<H> {
                 .resizable(false)
                 .show(ui, |ui| {
                     ui.add_space(6.0);
-                    steps::column(&self.project, ui, &mut actions);
+                    self.steps.column(&self.project, ui, &mut actions);
                 });
             Area::right("knobs")
                 .exact_size(316.0)
@@ -184,9 +187,12 @@ impl<H: Host> App<H> {
     fn picture(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         let step = self.project.view().step;
         if self.project.document().photos.is_empty() && step != Step::Calibrate {
-            let words =
-                "Add photographs of one thing, taken from different places, or open a sample.";
-            return controls::instead(ui, words);
+            let mut screen = Screen {
+                project: &self.project,
+                views: &mut self.views,
+                actions,
+            };
+            return empty::show(&mut screen, ui);
         }
         self.show(actions, |panel, screen| panel.picture(screen, ui));
     }
@@ -233,13 +239,18 @@ impl<H: Host> App<H> {
                 if matches!(event, Event::OpenSample(_)) {
                     self.panels = panels::all();
                     self.views = Views::default();
-                    self.centered_step = None;
+                    self.steps = steps::Steps::default();
                 }
                 // The sentence on the opened file no longer holds.
                 if matches!(event, Event::UsePoses(None) | Event::UseCamera(None)) {
                     self.notice = None;
                 }
                 self.project.update(event);
+            }
+            Action::AddPhotographs => {
+                if !self.host.ask_for_photographs() {
+                    self.notice = Some("Drop photographs onto this window.".to_owned());
+                }
             }
             Action::TakePhotographs => {
                 if !self.host.ask_for_camera() {

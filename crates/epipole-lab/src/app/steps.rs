@@ -3,61 +3,166 @@
 use crate::panels::Action;
 use crate::panels::widgets::look;
 use crate::project::{Project, Step};
-use crate::session::Event;
+use crate::session::{Event, StepState};
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
-use egui::{Align, Layout, Response, ScrollArea, Ui};
+use egui::{
+    Align, Align2, Color32, Layout, Rect, Response, ScrollArea, Stroke, TextStyle, Ui, pos2, vec2,
+};
 use epipole_canvas::theme::Role;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Below each other.
-pub(super) fn column(project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
-    ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
-        for step in Step::ALL {
-            button(project, ui, step, actions);
+/// Side of the mark of a step, points.
+const MARK: f32 = 10.0;
+
+/// The steps, with their states.
+#[derive(Default)]
+pub(super) struct Steps {
+    /// Step in the middle of the row.
+    centered: Option<Step>,
+    states: BTreeMap<Step, StepState>,
+    /// Revision of the project at which they were found.
+    revision: Option<u64>,
+    /// Time spent on the outputs of each step, seconds.
+    seconds: BTreeMap<Step, f64>,
+    running: BTreeSet<Step>,
+    /// Time of the last frame, seconds.
+    last_s: Option<f64>,
+}
+
+impl Steps {
+    /// Takes the state of the project, and adds the time since the last frame to running steps.
+    ///
+    /// * `now_s`: time of the frame, seconds
+    pub(super) fn update(&mut self, project: &Project, running: BTreeSet<Step>, now_s: f64) {
+        let since_s = now_s - self.last_s.replace(now_s).unwrap_or(now_s);
+        for step in &self.running {
+            *self.seconds.entry(*step).or_default() += since_s;
         }
-    });
-}
+        self.running = running;
+        if self.revision.replace(project.revision()) != Some(project.revision()) {
+            self.states = project.step_states();
+        }
+    }
 
-/// One row, in which the step that is looked at is brought to the middle, and one that the keyboard
-/// reaches into sight.
-///
-/// * `shown`: the step that is in the middle already: a reader may have moved the row since
-pub(super) fn row(
-    project: &Project,
-    shown: &mut Option<Step>,
-    ui: &mut Ui,
-    actions: &mut Vec<Action>,
-) {
-    let current = project.view().step;
-    ScrollArea::horizontal()
-        .id_salt("steps")
-        .scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
-        .show(ui, |ui| {
-            ui.horizontal(|ui| {
-                for step in Step::ALL {
-                    let response = button(project, ui, step, actions);
-                    let is_new = step == current && *shown != Some(step);
-                    if is_new || response.gained_focus() {
-                        let at_once = ScrollAnimation::none();
-                        response.scroll_to_me_animation(Some(Align::Center), at_once);
-                    }
+    /// Below each other.
+    pub(super) fn column(&self, project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
+        ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
+            for step in Step::ALL {
+                let response = self.button(project, ui, step, actions);
+                let right = response.rect.right() - MARK;
+                let center = pos2(right, response.rect.center().y);
+                let rect = Rect::from_center_size(center, vec2(MARK, MARK));
+                let color = match project.view().step == step {
+                    true => look::color(ui, Role::Background),
+                    false => look::color(ui, Role::Muted),
+                };
+                self.mark(ui, step, rect, color);
+                if let Some(words) = self.time_words(step) {
+                    let font = TextStyle::Small.resolve(ui.style());
+                    let at = center - vec2(MARK, 0.0);
+                    ui.painter()
+                        .text(at, Align2::RIGHT_CENTER, words, font, color);
                 }
-            });
+            }
         });
-    *shown = Some(current);
-}
+    }
 
-fn button(project: &Project, ui: &mut Ui, step: Step, actions: &mut Vec<Action>) -> Response {
-    let response = ui.selectable_label(project.view().step == step, step.title());
-    if response.has_focus() {
-        // The fill of the current step hides the toolkit's own ring.
-        let stroke = egui::Stroke::new(2.0, look::color(ui, Role::Best));
-        let ring = response.rect.shrink(1.0);
-        ui.painter()
-            .rect_stroke(ring, 3.0, stroke, egui::StrokeKind::Inside);
+    /// One row, in which the step that is looked at is brought to the middle, and one that the
+    /// keyboard reaches into sight.
+    pub(super) fn row(&mut self, project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let current = project.view().step;
+        ScrollArea::horizontal()
+            .id_salt("steps")
+            .scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    for step in Step::ALL {
+                        let response = self.button(project, ui, step, actions);
+                        let room = ui.allocate_exact_size(vec2(MARK, MARK), egui::Sense::hover());
+                        self.mark(ui, step, room.0, look::color(ui, Role::Muted));
+                        let is_new = step == current && self.centered != Some(step);
+                        if is_new || response.gained_focus() {
+                            let at_once = ScrollAnimation::none();
+                            response.scroll_to_me_animation(Some(Align::Center), at_once);
+                        }
+                    }
+                });
+            });
+        self.centered = Some(current);
     }
-    if response.clicked() {
-        actions.push(Action::Send(Event::Show(step)));
+
+    fn button(
+        &self,
+        project: &Project,
+        ui: &mut Ui,
+        step: Step,
+        actions: &mut Vec<Action>,
+    ) -> Response {
+        let response = ui.selectable_label(project.view().step == step, step.title());
+        if let Some(words) = self.state_words(step) {
+            ui.ctx()
+                .accesskit_node_builder(response.id, |node| node.set_description(words));
+        }
+        if response.has_focus() {
+            // The fill of the current step hides the toolkit's own ring.
+            let stroke = Stroke::new(2.0, look::color(ui, Role::Best));
+            let ring = response.rect.shrink(1.0);
+            ui.painter()
+                .rect_stroke(ring, 3.0, stroke, egui::StrokeKind::Inside);
+        }
+        if response.clicked() {
+            actions.push(Action::Send(Event::Show(step)));
+        }
+        response
     }
-    response
+
+    /// Draws the state: a tick, an exclamation mark, or three dots while it is being computed.
+    fn mark(&self, ui: &Ui, step: Step, rect: Rect, color: Color32) {
+        let at = |x: f32, y: f32| rect.lerp_inside(vec2(x, y));
+        let stroke = Stroke::new(2.0, color);
+        let painter = ui.painter();
+        if self.running.contains(&step) {
+            for x in [0.1, 0.5, 0.9] {
+                painter.circle_filled(at(x, 0.5), 1.5, color);
+            }
+            return;
+        }
+        match self.states.get(&step) {
+            Some(StepState::Done) => {
+                painter.line_segment([at(0.0, 0.55), at(0.35, 0.9)], stroke);
+                painter.line_segment([at(0.35, 0.9), at(1.0, 0.1)], stroke);
+            }
+            Some(StepState::Failed) => {
+                painter.line_segment([at(0.5, 0.0), at(0.5, 0.62)], stroke);
+                painter.circle_filled(at(0.5, 0.92), 1.4, color);
+            }
+            None => {}
+        }
+    }
+
+    fn state_words(&self, step: Step) -> Option<String> {
+        if self.running.contains(&step) {
+            return Some("running".to_owned());
+        }
+        let words = match self.states.get(&step)? {
+            StepState::Done => "done",
+            StepState::Failed => "failed",
+        };
+        Some(match self.time_words(step) {
+            Some(time) => format!("{words}, {time}"),
+            None => words.to_owned(),
+        })
+    }
+
+    /// Time spent on a step, if it can be noticed.
+    fn time_words(&self, step: Step) -> Option<String> {
+        let seconds = *self.seconds.get(&step)?;
+        match seconds {
+            ..0.1 => None,
+            ..9.95 => Some(format!("{seconds:.1} s")),
+            ..99.5 => Some(format!("{seconds:.0} s")),
+            _ => Some(format!("{:.0} min", seconds / 60.0)),
+        }
+    }
 }

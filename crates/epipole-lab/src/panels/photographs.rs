@@ -1,7 +1,7 @@
 //! The photographs: their data, their outcomes, and the choice of those that take part.
 
 use super::screen::{Action, Panel, Screen};
-use super::widgets::{controls, look};
+use super::widgets::{controls, look, verdict};
 use crate::project::{InputPhoto, MAX_FRAMES, Outcome, PhotoId, Step};
 use crate::session::Event;
 use crate::tasks::FocalOrigin;
@@ -41,6 +41,7 @@ impl Panel for Photographs {
 
     fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
+        verdict::show(screen, ui);
         if ui.button("Take photographs…").clicked() {
             screen.actions.push(Action::TakePhotographs);
         }

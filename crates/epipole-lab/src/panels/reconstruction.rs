@@ -3,7 +3,7 @@
 use super::screen::{Action, Panel, Screen};
 use super::widgets::cloud::{CloudView, Coloring};
 use super::widgets::controls::{self, Change};
-use super::widgets::{has_dense, look, observations};
+use super::widgets::{has_dense, look, observations, verdict};
 use crate::project::{Project, RefineFocal, Step};
 use crate::session::Event;
 use crate::tasks::ReconstructionOfAll;
@@ -20,6 +20,7 @@ impl Panel for Reconstruction {
 
     fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
+        verdict::show(screen, ui);
         numbers(screen, ui);
         // Without any, a message in place of the image gives the reason.
         if project.component().is_some() {
@@ -172,10 +173,6 @@ fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
             false => "focal length, not determined",
         };
         controls::row(ui, name, format!("{:.1} px", camera.intrinsics[0]));
-        if !project.knows_focal() {
-            let words = "The photographs do not tell the focal length, so depths may be far off. Type it, calibrate, or add photographs from other sides.";
-            ui.colored_label(look::color(ui, Role::Outlier), words);
-        }
     }
     if let Some(before_px) = project.before_correction_px() {
         controls::row(

@@ -12,6 +12,8 @@ use egui::Ui;
 pub(crate) enum Action {
     /// Change the project.
     Send(Event),
+    /// Add photographs from files.
+    AddPhotographs,
     /// Open files of cameras.
     OpenCameras,
     /// Save the calibrated camera as a file, with its uncertainty.

@@ -2,9 +2,9 @@
 
 use super::host::{Host, JobId, Report};
 use super::queue::Pending;
-use crate::project::Project;
+use crate::project::{Project, Step};
 use crate::tasks::{CameraFormat, Request};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 /// Work on a file, beside the results of the project.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -213,6 +213,15 @@ impl Jobs {
     /// Whether no job is running.
     pub(crate) fn is_empty(&self) -> bool {
         self.running.is_empty()
+    }
+
+    /// Steps whose outputs are being computed.
+    pub(crate) fn steps(&self) -> BTreeSet<Step> {
+        let step = |job: &Job| match job.subject {
+            Subject::Output(pending) => Some(pending.query.step()),
+            Subject::File(_) => None,
+        };
+        self.running.iter().filter_map(step).collect()
     }
 
     /// Description and progress of the oldest running job.

@@ -34,7 +34,7 @@ pub(crate) use jobs::{FileJob, Jobs};
 pub use queue::Pending;
 #[cfg(feature = "panels")]
 pub(crate) use report::count;
-pub use report::{BoardOutcome, Floor, Length, Scale};
+pub use report::{BoardOutcome, Floor, Length, Scale, StepState, Suggestion, Verdict};
 #[cfg(feature = "panels")]
 pub(crate) use storage::Storage;
 #[cfg(feature = "panels")]

@@ -23,9 +23,14 @@ impl Pending {
 impl Project {
     /// Missing outputs whose inputs are available, most urgent first.
     pub fn pending(&self) -> Vec<Pending> {
-        if self.paused {
-            return Vec::new();
+        match self.paused {
+            true => Vec::new(),
+            false => self.missing(),
         }
+    }
+
+    /// As [`Project::pending`], also while computing is stopped.
+    pub(super) fn missing(&self) -> Vec<Pending> {
         let to_describe = self.to_describe();
         let mut queries = AnyQuery::all(self);
         queries.sort_by_key(|query| query.priority(self));

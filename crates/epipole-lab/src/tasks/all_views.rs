@@ -4,7 +4,7 @@ use super::dense_cloud::DenseCloud;
 use super::reconstruction::Component;
 use super::reduced::{Reduced, ReducedOf};
 use super::task::{Destination, Query, Task};
-use crate::project::{Key, Project};
+use crate::project::{Key, Project, Step};
 use serde::{Deserialize, Serialize};
 
 /// Finds the depth of each photograph and fuses them to one cloud.
@@ -30,6 +30,7 @@ pub struct AllViews;
 
 impl Query for AllViews {
     type Task = FuseViews;
+    const STEP: Step = Step::Depth;
 
     fn all(project: &Project) -> Vec<Self> {
         match project.document.all_views {

@@ -65,6 +65,7 @@ pub struct BoardOf(pub PhotoId);
 
 impl Query for BoardOf {
     type Task = FindBoard;
+    const STEP: Step = Step::Calibrate;
 
     fn all(project: &Project) -> Vec<Self> {
         let boards = project.document.boards.iter();

@@ -62,6 +62,7 @@ pub struct CalibrationOfBoards;
 
 impl Query for CalibrationOfBoards {
     type Task = Calibrate;
+    const STEP: Step = Step::Calibrate;
 
     fn all(_project: &Project) -> Vec<Self> {
         vec![Self]

@@ -55,6 +55,7 @@ impl DepthOf {
 
 impl Query for DepthOf {
     type Task = FindDepth;
+    const STEP: Step = Step::Depth;
 
     /// The pairs whose depth is part of the cloud, and the one that is looked at.
     fn all(project: &Project) -> Vec<Self> {

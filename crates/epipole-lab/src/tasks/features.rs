@@ -5,7 +5,7 @@ use super::photograph::{Photograph, PhotographOf};
 use super::task::{Destination, Query, Task};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Progress, Run};
-use crate::project::{Blob, FeatureOptions, InputPhoto, Key, PhotoId, Project};
+use crate::project::{Blob, FeatureOptions, InputPhoto, Key, PhotoId, Project, Step};
 use serde::{Deserialize, Serialize};
 
 /// A feature.
@@ -79,6 +79,7 @@ pub struct FeaturesOf(pub PhotoId);
 
 impl Query for FeaturesOf {
     type Task = FindFeatures;
+    const STEP: Step = Step::Features;
 
     fn all(project: &Project) -> Vec<Self> {
         let photos = project.document.photos.iter();

@@ -7,7 +7,7 @@ use super::{
     PhotographOf, ReadCameras, ReadPhotograph, Reconstruct, ReconstructionOfAll, ReducePhotograph,
     ReducedOf, SaveProject, TwoViewsOf, VerifyPair, WriteCamera, WritePicture,
 };
-use crate::project::{Key, Project, to_bytes};
+use crate::project::{Key, Project, Step, to_bytes};
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
@@ -91,6 +91,11 @@ macro_rules! tasks {
             /// See [`Query::key`].
             pub fn key(self, project: &Project) -> Option<Key> {
                 match self { $(Self::$cached(query) => query.key(project),)* }
+            }
+
+            /// See [`Query::STEP`].
+            pub(crate) fn step(self) -> Step {
+                match self { $(Self::$cached(_) => $query::STEP,)* }
             }
 
             /// See [`Query::is_ready`].

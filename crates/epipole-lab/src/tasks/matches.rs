@@ -4,7 +4,7 @@ use super::features::{Described, FeaturesOf};
 use super::task::{Destination, Query, Task};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Progress, Run};
-use crate::project::{Key, MatchOptions, PhotoId, Project, pairs};
+use crate::project::{Key, MatchOptions, PhotoId, Project, Step, pairs};
 use serde::{Deserialize, Serialize};
 
 /// A match.
@@ -39,6 +39,7 @@ pub struct MatchesOf(pub PhotoId, pub PhotoId);
 
 impl Query for MatchesOf {
     type Task = MatchFeatures;
+    const STEP: Step = Step::Matches;
 
     fn all(project: &Project) -> Vec<Self> {
         let photos = project.taking_part();

@@ -142,6 +142,7 @@ pub struct PhotographOf(pub PhotoId);
 
 impl Query for PhotographOf {
     type Task = ReadPhotograph;
+    const STEP: Step = Step::Photographs;
 
     fn all(project: &Project) -> Vec<Self> {
         let photos = project.document.photos.iter();

@@ -6,7 +6,7 @@ use super::features::FeaturesOf;
 use super::matches::MatchesOf;
 use super::photograph::Calibrated;
 use super::task::{Destination, Query, Task};
-use crate::project::{InputPhoto, Key, Pose, Project, SfmOptions, pairs};
+use crate::project::{InputPhoto, Key, Pose, Project, SfmOptions, Step, pairs};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
@@ -207,6 +207,7 @@ pub struct ReconstructionOfAll;
 
 impl Query for ReconstructionOfAll {
     type Task = Reconstruct;
+    const STEP: Step = Step::Reconstruction;
 
     fn all(_project: &Project) -> Vec<Self> {
         vec![Self]

@@ -4,7 +4,7 @@ use super::photograph::{Photograph, PhotographOf};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Run, report};
 use super::task::{Query, Task};
-use crate::project::{Blob, Key, PhotoId, Project};
+use crate::project::{Blob, Key, PhotoId, Project, Step};
 use serde::{Deserialize, Serialize};
 
 /// Pixels of a downscaled photograph.
@@ -67,6 +67,7 @@ pub struct ReducedOf(pub PhotoId);
 
 impl Query for ReducedOf {
     type Task = ReducePhotograph;
+    const STEP: Step = Step::Depth;
 
     /// The registered photographs, while their depth is still to be found.
     fn all(project: &Project) -> Vec<Self> {

@@ -1,6 +1,6 @@
 //! Tasks, and the queries of the project that they answer.
 
-use crate::project::{Key, Project, to_bytes};
+use crate::project::{Key, Project, Step, to_bytes};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::ops::ControlFlow;
@@ -81,6 +81,9 @@ pub type Output<Q> = <<Q as Query>::Task as Task>::Output;
 pub trait Query: Copy + 'static {
     /// Task that answers it.
     type Task: Task;
+
+    /// Step of the Lab that shows the output.
+    const STEP: Step;
 
     /// Queries of this kind for the current document, in order.
     fn all(project: &Project) -> Vec<Self>;

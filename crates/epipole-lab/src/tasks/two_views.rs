@@ -6,7 +6,7 @@ use super::photograph::Calibrated;
 use super::task::{Destination, Query, Task};
 #[cfg(feature = "vision")]
 use super::task::{Monitor, Progress, Run, report};
-use crate::project::{Key, PairOptions, PhotoId, Project, pairs};
+use crate::project::{Key, PairOptions, PhotoId, Project, Step, pairs};
 use serde::{Deserialize, Serialize};
 
 /// Kind of scene and motion of two photographs.
@@ -87,6 +87,7 @@ impl TwoViewsOf {
 
 impl Query for TwoViewsOf {
     type Task = VerifyPair;
+    const STEP: Step = Step::TwoViews;
 
     fn all(project: &Project) -> Vec<Self> {
         let photos = project.taking_part();

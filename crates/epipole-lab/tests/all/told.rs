@@ -2,7 +2,7 @@
 
 use crate::common::{computed, exported, finish, png, solved};
 use epipole_lab::project::{Measure, Project, Sample, Step};
-use epipole_lab::session::{Event, Pending};
+use epipole_lab::session::{Event, Pending, StepState, Suggestion, Verdict};
 use epipole_lab::tasks::{
     AnyQuery, CameraFound, MatchesOf, Query, Reconstruct, Reconstructed, ReconstructionOfAll, Task,
 };
@@ -187,4 +187,97 @@ fn files_stand_on_the_floor_and_hold_the_measures() {
     // The mean of the files is that of the screen.
     let mean_px = project.get(ReconstructionOfAll).unwrap().mean_error_px[0];
     assert_eq!(json["mean_reprojection_px"].as_f64(), Some(mean_px));
+}
+
+#[test]
+fn a_verdict_names_what_is_wrong_and_what_to_do() {
+    let mut project = Project::default();
+    assert_eq!(project.verdict(), None);
+    project.update(Event::OpenSample(Sample::Table));
+    assert_eq!(project.verdict(), None, "nothing is computed yet");
+    finish(&mut project);
+    assert_eq!(project.verdict(), Some(Verdict::Sound));
+    with(&mut project, |found| {
+        found.before_correction_px = vec![Some(0.673)]
+    });
+    assert_eq!(project.verdict(), Some(Verdict::LensCorrected));
+    with(&mut project, |found| found.determines_focal = vec![false]);
+    assert_eq!(project.verdict(), Some(Verdict::FocalUnsure));
+    for (sample, verdict) in [
+        (Sample::Turned, Some(Verdict::Nothing)),
+        (Sample::Alone, None),
+        (Sample::Twice, None),
+        (Sample::Plane, Some(Verdict::FocalUnsure)),
+        (Sample::Mixed, Some(Verdict::Parts(2))),
+        (Sample::Upright, Some(Verdict::Sound)),
+    ] {
+        assert_eq!(solved(sample).verdict(), verdict, "{sample:?}");
+    }
+}
+
+#[test]
+fn a_suggestion_leads_to_another_view_or_adds_photographs() {
+    for sample in [Sample::Table, Sample::Plane, Sample::Mixed, Sample::Turned] {
+        let mut project = solved(sample);
+        project.update(Event::Show(Step::Reconstruction));
+        let suggestions = project.suggestions(project.verdict().unwrap());
+        assert!(!suggestions.is_empty());
+        for suggestion in suggestions {
+            let Suggestion::Send(label, events) = suggestion else {
+                continue;
+            };
+            let before = project.view().clone();
+            for event in events {
+                project.update(event);
+            }
+            assert_ne!(*project.view(), before, "{sample:?}: {label}");
+            project.update(Event::Show(Step::Reconstruction));
+        }
+    }
+}
+
+#[test]
+fn steps_are_done_in_order() {
+    let chain = [
+        Step::Photographs,
+        Step::Features,
+        Step::Matches,
+        Step::Reconstruction,
+    ];
+    let mut project = Project::default();
+    assert!(project.step_states().is_empty());
+    project.update(Event::OpenSample(Sample::Upright));
+    while let Some(pending) = project.pending().first().copied() {
+        let states = project.step_states();
+        let is_done = chain.map(|step| states.contains_key(&step));
+        assert!(
+            is_done.is_sorted_by(|before, after| before >= after),
+            "{states:?}"
+        );
+        let request = pending.request(&project).unwrap();
+        project.done(&pending, computed(&request.to_bytes()));
+    }
+    let states = project.step_states();
+    assert!(chain.iter().all(|step| states[step] == StepState::Done));
+    assert_eq!(states.get(&Step::TwoViews), Some(&StepState::Done));
+    assert_eq!(states.get(&Step::Measure), None);
+    // Nothing is lost while computing is stopped, and what changed is open again.
+    project.update(Event::Pause(true));
+    assert_eq!(project.step_states(), states);
+    let mut settings = project.document().settings.clone();
+    settings.matching.ratio = 0.7;
+    project.update(Event::Set(settings));
+    let states = project.step_states();
+    assert!(states.contains_key(&Step::Features) && !states.contains_key(&Step::Matches));
+    assert!(!states.contains_key(&Step::Reconstruction));
+}
+
+#[test]
+fn a_file_that_cannot_be_read_marks_its_step() {
+    let mut project = Project::default();
+    let file = ("broken.png".to_owned(), vec![1_u8, 2, 3].into());
+    project.update(Event::Add(vec![file]));
+    finish(&mut project);
+    let states = project.step_states();
+    assert_eq!(states.get(&Step::Photographs), Some(&StepState::Failed));
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod cloud;
 pub(crate) mod controls;
+pub(crate) mod empty;
 pub(crate) mod look;
 mod marks;
 pub(crate) mod menu;
@@ -9,5 +10,6 @@ pub(crate) mod photo;
 pub(crate) mod pick;
 mod steer;
 pub(crate) mod strips;
+pub(crate) mod verdict;
 
 pub(crate) use marks::{dense_anchor, has_dense, observations, vertex_anchor};

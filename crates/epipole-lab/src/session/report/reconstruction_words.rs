@@ -67,7 +67,10 @@ impl Project {
                 words.push_str(&format!(" {}: {}.", photo.name, self.outcome_words(photo)));
             }
         }
-        words
+        match self.verdict() {
+            Some(verdict) => format!("{}: {words}", verdict.title()),
+            None => words,
+        }
     }
 
     /// Mean error of the component that is looked at before its lens was corrected, pixels; `None`
@@ -86,7 +89,7 @@ impl Project {
     }
 
     /// Whether everything that photographs share lies in planes, pair by pair.
-    fn is_flat(&self) -> bool {
+    pub(super) fn is_flat(&self) -> bool {
         let photos = self.taking_part();
         let enough = self.document.settings.sfm.min_num_inliers;
         let pairs = pairs(&photos).map(|(first, second)| self.get(TwoViewsOf(first.id, second.id)));

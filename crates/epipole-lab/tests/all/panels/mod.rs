@@ -4,6 +4,7 @@
 
 mod all_views;
 mod coming;
+mod guided;
 mod keeping;
 mod measuring;
 mod menus;

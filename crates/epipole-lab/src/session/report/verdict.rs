@@ -1,0 +1,128 @@
+//! Verdict on the reconstruction: whether it is sound, and the next step if it is not.
+
+use super::words::count;
+use crate::project::{Outcome, Project, Step};
+use crate::session::Event;
+use crate::tasks::ReconstructionOfAll;
+
+/// Verdict on the part of the reconstruction that is looked at; the first that applies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// No photographs could be joined.
+    Nothing,
+    /// The photographs do not determine the focal length.
+    FocalUnsure,
+    /// Number of parts that nothing joins.
+    Parts(usize),
+    /// Number of photographs without a camera.
+    LeftOut(usize),
+    /// The lens bends lines, and was corrected.
+    LensCorrected,
+    /// Free of all of these.
+    Sound,
+}
+
+/// Step that a verdict suggests.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Suggestion {
+    /// Change the project, or look at a step.
+    Send(&'static str, Vec<Event>),
+    /// Add photographs.
+    AddPhotographs,
+}
+
+impl Project {
+    /// Verdict on the reconstruction; `None` until it has ended.
+    pub fn verdict(&self) -> Option<Verdict> {
+        if self.failure(ReconstructionOfAll).is_some() {
+            return Some(Verdict::Nothing);
+        }
+        let found = self.get(ReconstructionOfAll)?;
+        if self.component().is_none() {
+            return Some(Verdict::Nothing);
+        }
+        let counts = |outcome: &Outcome| !matches!(outcome, Outcome::Excluded);
+        let left_out = self.left_out();
+        let num_left_out = left_out
+            .iter()
+            .filter(|(_, outcome)| counts(outcome))
+            .count();
+        Some(match found.components.len() {
+            _ if !self.knows_focal() || self.is_flat() => Verdict::FocalUnsure,
+            parts @ 2.. => Verdict::Parts(parts),
+            _ if num_left_out > 0 => Verdict::LeftOut(num_left_out),
+            _ if self.before_correction_px().is_some() => Verdict::LensCorrected,
+            _ => Verdict::Sound,
+        })
+    }
+
+    /// Next steps that the verdict suggests, most useful first.
+    pub fn suggestions(&self, verdict: Verdict) -> Vec<Suggestion> {
+        let show = |label, step| Suggestion::Send(label, vec![Event::Show(step)]);
+        match verdict {
+            Verdict::Nothing | Verdict::LeftOut(_) => vec![
+                show("See why", Step::Photographs),
+                Suggestion::AddPhotographs,
+            ],
+            Verdict::FocalUnsure => vec![
+                show("Type focal length", Step::Photographs),
+                show("Calibrate the camera", Step::Calibrate),
+                Suggestion::AddPhotographs,
+            ],
+            Verdict::Parts(parts) => {
+                let other = (self.view.component + 1) % parts;
+                vec![
+                    Suggestion::Send("Other part", vec![Event::LookAtComponent(other)]),
+                    Suggestion::AddPhotographs,
+                ]
+            }
+            Verdict::LensCorrected | Verdict::Sound => {
+                let mut all = vec![show("Measure a length", Step::Measure)];
+                if !self.document.all_views {
+                    let events = vec![Event::AllViews(true), Event::Show(Step::Depth)];
+                    all.push(Suggestion::Send("Depth of all views", events));
+                }
+                all.push(show("Save files", Step::Export));
+                all
+            }
+        }
+    }
+}
+
+impl Verdict {
+    /// Whether the reconstruction can be used as it is.
+    pub fn is_sound(self) -> bool {
+        matches!(self, Self::Sound | Self::LensCorrected)
+    }
+
+    /// In a few words.
+    pub fn title(self) -> String {
+        match self {
+            Self::Nothing => "Nothing reconstructed".to_owned(),
+            Self::FocalUnsure => "Focal length unsure".to_owned(),
+            Self::Parts(parts) => count(parts, "part"),
+            Self::LeftOut(photos) => format!("{} left out", count(photos, "photograph")),
+            Self::LensCorrected => "Sound reconstruction, lens corrected".to_owned(),
+            Self::Sound => "Sound reconstruction".to_owned(),
+        }
+    }
+
+    /// Reason and consequence, in a sentence.
+    pub fn explanation(self) -> &'static str {
+        match self {
+            Self::Nothing => "No two photographs show enough of one thing from different places.",
+            Self::FocalUnsure => {
+                "The photographs do not tell the focal length, so depths may be far off. Type it, calibrate, or add \
+                 photographs from other sides."
+            }
+            Self::Parts(_) => {
+                "Nothing joins them: sizes and positions of one say nothing of the others. Add photographs that show both."
+            }
+            Self::LeftOut(_) => "The others agree. Photographs in between may bring these in.",
+            Self::LensCorrected => {
+                "Cameras and points agree after the radial distortion of the lens was corrected. Sizes are known up to scale."
+            }
+            Self::Sound => "Cameras and points agree. Sizes are known up to scale.",
+        }
+    }
+}
