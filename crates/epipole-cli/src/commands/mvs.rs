@@ -75,7 +75,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut output = OutputFolder::new(&arguments.output, "mvs");
     let fused = output.write("fused.ply", &write_ply(&cloud))?;
     let surface = match (&mesh, arguments.mesh) {
-        (Some(mesh), Some(format)) => Some(output.write(format.file(), &format.write(mesh))?),
+        (Some(mesh), Some(format)) => {
+            Some(output.write(format.file(), &format.write(mesh, &model)?)?)
+        }
         _ => None,
     };
     for file in undistorted(&views, &name).to_files(ModelFormat::ColmapText)? {
@@ -117,15 +119,17 @@ impl MeshFormat {
             Self::Ply => "mesh.ply",
             Self::Glb => "mesh.glb",
             Self::Obj => "mesh.obj",
+            Self::Html => "model.html",
         }
     }
 
-    fn write(self, mesh: &Mesh) -> Vec<u8> {
-        match self {
+    fn write(self, mesh: &Mesh, model: &Model) -> Result<Vec<u8>, Failure> {
+        Ok(match self {
             Self::Ply => write_mesh_ply(mesh),
             Self::Glb => write_mesh_glb(mesh),
             Self::Obj => write_mesh_obj(mesh).into_bytes(),
-        }
+            Self::Html => model.to_html(mesh)?,
+        })
     }
 }
 

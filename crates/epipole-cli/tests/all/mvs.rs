@@ -160,6 +160,12 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
             .starts_with(b"glTF")
     );
     assert!(!out.join("mesh.ply").exists());
+    let page = json(&[&base[..], &["--mesh", "html", "--voxel-size", "0.05"]].concat());
+    let text = std::fs::read_to_string(out.join("model.html")).unwrap();
+    let title = format!("{} triangles</title>", page["num_triangles"]);
+    assert!(text.contains(&title), "{title}");
+    assert!(page["mesh"].as_str().unwrap().ends_with("model.html"));
+    assert!(!out.join("mesh.glb").exists());
     let coarse = ["--mesh", "ply", "--voxel-size", "100"];
     let empty = epipole(&[&base[..], &coarse].concat());
     let told = String::from_utf8(empty.stderr).unwrap();

@@ -22,6 +22,9 @@ pub(super) enum MeshFormat {
     Glb,
     /// `mesh.obj`: text.
     Obj,
+    /// `model.html`: a page that shows cameras, points and mesh, and measures lengths, without a
+    /// network.
+    Html,
 }
 
 /// Compute depth maps and a dense cloud of a model and its photos.
