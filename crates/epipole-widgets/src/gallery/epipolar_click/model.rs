@@ -1,8 +1,8 @@
 //! Points in photograph 1, and the pose of camera 2.
 
 use crate::contract::{
-    Button, ButtonRole, Challenge, Control, Data, Datum, Declared, Event, Handle, Knob, Model,
-    Problem, Settings, Slider, Symbol, knobs, match_data,
+    Button, ButtonRole, Challenge, Choice, Control, Data, Datum, Declared, Event, Handle, Knob,
+    Model, Problem, Settings, Slider, Symbol, knobs, match_data,
 };
 use crate::kit::geometry::{Geometry, symbols};
 use crate::kit::points::{Points, number_of};
@@ -33,7 +33,16 @@ const SELECTED: Slider = Slider::new("selected", "Selected point")
     .range(0.0, MAX_POINTS as f64, 1.0)
     .at(0.0)
     .hidden();
-const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SELECTED];
+const SHOW: Choice = Choice::new(
+    "show",
+    "Show",
+    &[
+        ("lines", "Lines"),
+        ("guess", "Your guess"),
+        ("both", "Both"),
+    ],
+);
+const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SHOW, SELECTED];
 const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
 const REMOVE: Button = Button::new("remove", "Remove a point", ButtonRole::Action).more();
 
@@ -55,6 +64,13 @@ const POINT: Probe = Probe::new("p", "first", "Point # in photograph 1")
     .step(4.0)
     .digits(1)
     .told(|place| place_words(place, 1));
+/// The reader's guess of the match of the selected point.
+const GUESS: Probe = Probe::new("guess", "second", "Your guess of the match")
+    .over(PHOTO_SIZE)
+    .step(4.0)
+    .at(320.0, 240.0);
+/// Maximum distance of a good guess from the match, pixels.
+const GOOD_GUESS_PX: f64 = 25.0;
 /// Maximum distance of a point from an epipolar line that it shares, pixels.
 const SAME_LINE_PX: f64 = 2.0;
 /// Minimum distance between two points that share a line, pixels.
@@ -64,6 +80,7 @@ const APART_PX: f64 = 60.0;
 pub(crate) struct EpipolarClick {
     settings: Settings,
     points: Points,
+    guess: Probe,
 }
 
 impl EpipolarClick {
@@ -96,6 +113,28 @@ impl EpipolarClick {
         self.points()
             .find(|(index, _)| chosen == Some(*index))
             .or_else(|| self.points().last())
+    }
+
+    /// Whether lines and matches are shown, not the guess alone.
+    pub(super) fn shows_lines(&self) -> bool {
+        self.settings.chosen(&SHOW) != 1
+    }
+
+    /// Returns the guess of the match of the selected point, if it is shown.
+    pub(super) fn guess(&self) -> Option<Point2<f64>> {
+        (self.settings.chosen(&SHOW) != 0).then(|| self.guess.point())
+    }
+
+    /// Returns the guess and the selected point, if the guess is compared with its match.
+    pub(super) fn compared(&self) -> Option<[Point2<f64>; 2]> {
+        let guess = self.guess().filter(|_| self.shows_lines())?;
+        Some([guess, self.selected()?.1])
+    }
+
+    /// Returns the distance of the guess from the match, pixels, if they are compared.
+    pub(super) fn guess_off_px(&self) -> Option<f64> {
+        let [guess, point] = self.compared()?;
+        Some((guess - self.seen(&point).pixel()?).norm())
     }
 
     /// Returns the visibility in camera 2 of the scene point at a pixel of photograph 1.
@@ -141,7 +180,7 @@ impl Declared for EpipolarClick {
     const TITLE: &'static str = "One point, one line";
     const HELP: &'static str = "Click in photograph 1 to add a point. Drag points, or move them with \
         the arrow keys: each has its epipolar line in photograph 2. Move and turn the second camera \
-        with the sliders.";
+        with the sliders. Or choose Your guess, put the crosshair where you expect the match, and compare.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
@@ -150,6 +189,7 @@ impl Declared for EpipolarClick {
         Self {
             settings: Settings::new(KNOBS),
             points: Points::new(POINT, 0, places),
+            guess: GUESS,
         }
     }
 }
@@ -163,12 +203,17 @@ impl Model for EpipolarClick {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        self.points.handles()
+        let mut handles = self.points.handles();
+        handles.extend(self.guess().map(|_| self.guess.handle()));
+        handles
     }
 
     /// Returns the symbols of the selected point.
     fn symbols(&self) -> Vec<Symbol> {
         let pixel1 = self.selected().map(|(_, point)| point);
+        if !self.shows_lines() {
+            return symbols([pixel1, None], None);
+        }
         let pixel2 = pixel1.and_then(|point| self.seen(&point).pixel());
         symbols([pixel1, pixel2], self.geometry().as_ref())
     }
@@ -194,6 +239,9 @@ impl Model for EpipolarClick {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
+        if self.guess().is_some() && self.guess.update(event) {
+            return Ok(());
+        }
         match event {
             Event::Set { id, .. } if id == SELECTED.id => self.keep_selection(),
             Event::Press { id } if id == ADD.id => {
@@ -226,6 +274,10 @@ impl Model for EpipolarClick {
     }
 
     fn restore_handle(&mut self, id: &str, x: f64, y: f64) -> bool {
+        if id == GUESS.id() {
+            self.guess.put(x, y);
+            return true;
+        }
         let number = number_of(id).filter(|number| (1..=MAX_POINTS).contains(number));
         if let Some(number) = number {
             self.put(number, x, y);
@@ -264,6 +316,24 @@ const CHALLENGES: &[Challenge<EpipolarClick>] = &[
             let line = model.geometry().and_then(|geometry| geometry.line1(&point));
             let place = line.map_or(point, |line| line.nearest(&Point2::new(400.0, 90.0)));
             vec![Event::moved("p2", place.x, place.y)]
+        },
+    },
+    Challenge {
+        id: "guess",
+        goal: "Hide the lines, guess where the match of a point is, and compare: be off by less than 25 px.",
+        hint: "Look at the thing, not at the place: the match shows the same thing.",
+        why: "You had to search the whole photograph. The line leaves one direction to search.",
+        check: |model| model.guess_off_px().is_some_and(|px| px < GOOD_GUESS_PX),
+        solution: || {
+            let model = EpipolarClick::new();
+            let point = model.selected().map(|(_, point)| point);
+            let pixel2 = point.and_then(|point| model.seen(&point).pixel());
+            let pixel2 = pixel2.unwrap_or_default();
+            vec![
+                Event::set(&SHOW, "guess"),
+                Event::moved(GUESS.id(), pixel2.x, pixel2.y),
+                Event::set(&SHOW, "both"),
+            ]
         },
     },
     Challenge {
@@ -366,6 +436,37 @@ mod tests {
         assert_eq!(model.selected().unwrap().0, 5);
         model.update(&Event::press(REMOVE.id)).unwrap();
         assert_eq!(model.selected().unwrap().0, 4);
+    }
+
+    #[test]
+    fn a_guess_hides_the_lines_until_it_is_compared() {
+        let shown = |model: &EpipolarClick, id: &str| {
+            let readout = model
+                .readouts()
+                .into_iter()
+                .find(|readout| readout.id == id);
+            readout.unwrap().text
+        };
+        let mut model = changed(&[
+            Event::set(&SHOW, "guess"),
+            Event::moved("guess", 100.0, 50.0),
+        ]);
+        assert_eq!(shown(&model, "off"), "not compared");
+        assert_eq!(shown(&model, "match"), "hidden");
+        assert_eq!(model.handles().len(), NUM_AT_START + 1);
+        assert!(model.symbols().iter().all(|symbol| symbol.panel == "first"));
+        model.update(&Event::set(&SHOW, "both")).unwrap();
+        let [guess, point] = model.compared().unwrap();
+        assert_eq!(guess, Point2::new(100.0, 50.0));
+        let pixel2 = model.seen(&point).pixel().unwrap();
+        assert!((model.guess_off_px().unwrap() - (guess - pixel2).norm()).abs() < 1e-12);
+        assert!(model.describe().contains("Your guess"));
+        model
+            .update(&Event::clicked("second", 200.0, 60.0))
+            .unwrap();
+        assert_eq!(model.compared().unwrap()[0], Point2::new(200.0, 60.0));
+        model.update(&Event::set(&SHOW, "lines")).unwrap();
+        assert_eq!((model.guess(), model.compared()), (None, None));
     }
 
     #[test]

@@ -13,6 +13,8 @@ use crate::theme::Role;
 use image::RgbImage;
 
 const MARKER: f64 = 5.5;
+/// Radius of the guess, CSS pixels.
+const GUESS_RADIUS: f64 = 10.0;
 /// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
 const TALLEST: f64 = 430.0;
 
@@ -27,12 +29,16 @@ impl View for EpipolarClickView {
 
     const ASPECT: Aspect = Aspect::Broad;
 
-    fn layout(&self, _model: &EpipolarClick, width: f64) -> Layout {
+    fn layout(&self, model: &EpipolarClick, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let [first, second] = grid.row([PHOTO_ASPECT; 2], TALLEST);
+        let mut second = Panel::photograph("second", second, PHOTO_SIZE);
+        if model.guess().is_some() {
+            second = second.clickable();
+        }
         grid.layout(vec![
             Panel::photograph("first", first, PHOTO_SIZE).clickable(),
-            Panel::photograph("second", second, PHOTO_SIZE),
+            second,
         ])
     }
 
@@ -44,23 +50,33 @@ impl View for EpipolarClickView {
 
     fn draw(&mut self, model: &EpipolarClick, layout: &Layout, canvas: &mut Canvas) {
         let [first, second] = layout.panels_named(["first", "second"]);
-        let titles = [
-            ["Photograph 1: click or drag a point", "1: click or drag"],
-            [
+        let second_titles = match model.shows_lines() {
+            true => [
                 "Photograph 2: its match is on its line",
                 "2: matches on lines",
             ],
+            false => ["Photograph 2: guess the match", "2: guess the match"],
+        };
+        let titles = [
+            ["Photograph 1: click or drag a point", "1: click or drag"],
+            second_titles,
         ];
         for (panel, titles) in [first, second].into_iter().zip(titles) {
             grid::fitting_title(canvas, panel.rect, &titles);
         }
         self.photos.draw(canvas, [first, second], &model.cameras());
         let geometry = model.geometry();
+        let shown = geometry.as_ref().filter(|_| model.shows_lines());
         canvas.clipped(first.rect, |canvas| {
-            draw_first(model, geometry.as_ref(), first, canvas);
+            draw_first(model, shown, first, canvas);
         });
         canvas.clipped(second.rect, |canvas| {
-            draw_second(model, geometry.as_ref(), second, canvas);
+            if model.shows_lines() {
+                draw_second(model, shown, second, canvas);
+            }
+            if let Some(guess) = model.guess() {
+                draw_guess(model, second.place_of(&guess), canvas);
+            }
         });
         if geometry.is_none() {
             grid::notice(canvas, second.rect, NO_BASELINE);
@@ -151,6 +167,19 @@ fn draw_second(
     }
     for (index, place, text) in texts {
         draw_number(canvas, &mut labels, place, index, &text);
+    }
+}
+
+/// Draws a crosshair in the color of the selected point.
+fn draw_guess(model: &EpipolarClick, place: Place, canvas: &mut Canvas) {
+    let role = model
+        .selected()
+        .map_or(Role::Grip, |(index, _)| series(index).0);
+    let stroke = Stroke::solid(role, 2.0).cased();
+    canvas.circle(place, GUESS_RADIUS, stroke);
+    for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+        let at = |radius: f64| (place.0 + radius * x, place.1 + radius * y);
+        canvas.line(at(0.4 * GUESS_RADIUS), at(1.6 * GUESS_RADIUS), stroke);
     }
 }
 

@@ -11,6 +11,16 @@ pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same p
     no epipolar geometry: a point fixes its match without any depth, and no line is left over. \
     Move camera 2.";
 
+impl EpipolarClick {
+    /// Returns the distance of the guess from the line of the selected point, pixels, if they are
+    /// compared.
+    fn guess_across_px(&self) -> Option<f64> {
+        let [guess, point] = self.compared()?;
+        let line = self.geometry()?.line2(&point)?;
+        Some(line.signed_distance(&guess).abs())
+    }
+}
+
 impl Words for EpipolarClick {
     fn readouts(&self) -> Vec<Readout> {
         let selected = self.selected();
@@ -27,13 +37,23 @@ impl Words for EpipolarClick {
         };
         let of = |get: fn(&Geometry) -> String| geometry.as_ref().map(get);
         let point = selected.map(|(index, point)| format!("{} at {}", index + 1, pixel(&point)));
+        let is_guess = self.guess().is_some();
+        let off = Readout::number("off", "Off match", self.guess_off_px(), 0, "px");
+        let across = self.guess_across_px();
+        let across = Readout::number("across", "Off line", across, 0, "px");
+        let told = |text: Option<String>| match self.shows_lines() {
+            true => text,
+            false => Some("hidden".to_owned()),
+        };
         vec![
-            say("match", "Its match", pixel2.as_ref().map(pixel)).main(),
-            residual.or("none").main(),
+            say("match", "Its match", told(pixel2.as_ref().map(pixel))).main_if(!is_guess),
+            residual.or("none").main_if(!is_guess),
+            off.or("not compared").main_if(is_guess),
+            across.or("not compared").main_if(is_guess),
             say("e2", "Epipole e′", of(|all| short_epipole(&all.epipole2))).main(),
             say("point", "Selected point", point),
-            say("sight", "Visible", matched.map(sight)),
-            say("line", "Line ℓ′", line.as_ref().map(words::line)),
+            say("sight", "Visible", told(matched.map(sight))),
+            say("line", "Line ℓ′", told(line.as_ref().map(words::line))),
             say("e1", "Epipole e", of(|all| short_epipole(&all.epipole1))),
             say("f", "F, by rows", of(|all| matrix(&all.fundamental))),
             say("e", "E, by rows", of(|all| matrix(&all.essential))),
@@ -46,6 +66,24 @@ impl Words for EpipolarClick {
         };
         let (right_m, forward_m, left_deg) = self.motion();
         let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
+        if let Some(guess) = self.guess() {
+            let number = self.selected().map_or(0, |(index, _)| index + 1);
+            let guessed = pixel(&guess);
+            text.push_str(&format!(
+                "Your guess of the match of point {number} is {guessed}"
+            ));
+            if self.shows_lines() {
+                let number = |px: Option<f64>| px.map_or("?".to_owned(), |px| format_number(px, 0));
+                let off = number(self.guess_off_px());
+                let across = number(self.guess_across_px());
+                text.push_str(&format!(
+                    ", {off} px from the match and {across} px from its line."
+                ));
+            } else {
+                text.push_str("; lines and matches are hidden.");
+            }
+            return text;
+        }
         let count = self.points().count();
         let is_seen = |(_, point): &(_, _)| matches!(self.seen(point), Seen::Visible(_));
         let seen = match self.points().filter(is_seen).count() {
