@@ -30,6 +30,13 @@ const isIn = (inner: Span, outer: Span) => inner.top >= outer.top - 1 && inner.b
 /** The picture of a figure; the figure where there is none yet. */
 const pictureOf = (figure: HTMLElement) => figure.querySelector("epipole-figure")?.shadowRoot?.querySelector(".picture") ?? figure;
 
+/** Whether a sentence is less than a screen away from being seen. */
+export function isNear(words: Element, figure: Element): boolean {
+  const [sentence, room] = [words.getBoundingClientRect(), viewport(figure)];
+  const height = room.bottom - room.top;
+  return sentence.bottom >= room.top - height && sentence.top <= room.bottom + height;
+}
+
 let docked: Dock | undefined;
 
 /** Brings a figure of the chapter and a sentence onto one screen, without taking the sentence off it. */
@@ -87,7 +94,7 @@ class Dock {
     const free = isAbove ? { ...room, top: dock.bottom + GAP_PX } : { ...room, bottom: dock.top - GAP_PX };
     if (sentence.bottom > dock.top && sentence.top < dock.bottom) this.#position();
     else if (!isIn(sentence, free)) scrollInto(sentence, free);
-    this.#onScroll();
+    this.#back.hidden = true;
   }
 
   /** Puts the figure back in its place. */
@@ -146,7 +153,7 @@ class Dock {
     const [place, sentence, room] = [this.#placeholder.getBoundingClientRect(), this.#words.getBoundingClientRect(), viewport(this.#placeholder)];
     const height = room.bottom - room.top;
     const visible = Math.min(place.bottom, room.bottom) - Math.max(place.top, room.top);
-    const away = sentence.bottom < room.top - height || sentence.top > room.bottom + height;
+    const away = !isNear(this.#words, this.#placeholder);
     if (visible >= RETURN_AT * Math.min(place.height, height)) this.end();
     else if (away && !this.figure.matches(":hover, :focus-within")) this.end();
     else this.#back.hidden = isIn(sentence, room);

@@ -22,14 +22,17 @@ const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() =
 /** The sentence that the page keeps together with its figure. */
 let kept: AbortController | undefined;
 
-/** Calls `act` after each change of layout, until the reader scrolls, presses anything or operates another figure. */
-function keep(act: () => void, changing: Element[]): () => Promise<void> {
+/**
+ * Calls `act` after each change of layout, until it returns false, or the reader scrolls, presses anything, prints or
+ * operates another figure.
+ */
+function keep(act: () => boolean, changing: Element[]): () => Promise<void> {
   kept?.abort();
   const keeping = (kept = new AbortController());
   const { signal } = keeping;
   const again = async () => {
     await scrollAnchored();
-    if (!signal.aborted) act();
+    if (!signal.aborted && !act()) keeping.abort();
   };
   // The first report is of sizes that have not changed.
   let reports = 0;
@@ -38,7 +41,7 @@ function keep(act: () => void, changing: Element[]): () => Promise<void> {
   });
   for (const element of changing) sizes.observe(element);
   signal.addEventListener("abort", () => sizes.disconnect());
-  for (const type of ["wheel", "touchmove", "keydown", "pointerdown"]) {
+  for (const type of ["wheel", "touchmove", "keydown", "pointerdown", "beforeprint"]) {
     addEventListener(type, () => keeping.abort(), { signal, passive: true });
   }
   return again;
@@ -57,7 +60,12 @@ function startButton(words: HTMLElement, docks: boolean): void {
     // Safari 16 has no popovers: there the page scrolls to the figure.
     const canDock = docks && "popover" in HTMLElement.prototype;
     const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
-    const together = () => dock?.bringTogether(figure.closest("figure") ?? figure, words);
+    const box = figure.closest("figure") ?? figure;
+    const together = () => {
+      const canBring = dock?.isNear(words, box) ?? false;
+      if (canBring) dock?.bringTogether(box, words);
+      return canBring;
+    };
     together();
     // Fonts that arrive, figures that come alive or leave their docks, and numbers in sentences move the text.
     const again = keep(together, [document.body, figure]);
