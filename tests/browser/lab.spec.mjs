@@ -292,6 +292,19 @@ test("a figure hands on the reader's photographs, its step and its knobs, and no
   await expect.poll(databases).toEqual([]);
 });
 
+test("an empty project leads to a verdict, and the verdict to the next step", async ({ lab }) => {
+  await solved(lab);
+  await choose(lab, "button", "Remove all photographs");
+  await expect(said(lab)).toContainText("No photographs yet");
+  await expectAccessible(lab);
+  await press(lab, "button", "A flat poster");
+  await expect(said(lab)).toContainText("Focal length unsure: ", { timeout: 90_000 });
+  await expect(lab.locator("#widgets").getByRole("button", { name: "Matches", exact: true })).toHaveAccessibleDescription(/^done/);
+  await expectAccessible(lab);
+  await press(lab, "button", "Calibrate the camera");
+  await expect.poll(() => new URL(lab.url()).searchParams.get("step")).toBe("calibrate");
+});
+
 test("every step is explained by a figure of the book, which runs beside it", async ({ lab, library }) => {
   await solved(lab);
   const aside = lab.getByRole("complementary");

@@ -5,10 +5,10 @@
 
 /**
  * Line of the module: number, role, name, value, state, minimum, maximum, step, whether the
- * widget's popup is open or closed, and the number of the widget that opened the list containing
- * this one.
+ * widget's popup is open or closed, description, and the number of the widget that opened the list
+ * containing this one.
  */
-type Widget = [string, string, string, string, string, string, string, string, string, string];
+type Widget = [string, string, string, string, string, string, string, string, string, string, string];
 
 /** Operates a widget by number, role and name, as numbers may be reassigned. */
 type Operate = (widget: string, role: string, name: string, value?: number) => void;
@@ -30,7 +30,7 @@ export class Mirror {
     let before: HTMLElement | undefined;
     for (const line of lines.split("\n")) {
       const widget = line.split("\t") as Widget;
-      if (widget.length !== 10) continue;
+      if (widget.length !== 11) continue;
       const key = `${widget[1]} ${widget[0]}`;
       if (kept.has(key)) continue;
       kept.add(key);
@@ -39,7 +39,8 @@ export class Mirror {
       this.#names.set(element, widget[2]);
       set(element, widget);
       put(element, "id", `widget-${widget[1]}-${widget[0]}`);
-      if (widget[9] !== "") opened.set(widget[9], [...(opened.get(widget[9]) ?? []), element.id]);
+      const opener = widget[10];
+      if (opener !== "") opened.set(opener, [...(opened.get(opener) ?? []), element.id]);
       const place = before ? before.nextElementSibling : this.#root.firstElementChild;
       if (place !== element) this.#root.insertBefore(element, place);
       before = element;
@@ -84,7 +85,7 @@ export class Mirror {
   }
 }
 
-function set(element: HTMLElement, [, role, name, value, state, least, most, , opens]: Widget): void {
+function set(element: HTMLElement, [, role, name, value, state, least, most, , opens, description]: Widget): void {
   if (element instanceof HTMLInputElement) {
     put(element, "aria-label", name || "number");
     if (least) element.min = least;
@@ -97,6 +98,8 @@ function set(element: HTMLElement, [, role, name, value, state, least, most, , o
     if (element.textContent !== name) element.textContent = name;
     return;
   }
+  if (description !== "") put(element, "title", description);
+  else element.removeAttribute("title");
   put(element, "aria-label", role === "combobox" ? `${name}: ${value}` : name);
   if (element instanceof HTMLButtonElement) element.disabled = state === "disabled";
   if (opens !== "") put(element, "aria-expanded", String(opens === "open"));

@@ -2,7 +2,7 @@
 
 use crate::panels::Action;
 use crate::panels::widgets::look;
-use crate::project::{Project, Step};
+use crate::project::{PhotoId, Project, Step};
 use crate::session::{Event, StepState};
 use egui::scroll_area::ScrollBarVisibility;
 use egui::style::ScrollAnimation;
@@ -23,6 +23,8 @@ pub(super) struct Steps {
     states: BTreeMap<Step, StepState>,
     /// Revision of the project at which they were found.
     revision: Option<u64>,
+    /// Photographs of the project at that revision.
+    photos: BTreeSet<PhotoId>,
     /// Time spent on the outputs of each step, seconds.
     seconds: BTreeMap<Step, f64>,
     running: BTreeSet<Step>,
@@ -42,6 +44,12 @@ impl Steps {
         self.running = running;
         if self.revision.replace(project.revision()) != Some(project.revision()) {
             self.states = project.step_states();
+            let photos = project.document().photos.iter().map(|photo| photo.id);
+            let before = std::mem::replace(&mut self.photos, photos.collect());
+            // Other photographs begin anew.
+            if before.is_disjoint(&self.photos) {
+                self.seconds.clear();
+            }
         }
     }
 

@@ -2,8 +2,8 @@
 //! accessible content of its own.
 //!
 //! One line per widget: number, role, name, value, state, minimum, maximum, step, "open" or
-//! "closed" for the opener of a list, and for an item of a list the number of its opener; separated
-//! by tabs.
+//! "closed" for the opener of a list, description, and for an item of a list the number of its
+//! opener; separated by tabs.
 
 use egui::accesskit::{
     Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId, TreeUpdate,
@@ -211,6 +211,7 @@ fn line(id: NodeId, node: &Node, nodes: &BTreeMap<NodeId, &Node>) -> Option<Stri
             Some(false) => "closed".to_owned(),
             None => String::new(),
         },
+        plain(node.description().unwrap_or_default()),
     ];
     Some(fields.join("\t"))
 }
