@@ -80,7 +80,8 @@ test("a script of the page that does not come, and an index that does not, are t
   site.fails = /assets\/(quiz|search)-.*\.js/;
   await page.goto(`${site.origin}/course/connections.html`);
   await expect(notice).toContainText("A part of this page could not be loaded.");
-  await search.click();
+  const isMissing = (response) => /assets\/search-.*\.js$/.test(response.url()) && response.status() === 404;
+  await Promise.all([page.waitForResponse(isMissing), search.click()]);
   await expect(notice).toHaveCount(1);
   site.fails = undefined;
   await notice.getByRole("button", { name: "Load the page anew" }).click();
