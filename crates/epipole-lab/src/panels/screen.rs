@@ -3,7 +3,7 @@
 use super::widgets::cloud::CloudView;
 use super::widgets::photo::{Lens, Pictures};
 use crate::project::{Project, Settings};
-use crate::session::Event;
+use crate::session::{Event, Verdict};
 use crate::tasks::{CameraFormat, ExportFormat};
 use egui::Ui;
 
@@ -37,6 +37,8 @@ pub(crate) struct Views {
     pub(crate) lenses: [Lens; 2],
     /// The point cloud.
     pub(crate) cloud: CloudView,
+    /// Verdict on the reconstruction at a revision of the project, as it looks at every pair.
+    pub(crate) verdict: Option<(u64, Option<Verdict>)>,
     /// Settings while a control is dragged.
     pub(crate) draft: Option<Settings>,
 }

@@ -121,19 +121,19 @@ fn what_stands_in_an_open_menu_names_what_opened_it() {
             .lines()
             .map(|line| line.split('\t').collect::<Vec<_>>());
         let line = lines.find(|fields| fields[2] == name)?;
-        assert_eq!(line.len(), 10, "{line:?}");
+        assert_eq!(line.len(), 11, "{line:?}");
         Some(line[field].to_owned())
     };
     let told = page.mirror.changed_widgets().unwrap();
     assert_eq!(field(&told, "More", 8).unwrap(), "closed");
     assert_eq!(field(&told, "Undo", 8).unwrap(), "");
-    assert_eq!(field(&told, "Deep", 9), None);
+    assert_eq!(field(&told, "Deep", 10), None);
     page.press(&told, "More");
     for _ in 0..9 {
         page.frame();
     }
     let told = page.mirror.changed_widgets().unwrap();
     assert_eq!(field(&told, "More", 8).unwrap(), "open");
-    assert_eq!(field(&told, "Deep", 9), field(&told, "More", 0));
-    assert_eq!(field(&told, "Undo", 9).unwrap(), "");
+    assert_eq!(field(&told, "Deep", 10), field(&told, "More", 0));
+    assert_eq!(field(&told, "Undo", 10).unwrap(), "");
 }

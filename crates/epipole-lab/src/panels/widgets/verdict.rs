@@ -13,7 +13,13 @@ const TITLE: f32 = 17.0;
 /// Draws the verdict; before there is one, a way to the growing reconstruction.
 pub(crate) fn show(screen: &mut Screen<'_>, ui: &mut Ui) {
     let project = screen.project;
-    let Some(verdict) = project.verdict() else {
+    let known = screen
+        .views
+        .verdict
+        .filter(|known| known.0 == project.revision());
+    let known = known.unwrap_or_else(|| (project.revision(), project.verdict()));
+    screen.views.verdict = Some(known);
+    let Some(verdict) = known.1 else {
         let watches = project.view().step == Step::Reconstruction;
         if project.taking_part().len() > 1 && !watches {
             if ui.button("Watch the reconstruction").clicked() {

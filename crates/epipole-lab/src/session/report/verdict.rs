@@ -110,7 +110,7 @@ impl Verdict {
     /// Reason and consequence, in a sentence.
     pub fn explanation(self) -> &'static str {
         match self {
-            Self::Nothing => "No two photographs show enough of one thing from different places.",
+            Self::Nothing => "No photographs could be joined. Each says why.",
             Self::FocalUnsure => {
                 "The photographs do not tell the focal length, so depths may be far off. Type it, calibrate, or add \
                  photographs from other sides."
