@@ -66,11 +66,24 @@ impl Steps {
                     false => look::color(ui, Role::Muted),
                 };
                 self.mark(ui, step, rect, color);
-                if let Some(words) = self.time_words(step) {
+                let Some(words) = self.time_words(step) else {
+                    continue;
+                };
+                let painter = ui.painter();
+                let width = |text: &str, style: TextStyle| {
+                    let font = style.resolve(ui.style());
+                    let galley = painter.layout_no_wrap(text.to_owned(), font, color);
+                    galley.size().x
+                };
+                // The longest title leaves no room for a time.
+                let taken = width(step.title(), TextStyle::Button)
+                    + width(&words, TextStyle::Small)
+                    + 3.0 * MARK
+                    + ui.spacing().button_padding.x;
+                if taken < response.rect.width() {
                     let font = TextStyle::Small.resolve(ui.style());
                     let at = center - vec2(MARK, 0.0);
-                    ui.painter()
-                        .text(at, Align2::RIGHT_CENTER, words, font, color);
+                    painter.text(at, Align2::RIGHT_CENTER, words, font, color);
                 }
             }
         });
@@ -108,10 +121,16 @@ impl Steps {
         actions: &mut Vec<Action>,
     ) -> Response {
         let response = ui.selectable_label(project.view().step == step, step.title());
-        if let Some(words) = self.state_words(step) {
-            ui.ctx()
-                .accesskit_node_builder(response.id, |node| node.set_description(words));
-        }
+        let response = match self.state_words(step) {
+            Some(words) => {
+                let describe = |node: &mut egui::accesskit::Node| {
+                    node.set_description(words.as_str());
+                };
+                ui.ctx().accesskit_node_builder(response.id, describe);
+                response.on_hover_text(words)
+            }
+            None => response,
+        };
         if response.has_focus() {
             // The fill of the current step hides the toolkit's own ring.
             let stroke = Stroke::new(2.0, look::color(ui, Role::Best));
@@ -167,8 +186,7 @@ impl Steps {
     fn time_words(&self, step: Step) -> Option<String> {
         let seconds = *self.seconds.get(&step)?;
         match seconds {
-            ..0.1 => None,
-            ..9.95 => Some(format!("{seconds:.1} s")),
+            ..0.5 => None,
             ..99.5 => Some(format!("{seconds:.0} s")),
             _ => Some(format!("{:.0} min", seconds / 60.0)),
         }

@@ -48,7 +48,5 @@ pub(crate) fn show(screen: &mut Screen<'_>, ui: &mut Ui) {
                 screen.send(Event::Show(Step::Reconstruction));
             }
         }
-        ui.add_space(6.0);
-        ui.weak("Nothing is uploaded.");
     });
 }
