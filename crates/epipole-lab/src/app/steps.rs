@@ -186,7 +186,7 @@ impl Steps {
     fn time_words(&self, step: Step) -> Option<String> {
         let seconds = *self.seconds.get(&step)?;
         match seconds {
-            ..0.5 => None,
+            ..0.55 => None,
             ..99.5 => Some(format!("{seconds:.0} s")),
             _ => Some(format!("{:.0} min", seconds / 60.0)),
         }
