@@ -207,7 +207,7 @@ fn a_verdict_names_what_is_wrong_and_what_to_do() {
         (Sample::Turned, Some(Verdict::Nothing)),
         (Sample::Alone, None),
         (Sample::Twice, None),
-        (Sample::Plane, Some(Verdict::FocalUnsure)),
+        (Sample::Plane, Some(Verdict::Flat)),
         (Sample::Mixed, Some(Verdict::Parts(2))),
         (Sample::Upright, Some(Verdict::Sound)),
     ] {

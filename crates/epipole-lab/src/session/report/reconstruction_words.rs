@@ -1,5 +1,6 @@
 //! Cameras and points in words.
 
+use super::verdict::Verdict;
 use super::words::count;
 use crate::project::{Project, pairs};
 use crate::tasks::{ReconstructionOfAll, Shows, TwoViewsOf};
@@ -35,16 +36,9 @@ impl Project {
                 "No two photographs show enough of the same thing from different places.".to_owned()
             }
         };
-        if self.is_flat() {
-            words.push_str(
-                " Every pair shows a plane and nothing else, and a plane does not tell the focal length: cameras and points are \
-                 right only if the focal length is. Type it, calibrate, or add photographs of something with depth.",
-            );
-        } else if !self.knows_focal() {
-            words.push_str(
-                " The photographs do not tell the focal length: the one found may be far off, and so may all depths. Cameras \
-                 that move along a line without turning fit any. Type it, calibrate, or add photographs from other sides.",
-            );
+        let verdict = self.verdict();
+        if let Some(verdict @ (Verdict::Flat | Verdict::FocalUnsure)) = verdict {
+            words.push_str(&format!(" {}", verdict.explanation()));
         }
         if let Some(before_px) = self.before_correction_px() {
             words.push_str(&format!(
@@ -67,7 +61,7 @@ impl Project {
                 words.push_str(&format!(" {}: {}.", photo.name, self.outcome_words(photo)));
             }
         }
-        match self.verdict() {
+        match verdict {
             Some(verdict) => format!("{}: {words}", verdict.title()),
             None => words,
         }

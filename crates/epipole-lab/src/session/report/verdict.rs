@@ -12,6 +12,8 @@ pub enum Verdict {
     Nothing,
     /// The photographs do not determine the focal length.
     FocalUnsure,
+    /// All pairs show a plane, which does not determine the focal length.
+    Flat,
     /// Number of parts that nothing joins.
     Parts(usize),
     /// Number of photographs without a camera.
@@ -48,7 +50,8 @@ impl Project {
             .filter(|(_, outcome)| counts(outcome))
             .count();
         Some(match found.components.len() {
-            _ if !self.knows_focal() || self.is_flat() => Verdict::FocalUnsure,
+            _ if self.is_flat() => Verdict::Flat,
+            _ if !self.knows_focal() => Verdict::FocalUnsure,
             parts @ 2.. => Verdict::Parts(parts),
             _ if num_left_out > 0 => Verdict::LeftOut(num_left_out),
             _ if self.before_correction_px().is_some() => Verdict::LensCorrected,
@@ -64,7 +67,7 @@ impl Project {
                 show("See why", Step::Photographs),
                 Suggestion::AddPhotographs,
             ],
-            Verdict::FocalUnsure => vec![
+            Verdict::FocalUnsure | Verdict::Flat => vec![
                 show("Type focal length", Step::Photographs),
                 show("Calibrate the camera", Step::Calibrate),
                 Suggestion::AddPhotographs,
@@ -99,7 +102,7 @@ impl Verdict {
     pub fn title(self) -> String {
         match self {
             Self::Nothing => "Nothing reconstructed".to_owned(),
-            Self::FocalUnsure => "Focal length unsure".to_owned(),
+            Self::FocalUnsure | Self::Flat => "Focal length unsure".to_owned(),
             Self::Parts(parts) => count(parts, "part"),
             Self::LeftOut(photos) => format!("{} left out", count(photos, "photograph")),
             Self::LensCorrected => "Sound reconstruction, lens corrected".to_owned(),
@@ -112,8 +115,12 @@ impl Verdict {
         match self {
             Self::Nothing => "No photographs could be joined. Each says why.",
             Self::FocalUnsure => {
-                "The photographs do not tell the focal length, so depths may be far off. Type it, calibrate, or add \
-                 photographs from other sides."
+                "The photographs do not tell the focal length: the one found may be far off, and so may all depths. Cameras \
+                 that move along a line without turning fit any. Type it, calibrate, or add photographs from other sides."
+            }
+            Self::Flat => {
+                "Every pair shows a plane and nothing else, and a plane does not tell the focal length: cameras and points are \
+                 right only if the focal length is. Type it, calibrate, or add photographs of something with depth."
             }
             Self::Parts(_) => {
                 "Nothing joins them: sizes and positions of one say nothing of the others. Add photographs that show both."
