@@ -19,7 +19,7 @@ function parametersOf(words: HTMLElement): Record<string, string> {
 /** Resolves when the browser has scrolled for changes of layout (scroll anchoring), in the frame that follows them. */
 const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
 
-/** The sentence that the page keeps together with its figure. */
+/** Ends what keeps the last operated sentence together with its figure. */
 let kept: AbortController | undefined;
 
 /**

@@ -126,7 +126,7 @@ impl EpipolarClick {
     }
 
     /// Returns the guess and the selected point, if the guess is compared with its match.
-    pub(super) fn compared(&self) -> Option<[Point2<f64>; 2]> {
+    fn compared(&self) -> Option<[Point2<f64>; 2]> {
         let guess = self.guess().filter(|_| self.shows_lines())?;
         Some([guess, self.selected()?.1])
     }
@@ -135,6 +135,13 @@ impl EpipolarClick {
     pub(super) fn guess_off_px(&self) -> Option<f64> {
         let [guess, point] = self.compared()?;
         Some((guess - self.seen(&point).pixel()?).norm())
+    }
+
+    /// Returns the distance of the guess from the epipolar line, pixels, if they are compared.
+    pub(super) fn guess_across_px(&self) -> Option<f64> {
+        let [guess, point] = self.compared()?;
+        let line = self.geometry()?.line2(&point)?;
+        Some(line.signed_distance(&guess).abs())
     }
 
     /// Returns the visibility in camera 2 of the scene point at a pixel of photograph 1.
@@ -465,6 +472,14 @@ mod tests {
             .update(&Event::clicked("second", 200.0, 60.0))
             .unwrap();
         assert_eq!(model.compared().unwrap()[0], Point2::new(200.0, 60.0));
+        for _ in 0..NUM_AT_START {
+            model.update(&Event::press(REMOVE.id)).unwrap();
+        }
+        assert!(model.describe().contains("no match to guess"));
+        assert_eq!(
+            (model.guess_off_px(), model.guess_across_px()),
+            (None, None)
+        );
         model.update(&Event::set(&SHOW, "lines")).unwrap();
         assert_eq!((model.guess(), model.compared()), (None, None));
     }

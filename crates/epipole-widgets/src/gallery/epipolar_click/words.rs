@@ -5,6 +5,7 @@ use crate::contract::{Readout, Words, format_number};
 use crate::kit::geometry::Geometry;
 use crate::kit::scenes::Seen;
 use crate::kit::words::{self, matrix, pixel, short_epipole, side};
+use nalgebra::Point2;
 
 /// Message while both cameras are at the same place.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
@@ -12,12 +13,26 @@ pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same p
     Move camera 2.";
 
 impl EpipolarClick {
-    /// Returns the distance of the guess from the line of the selected point, pixels, if they are
-    /// compared.
-    fn guess_across_px(&self) -> Option<f64> {
-        let [guess, point] = self.compared()?;
-        let line = self.geometry()?.line2(&point)?;
-        Some(line.signed_distance(&guess).abs())
+    fn guess_words(&self, guess: &Point2<f64>) -> String {
+        let Some((index, _)) = self.selected() else {
+            return "No point is chosen in photograph 1, so there is no match to guess.".to_owned();
+        };
+        let place = pixel(guess);
+        let text = format!("Your guess of the match of point {} is {place}", index + 1);
+        if !self.shows_lines() {
+            return format!("{text}; lines and matches are hidden.");
+        }
+        let number = |px: f64| format_number(px, 0);
+        let distances = [self.guess_off_px(), self.guess_across_px()];
+        match distances.map(|px| px.map(number)) {
+            [Some(off), Some(across)] => {
+                format!("{text}, {off} px from the match and {across} px from its line.")
+            }
+            [_, Some(across)] => {
+                format!("{text}, {across} px from the line. Photograph 2 does not show the match.")
+            }
+            _ => format!("{text}."),
+        }
     }
 }
 
@@ -67,21 +82,7 @@ impl Words for EpipolarClick {
         let (right_m, forward_m, left_deg) = self.motion();
         let mut text = format!("Camera 2 stands {}. ", motion(right_m, forward_m, left_deg));
         if let Some(guess) = self.guess() {
-            let number = self.selected().map_or(0, |(index, _)| index + 1);
-            let guessed = pixel(&guess);
-            text.push_str(&format!(
-                "Your guess of the match of point {number} is {guessed}"
-            ));
-            if self.shows_lines() {
-                let number = |px: Option<f64>| px.map_or("?".to_owned(), |px| format_number(px, 0));
-                let off = number(self.guess_off_px());
-                let across = number(self.guess_across_px());
-                text.push_str(&format!(
-                    ", {off} px from the match and {across} px from its line."
-                ));
-            } else {
-                text.push_str("; lines and matches are hidden.");
-            }
+            text.push_str(&self.guess_words(&guess));
             return text;
         }
         let count = self.points().count();
