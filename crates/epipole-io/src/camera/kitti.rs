@@ -86,7 +86,6 @@ fn with_lens(root: &Field, k: &Field, n: usize) -> Result<NamedCamera> {
         lens: opencv_lens(&d, &d.numbers()?)?,
     };
     let place = part("T", "three numbers")?;
-    translation(&place, place.array()?)?;
     let pose = motion(&part("R", "nine numbers")?, &place)?;
     Ok(posed(camera, pose))
 }

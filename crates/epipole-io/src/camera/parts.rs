@@ -4,7 +4,7 @@ use crate::rotation::{FOUR_DIGITS, rotation_from_matrix};
 use crate::tree::Field;
 use crate::{Error, Result};
 use epipole::camera::{Intrinsics, Lens, LensKind, RigidTransform};
-use nalgebra::{Matrix3, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Translation3, UnitQuaternion, Vector3};
 
 /// Width and height, pixels.
 pub(super) type Size = (u32, u32);
@@ -103,16 +103,22 @@ pub(super) fn translation(field: &Field, [x, y, z]: [f64; 3]) -> Result<Translat
 }
 
 /// Motion from a rotation, nine numbers row by row or a rotation vector, and a translation.
-pub(super) fn motion(rotation: &Field, translation: &Field) -> Result<RigidTransform> {
+pub(super) fn motion(rotation: &Field, place: &Field) -> Result<RigidTransform> {
     let numbers = rotation.numbers()?;
     let turn = match numbers[..] {
-        [x, y, z] => UnitQuaternion::from_scaled_axis(nalgebra::Vector3::new(x, y, z)),
+        [x, y, z] if Vector3::new(x, y, z).norm() < FAR => {
+            UnitQuaternion::from_scaled_axis(Vector3::new(x, y, z))
+        }
+        [_, _, _] => return Err(rotation.wrong("is not a rotation vector in radians")),
         _ => matrix_rotation(rotation, &numbers)?,
     };
-    let [x, y, z] = translation.numbers()?[..] else {
-        return Err(translation.wrong("is not three numbers"));
+    let [x, y, z] = place.numbers()?[..] else {
+        return Err(place.wrong("is not three numbers"));
     };
-    Ok(RigidTransform::from_parts(Translation3::new(x, y, z), turn))
+    Ok(RigidTransform::from_parts(
+        translation(place, [x, y, z])?,
+        turn,
+    ))
 }
 
 /// Motion from a 4 × 4 matrix, row by row.
@@ -194,12 +200,35 @@ mod tests {
         transposed.swap(5, 7);
         assert_eq!(intrinsics(&field, &transposed), intrinsics(&field, &k));
         assert!(intrinsics(&field, &k[..6]).is_err());
-        let turn = UnitQuaternion::from_scaled_axis(nalgebra::Vector3::new(0.1, 0.2, 0.3));
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3));
         let numbers: Vec<f64> = (turn.to_rotation_matrix().matrix().transpose().iter())
             .map(|x: &f64| (x * 1e5).round() / 1e5)
             .collect();
         let read = matrix_rotation(&field, &numbers).unwrap();
         assert!(read.angle_to(&turn) < 1e-5);
         assert!(matrix_rotation(&field, &[0.5; 9]).is_err());
+    }
+
+    #[test]
+    fn motions_without_end_are_refused() {
+        let read = |text: &str| {
+            let node = Syntax::Json.parse(text).unwrap();
+            let root = Field::root(&node);
+            motion(&root.get("R").unwrap(), &root.get("T").unwrap())
+        };
+        assert!(read(r#"{"R": [0.1, 0, 0], "T": [1, 2, 3]}"#).is_ok());
+        for (text, why) in [
+            (
+                r#"{"R": [-1e308, 0, 1], "T": [1, 2, 3]}"#,
+                "not a rotation vector",
+            ),
+            (
+                r#"{"R": [0.1, 0, 0], "T": [1e308, 2, 3]}"#,
+                "too far for a camera",
+            ),
+        ] {
+            let error = read(text).unwrap_err().to_string();
+            assert!(error.contains(why), "{error}");
+        }
     }
 }

@@ -175,6 +175,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
                     true => pose.seen_from_vertex(information, offset(line, ids[2])?),
                     false => (pose, information),
                 };
+                check_finite(line, &from_from_to, &information)?;
                 graph.edges.push(Edge {
                     from: find_kind(line, ids[0], false)?,
                     to: find_kind(line, ids[1], is_sighting)?,
@@ -186,6 +187,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             // A position is that of the vertex, whatever the offset: so g2o has it.
             let (world_from_vertex, information) = if T::HAS_OFFSET && kind == Kind::Prior {
                 let (pose, information) = pose.without_offset(information, offset(line, ids[1])?);
+                check_finite(line, &pose, &information)?;
                 if !is_positive_semidefinite(&information) {
                     let why = "the offset is too far for the information matrix";
                     return Err(Error::at(line, why));
@@ -206,6 +208,24 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             }
         }
         Ok(graph)
+    }
+}
+
+/// # Errors
+/// [`Error::Malformed`] where finite numbers gave infinite ones.
+fn check_finite<T: Written<D>, const D: usize>(
+    line: usize,
+    pose: &T,
+    information: &SMatrix<f64, D, D>,
+) -> Result<()> {
+    let mut numbers = Vec::new();
+    pose.write(&mut numbers);
+    match numbers.iter().chain(information).all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(Error::at(
+            line,
+            "a number is too large to shift it by the offset",
+        )),
     }
 }
 

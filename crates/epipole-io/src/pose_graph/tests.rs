@@ -98,6 +98,12 @@ fn malformed_texts_name_the_line() {
             2,
             "no line PARAMS_SE3OFFSET 7",
         ),
+        (
+            "PARAMS_SE3OFFSET 3 0.5 0 0 0 0.6 0 0\nVERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n\
+             VERTEX_TRACKXYZ 1 4 -5 6\nEDGE_SE3_TRACKXYZ 0 1 3 0.1 0.2 -1e308 2 0.5 0.25 3 1 5\n",
+            4,
+            "too large to shift it by the offset",
+        ),
         ("VERTEX_SE2 0 0,5 0 0\n", 1, "“0,5” has a decimal comma"),
         (
             "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 7 1 0 0 4 0 0 4 0 4\n",
