@@ -4,7 +4,7 @@ use crate::text::{decode, lines};
 use crate::{Result, table};
 use nalgebra::{Point2, Point3};
 use std::borrow::Cow;
-use std::fmt::Write as _;
+use std::fmt::Display;
 
 /// Reads matches of two images: `u1 v1 u2 v2` a line, pixels.
 ///
@@ -111,7 +111,7 @@ pub enum MatchLayout {
 }
 
 /// Writes matches with the distance of their descriptors and its ratio to the second nearest:
-/// `u1 v1 u2 v2 distance ratio` a line.
+/// `u1 v1 u2 v2 distance ratio` a line, or `u1 v1 u2 v2` where none are given.
 ///
 /// ```
 /// use epipole_io::matches::{MatchLayout, read_matches, write_matches};
@@ -127,20 +127,54 @@ pub fn write_matches(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     distances_and_ratios: &[[f32; 2]],
 ) -> String {
+    let names = ["u1", "v1", "u2", "v2", "distance", "ratio"];
+    let pairs = pixels1.iter().zip(pixels2);
+    match distances_and_ratios {
+        [] => rows(
+            layout,
+            &names[..4],
+            pairs.map(|(a, b)| vec![&a.x as &dyn Display, &a.y, &b.x, &b.y]),
+        ),
+        tests => rows(
+            layout,
+            &names,
+            pairs.zip(tests).map(|((a, b), [distance, ratio])| {
+                vec![&a.x as &dyn Display, &a.y, &b.x, &b.y, distance, ratio]
+            }),
+        ),
+    }
+}
+
+/// Writes points of an image: `u v` a line.
+///
+/// ```
+/// use epipole_io::matches::{MatchLayout, read_points, write_points};
+/// let points = vec![nalgebra::Point2::new(1.5, 2.0)];
+/// let text = write_points(MatchLayout::Text, &points);
+/// assert_eq!(text, "# u v\n1.5 2\n");
+/// assert_eq!(read_points(text.as_bytes())?, points);
+/// # Ok::<(), epipole_io::Error>(())
+/// ```
+pub fn write_points(layout: MatchLayout, pixels: &[Point2<f64>]) -> String {
+    let points = pixels.iter().map(|p| vec![&p.x as &dyn Display, &p.y]);
+    rows(layout, &["u", "v"], points)
+}
+
+/// A line of names, and a line for each row.
+fn rows<'a>(
+    layout: MatchLayout,
+    names: &[&str],
+    values: impl Iterator<Item = Vec<&'a dyn Display>>,
+) -> String {
     let (before, separator) = match layout {
         MatchLayout::Text => ("# ", " "),
         MatchLayout::Csv => ("", ","),
     };
-    let names = ["u1", "v1", "u2", "v2", "distance", "ratio"].join(separator);
-    let mut text = format!("{before}{names}\n");
-    for ((a, b), [distance, ratio]) in pixels1.iter().zip(pixels2).zip(distances_and_ratios) {
-        let s = separator;
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{}{s}{}{s}{}{s}{}{s}{distance}{s}{ratio}",
-            a.x, a.y, b.x, b.y
-        );
+    let mut text = format!("{before}{}\n", names.join(separator));
+    for row in values {
+        let words: Vec<String> = row.iter().map(ToString::to_string).collect();
+        text.push_str(&words.join(separator));
+        text.push('\n');
     }
     text
 }

@@ -5,6 +5,7 @@
 mod columns;
 mod euroc;
 mod format;
+mod frames;
 mod kitti;
 mod path;
 mod read;
@@ -15,6 +16,7 @@ mod words;
 mod write;
 
 pub use format::TrajectoryFormat;
+pub use frames::frame_stamps_ns;
 pub use path::Trajectory;
 pub use read::{is_trajectory, read_trajectory};
 pub use write::write_trajectory;

@@ -7,6 +7,7 @@
 //! `state_groundtruth_estimate0`.
 
 use super::path::Trajectory;
+use super::words::numbers;
 use std::fmt::Write;
 
 pub(super) fn write(stamps_ns: &[i64], trajectory: &Trajectory) -> String {
@@ -16,11 +17,8 @@ pub(super) fn write(stamps_ns: &[i64], trajectory: &Trajectory) -> String {
     );
     for (stamp, pose) in stamps_ns.iter().zip(&trajectory.world_from_cam) {
         let (t, q) = (pose.translation.vector, pose.rotation.coords);
-        let _ = writeln!(
-            text,
-            "{stamp},{},{},{},{},{},{},{}",
-            t.x, t.y, t.z, q.w, q.x, q.y, q.z
-        );
+        let numbers = numbers([t.x, t.y, t.z, q.w, q.x, q.y, q.z]).join(",");
+        let _ = writeln!(text, "{stamp},{numbers}");
     }
     text
 }

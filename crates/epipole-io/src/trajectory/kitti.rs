@@ -4,7 +4,7 @@
 //! Source: Geiger, Lenz & Urtasun 2012, KITTI, development kit of odometry, `readme.txt`.
 
 use super::path::Trajectory;
-use super::words::words;
+use super::words::{numbers, words};
 use crate::rotation::rotation_from_matrix;
 use crate::text::{lines, number};
 use crate::{Error, Result};
@@ -49,9 +49,7 @@ pub(super) fn write(trajectory: &Trajectory) -> String {
     let mut text = String::new();
     for pose in &trajectory.world_from_cam {
         let matrix = pose.to_homogeneous();
-        let numbers: Vec<String> = (0..12)
-            .map(|i| matrix[(i / 4, i % 4)].to_string())
-            .collect();
+        let numbers = numbers((0..12).map(|i| matrix[(i / 4, i % 4)]));
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", numbers.join(" "));
     }

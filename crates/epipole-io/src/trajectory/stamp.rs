@@ -47,7 +47,7 @@ pub(super) fn from_nanoseconds(line: usize, word: &str) -> Result<i64> {
 }
 
 /// A decimal without exponent that fits.
-fn decimal(word: &str) -> Option<i64> {
+pub(super) fn decimal(word: &str) -> Option<i64> {
     let (sign, digits) = match word.strip_prefix('-') {
         Some(digits) => (-1, digits),
         None => (1, word),

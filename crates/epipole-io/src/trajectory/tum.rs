@@ -5,6 +5,7 @@
 
 use super::path::Trajectory;
 use super::stamp::to_seconds;
+use super::words::numbers;
 use std::fmt::Write;
 
 pub(super) fn write(stamps_ns: &[i64], trajectory: &Trajectory) -> String {
@@ -13,11 +14,8 @@ pub(super) fn write(stamps_ns: &[i64], trajectory: &Trajectory) -> String {
     for (stamp, pose) in stamps_ns.iter().zip(&trajectory.world_from_cam) {
         let (t, q) = (pose.translation.vector, pose.rotation.coords);
         let stamp = to_seconds(*stamp);
-        let _ = writeln!(
-            text,
-            "{stamp} {} {} {} {} {} {} {}",
-            t.x, t.y, t.z, q.x, q.y, q.z, q.w
-        );
+        let numbers = numbers([t.x, t.y, t.z, q.x, q.y, q.z, q.w]).join(" ");
+        let _ = writeln!(text, "{stamp} {numbers}");
     }
     text
 }

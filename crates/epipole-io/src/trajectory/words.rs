@@ -54,6 +54,12 @@ pub(super) fn pose(line: usize, position: &[&str], rotation: [&str; 4]) -> Resul
     ))
 }
 
+/// Texts of numbers, 0 for −0.
+pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> Vec<String> {
+    let texts = values.into_iter().map(|value| (value + 0.0).to_string());
+    texts.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

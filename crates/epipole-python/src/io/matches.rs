@@ -105,14 +105,16 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
     Ok((pixels(py, &found.0)?, from_rows(py, &rows)?))
 }
 
-/// Writes matches: ``u1 v1 u2 v2 distance ratio`` a line.
+/// Writes matches: ``u1 v1 u2 v2 distance ratio`` a line, or ``u1 v1 u2 v2`` without ``distances``
+/// and ``ratios``.
 ///
 /// Parameters
 /// ----------
 /// path : str or os.PathLike
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// distances, ratios : array_like, shape (N,), optional
-///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if not given.
+///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the other
+///     is given.
 /// layout : {"text", "csv"}, optional
 ///
 /// Raises
@@ -139,12 +141,14 @@ fn write_matches(
         require_equal(("pixels1", count), (name, numbers.len()))?;
         PyResult::Ok(numbers)
     };
+    let has_tests = distances.is_some() || ratios.is_some();
     let distances = numbers("distances", distances)?;
     let ratios = numbers("ratios", ratios)?;
     let both: Vec<_> = distances
         .into_iter()
         .zip(ratios)
         .map(|(d, r)| [d, r])
+        .filter(|_| has_tests)
         .collect();
     let layouts = [("text", MatchLayout::Text), ("csv", MatchLayout::Csv)];
     let layout = format_of(&layouts, layout)?;
