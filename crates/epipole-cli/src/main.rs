@@ -6,6 +6,7 @@
 
 mod camera;
 mod commands;
+mod config;
 mod content;
 mod context;
 mod failure;
@@ -34,11 +35,14 @@ mod short_help;
 mod turn;
 mod units;
 
+use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use context::Context;
 use failure::Failure;
 use report::Report;
+use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -61,6 +65,13 @@ struct Cli {
     /// Number of threads [default: all cores].
     #[arg(long, global = true, display_order = LAST, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// TOML file of options: keys before the first table are for every command, [sfm] is for sfm.
+    /// Options of the command line win.
+    #[arg(long, global = true, display_order = LAST, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Print the options of the command as TOML, as --config reads them, and do nothing else.
+    #[arg(long, global = true, display_order = LAST)]
+    dump_config: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -70,7 +81,21 @@ fn main() -> ExitCode {
     if std::env::args().any(|argument| argument == "-h") {
         command = short_help::shortened(command);
     }
-    let parsed = command.try_get_matches();
+    command.build();
+    let arguments = match config::with_file(&command, std::env::args_os().collect()) {
+        Ok(arguments) => arguments,
+        Err(failure) => {
+            print_failure(
+                &failure,
+                std::env::args().any(|argument| argument == "--json"),
+            );
+            return failure.exit_code();
+        }
+    };
+    let parsed = command.clone().try_get_matches_from(&arguments);
+    if let Some(dumped) = dumped(&command, &arguments, &parsed) {
+        return dumped;
+    }
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return wrong_usage(&error),
@@ -101,6 +126,34 @@ fn command() -> clap::Command {
     };
     (Cli::command().mut_args(with_negatives))
         .mut_subcommands(|subcommand| subcommand.mut_args(with_negatives))
+}
+
+/// Prints the options of a command line with `--dump-config`, also where only files are missing.
+fn dumped(
+    command: &clap::Command,
+    arguments: &[OsString],
+    parsed: &Result<clap::ArgMatches, clap::Error>,
+) -> Option<ExitCode> {
+    if let Err(error) = parsed
+        && error.kind() != ErrorKind::MissingRequiredArgument
+    {
+        return None;
+    }
+    let matches = config::partial_matches(command, arguments).ok()?;
+    let (_, given) = matches.subcommand()?;
+    if !given.get_flag("dump_config") {
+        return None;
+    }
+    Some(match config::dump(command, &matches) {
+        Ok(text) => match files::print_bytes(text.as_bytes()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(_) => ExitCode::FAILURE,
+        },
+        Err(failure) => {
+            print_failure(&failure, given.get_flag("json"));
+            failure.exit_code()
+        }
+    })
 }
 
 /// Help and version go where they belong; under `--json` a usage error is JSON too.

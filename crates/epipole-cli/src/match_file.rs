@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use crate::files;
 use epipole_io::matches::{
-    MatchLayout, PixelsAndPoints, read_matches, read_points, read_points_with_pixels, write_matches,
+    MatchLayout, PixelsAndPoints, read_matches, read_points, read_points_with_pixels,
+    write_matches, write_points,
 };
 use nalgebra::Point2;
 use std::path::Path;
@@ -37,17 +38,32 @@ pub(crate) fn points_with_pixels(path: &Path) -> Result<PixelsAndPoints, Failure
     read(path, read_points_with_pixels)
 }
 
-/// Text of matches, with the distance of their descriptors and its ratio to the second nearest.
-/// Columns have commas between them if the name of its file ends in `.csv`.
+/// Text of matches, with the distance of their descriptors and its ratio to the second nearest, if
+/// there are any.
 pub(crate) fn text(
     path: &Path,
     pixels: [&[Point2<f64>]; 2],
     distances_and_ratios: &[[f32; 2]],
 ) -> String {
-    let is_csv = (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    let layout = match is_csv {
-        true => MatchLayout::Csv,
-        false => MatchLayout::Text,
-    };
-    write_matches(layout, pixels, distances_and_ratios)
+    write_matches(layout(path), pixels, distances_and_ratios)
+}
+
+/// Text of the inliers of matches, or of points where the second list is empty.
+pub(crate) fn inliers(path: &Path, pixels: [&[Point2<f64>]; 2], mask: &[bool]) -> String {
+    let kept = pixels.map(|list| -> Vec<Point2<f64>> {
+        let kept = list.iter().zip(mask).filter(|(_, is_inlier)| **is_inlier);
+        kept.map(|(pixel, _)| *pixel).collect()
+    });
+    match pixels {
+        [_, []] => write_points(layout(path), &kept[0]),
+        _ => text(path, [&kept[0], &kept[1]], &[]),
+    }
+}
+
+/// Columns have commas between them if the name of the file ends in `.csv`.
+fn layout(path: &Path) -> MatchLayout {
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("csv") => MatchLayout::Csv,
+        _ => MatchLayout::Text,
+    }
 }

@@ -87,7 +87,7 @@ const RARE: [(&str, &[&str]); 6] = [
         ],
     ),
     ("stitch", &["max-features"]),
-    ("two-view", &["max-features"]),
+    ("two-view", &["max-features", "ratio"]),
 ];
 
 /// Text of an option that is cut at a comma if it is longer, characters.

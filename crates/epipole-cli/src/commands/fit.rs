@@ -59,6 +59,9 @@ pub(crate) struct Arguments {
     model: Model,
     /// A text file with one match a line; - for standard input.
     matches: PathBuf,
+    /// Write the inliers; with commas if the name ends in .csv; -: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Intrinsics of camera 1. For the essential matrix.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
@@ -164,6 +167,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     if let Some(could_be_turn) = found.could_be_turn {
         report = report.field("could_be_turn", could_be_turn);
+    }
+    if let Some(path) = &arguments.output {
+        let text = match_file::inliers(path, [&pixels1, &pixels2], &found.inliers);
+        report = report.file(path, text.into_bytes())?;
     }
     Ok(report)
 }

@@ -24,6 +24,7 @@ use epipole::sfm::{
     Odometry, OdometryOptions, OdometryResult, Photo as SfmPhoto, PhotoFeatures, PhotoOptions,
     SfmImage, SfmInput, match_features, match_rectified, photo_features,
 };
+use epipole_io::trajectory::{Trajectory, TrajectoryFormat, frame_stamps_ns, write_trajectory};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -44,6 +45,8 @@ use std::path::{Path, PathBuf};
     length; that of a rectified stereo rig has the unit of its baseline:\n  \
     epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2\n\n\
     Where the focal length is but a guess it is refined at the end, by all frames together.\n\n\
+    The trajectory has the frames that were placed. Their times are their names where these are numbers (seconds, or\n\
+    nanoseconds), or else their numbers from 0. epipole compare and convert read it.\n\n\
     JSON: frames (name and world_from_cam with rotation and translation, or null), keyframes and lost\n\
     (places in that list), focal_px, focal_refined (whether it was), lens and distortion (as in the output of sfm), of\n\
     the left camera, complete (false after Ctrl-C)."
@@ -52,6 +55,9 @@ pub(crate) struct Arguments {
     /// The folder of the frames; of the left camera, if there are two.
     #[arg(value_name = "FOLDER")]
     frames: PathBuf,
+    /// Write the trajectory: EuRoC if the name ends in .csv, else TUM; -: TUM on standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
     /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
@@ -172,12 +178,37 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
     let refined_from = (options.final_adjustment && options.sfm.refine_focal && result.is_complete)
         .then_some(begun_with_px);
-    Ok(report(
+    let report = report(
         &result,
         &left_frames,
         arguments.stereo_baseline_m.is_some(),
         refined_from,
-    ))
+    );
+    match &arguments.output {
+        Some(path) => report.file(path, trajectory(path, &left_frames, &result)?.into_bytes()),
+        None => Ok(report),
+    }
+}
+
+/// Text of the trajectory of the frames that were placed.
+fn trajectory(path: &Path, listed: &[Listed], result: &OdometryResult) -> Result<String, Failure> {
+    let names: Vec<&str> = listed.iter().map(|frame| &*frame.name).collect();
+    let counted = || (0..).step_by(1_000_000_000).take(names.len()).collect();
+    let stamps_ns = frame_stamps_ns(&names).unwrap_or_else(counted);
+    let poses = stamps_ns.into_iter().zip(&result.world_from_cam);
+    let (stamps_ns, world_from_cam) = poses
+        .filter_map(|(stamp_ns, pose)| Some((stamp_ns, (*pose)?)))
+        .unzip();
+    let placed = Trajectory {
+        stamps_ns: Some(stamps_ns),
+        world_from_cam,
+        ..Trajectory::default()
+    };
+    let format = match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("csv") => TrajectoryFormat::EuRoC,
+        _ => TrajectoryFormat::Tum,
+    };
+    write_trajectory(format, &placed).map_err(|error| Failure::from(error).about(path))
 }
 
 impl Work<'_> {

@@ -13,6 +13,7 @@ use self::input::Input;
 use self::search::estimate;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::match_file;
 use crate::matrices::{Motion, row_major};
 use crate::report::Report;
 use crate::robust::threshold_words;
@@ -52,6 +53,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut report = Report::default();
     if let Some([first, second]) = nums_keypoints {
         report = report.row("keypoints", format!("{first} and {second}"));
+    }
+    if let Some(path) = &arguments.output {
+        let text = match_file::inliers(path, [&pixels1, &pixels2], &found.inliers);
+        report = report.file(path, text.into_bytes())?;
     }
     Ok(report
         .row("matches", rows.len())

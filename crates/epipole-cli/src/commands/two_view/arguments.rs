@@ -69,6 +69,9 @@ pub(crate) struct Arguments {
     /// Take the matches of a file instead of features; the photos may then be left out.
     #[arg(long, value_name = "FILE")]
     pub(super) matches: Option<PathBuf>,
+    /// Write the matches that are inliers; with commas if the name ends in .csv; -: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
     /// Which model to look for.
     #[arg(long, value_enum, default_value = "auto")]
     pub(super) model: Model,
