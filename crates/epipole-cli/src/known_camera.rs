@@ -106,6 +106,13 @@ impl CameraFile {
             return Ok([first?, second?]);
         };
         let camera = lens::read(file, Some(paths[0]))?;
+        if lens::read_rig(file, Some(paths[0])).is_ok() {
+            context.warn(&format!(
+                "{} holds a rig: both photographs are taken to be by its first camera; epipole rectify --rig uses both \
+                 cameras and their pose",
+                file.display()
+            ));
+        }
         tell_of_unseen(&camera, context)?;
         let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera, context));
         let photos = [first?, second?];

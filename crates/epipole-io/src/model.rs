@@ -25,7 +25,7 @@ pub use folder::ModelFolder;
 pub use format::{ModelFormat, ReadModel, format_of_file, read_model_file, read_model_folder};
 pub use rig::{Rig, RigCamera, RigFrame};
 
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Trajectory, frame_stamps_ns};
 use crate::{Error, Result};
 use epipole::camera::{Camera, RigidTransform};
 use epipole::stereo::PointCloud;
@@ -159,10 +159,13 @@ impl ModelFile {
 }
 
 impl Model {
-    /// Poses of the images in their order, without times.
+    /// Poses of the images in their order, with times if the images are
+    /// [named by them](frame_stamps_ns).
     pub fn trajectory(&self) -> Trajectory {
         let poses = self.images.iter();
+        let names: Vec<&str> = self.images.iter().map(|image| &*image.name).collect();
         Trajectory {
+            stamps_ns: frame_stamps_ns(&names),
             world_from_cam: poses.map(|image| image.cam_from_world.inverse()).collect(),
             ..Trajectory::default()
         }

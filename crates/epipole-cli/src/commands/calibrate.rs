@@ -44,9 +44,10 @@ pub(crate) struct Arguments {
     /// AprilGrid, disks.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     board: (usize, usize),
-    /// Side of a square or tag. Of circles the distance of two rows; the unit of all places.
-    #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = positive)]
-    square_m: f64,
+    /// Side of a square or tag [default: 1, so that lengths are in squares]. Of circles the distance
+    /// of two rows.
+    #[arg(long, value_name = "S", value_parser = positive)]
+    square_m: Option<f64>,
     /// The side of a ChArUco board's markers [default: three quarters of a square].
     #[arg(long, value_name = "M", value_parser = positive)]
     marker_m: Option<f64>,
@@ -78,10 +79,12 @@ const LEAST_ERROR_PX: f64 = 0.2;
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let format = arguments.output.as_deref().map(format_of).transpose()?;
     let (columns, rows) = arguments.board;
-    let pattern = arguments
-        .pattern
-        .pattern(arguments.marker_m, arguments.square_m);
-    let board = Board::new(pattern, columns, rows, arguments.square_m)
+    let (square_m, unit) = match arguments.square_m {
+        Some(square_m) => (square_m, "m"),
+        None => (1.0, "squares"),
+    };
+    let pattern = arguments.pattern.pattern(arguments.marker_m, square_m);
+    let board = Board::new(pattern, columns, rows, square_m)
         .map_err(|error| Failure::usage(error.to_string()))?;
     let left_photos = arguments.listing.photos(&arguments.photos, context)?;
     let right_photos = arguments.listing.photos(&arguments.right, context)?;
@@ -124,7 +127,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         fields.insert("stereo".to_owned(), stereo(&rig));
         report = right.rows(report.row("right camera", ""));
         report = report
-            .row("baseline", format!("{:.6} m", rig.baseline_m))
+            .row("baseline", format!("{:.6} {unit}", rig.baseline_m))
             .row("stereo error", format!("{:.3} px", rig.rms_px));
     }
     fields.insert("warnings".to_owned(), json!(warnings));

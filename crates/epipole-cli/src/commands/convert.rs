@@ -27,7 +27,8 @@ use std::path::{Path, PathBuf};
     model.html (a page to turn and measure it), model.glb, points.ply, transforms.json, sfm_data.json, bundle.out;\n\
     cameras.yml (OpenCV), camera.json, cameras.txt; path.txt (TUM, or KITTI of KITTI), path.csv (EuRoC). A folder is COLMAP's, binary unless A is.\n\
     Files of an earlier conversion to the same format are removed, others stay.\n\n\
-    A model may also become cameras or a trajectory: the poses of its images in their order, without times.\n\n\
+    A model may also become cameras or a trajectory: the poses of its images in their order, with\n\
+    times if the images are named by them.\n\n\
     COLMAP cuts names at their first blank in text files, not in binary ones.\n\n\
     JSON: read (format of A), written (files), kind (format of B), counts (cameras, images, points; poses of a\n\
     trajectory), notes (what was left out)."

@@ -30,7 +30,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let options = arguments.render_options();
     let whole = render_panorama(&panorama, &photos, &options, &mut |status| {
         progress.show(status)
-    })?;
+    });
+    let whole = whole.map_err(|error| with_parallax(error.into(), judged.has_parallax))?;
     drop(progress);
     files::write(&arguments.output, &encode(&whole)?)?;
 
@@ -64,6 +65,20 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("mean_error_px", judged.mean_error_px)
         .field("photos", rows.collect::<Vec<Value>>())
         .field("overlaps", judged.rows))
+}
+
+/// The likely cause where rotations of photos that are not from one place cannot be drawn.
+fn with_parallax(failure: Failure, has_parallax: bool) -> Failure {
+    match failure.kind {
+        "degenerate" if has_parallax => Failure {
+            message: format!(
+                "{failure}. The camera moved between the photos, so their rotations may be wrong; photos of a plane \
+                 need --model homography"
+            ),
+            ..failure
+        },
+        _ => failure,
+    }
 }
 
 type Encode = fn(&RgbImage) -> Result<Vec<u8>, Failure>;

@@ -19,6 +19,42 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 #[test]
+fn a_file_holds_options() {
+    let folder = Folder::new("config");
+    let points = folder.write("points.txt", "0 0\n1 1\n2 2\n3 3.5\n4 4\n5 5\n6 6\n9 1\n");
+    let config = folder.write(
+        "options.toml",
+        "json = true\n[fit]\nmodel = \"line\"\nmax-error-px = 0.1\n",
+    );
+    let read = ["fit", path(&points), "--config", path(&config)];
+    let found = parse(&epipole(&read));
+    assert_eq!(found["num_inliers"], 6);
+    let wide = [&read[..], &["--max-error-px", "1"]].concat();
+    assert_eq!(parse(&epipole(&wide))["num_inliers"], 7);
+
+    let dumped = epipole(&["fit", "--dump-config", "--config", path(&config)]);
+    let text = String::from_utf8(dumped.stdout).unwrap();
+    assert!(
+        text.contains("json = true") && text.contains("max-error-px = 0.1"),
+        "{text}"
+    );
+
+    folder.write("options.toml", "[fit]\nmax-errors = 1\n");
+    fails(
+        &folder,
+        &read,
+        2,
+        "options.toml: max-errors: epipole fit has no such option",
+    );
+    fails(
+        &folder,
+        &["fit", path(&points), "--config", "none"],
+        1,
+        "there is no such file",
+    );
+}
+
+#[test]
 fn a_figure_is_described_with_what_it_computes() {
     let folder = Folder::new("described");
     let png = folder.file("harris.png");

@@ -89,6 +89,36 @@ fn matches_that_were_written_give_the_same_geometry() {
 }
 
 #[test]
+fn inliers_that_were_written_all_agree() {
+    let folder = Folder::new("inliers");
+    let k = pair(&folder);
+    let [a, b, text, kept] =
+        ["a.png", "b.png", "matches.txt", "kept.csv"].map(|name| folder.file(name));
+    json(&[
+        "match",
+        path(&a),
+        path(&b),
+        "--ratio",
+        "1",
+        "-o",
+        path(&text),
+    ]);
+    let fit = ["fit", "--model", "fundamental", path(&text)];
+    let pose = ["two-view", "--matches", path(&text), "--k", &k];
+    for arguments in [&fit[..], &pose[..]] {
+        let found = json(&[arguments, &["-o", path(&kept)]].concat());
+        let count = &found["num_inliers"];
+        let again = json(&["fit", "--model", "fundamental", path(&kept)]);
+        assert_eq!(again["inliers"].as_array().unwrap().len(), *count);
+        assert_eq!(again["num_inliers"], *count);
+    }
+    let points = folder.write("points.txt", "0 0\n1 1\n2 2\n3 3\n4 4\n5 5\n6 6\n9 1\n");
+    let line = epipole(&["fit", "--model", "line", path(&points), "-o", "-"]);
+    let written = String::from_utf8(line.stdout).unwrap();
+    assert_eq!(written, "# u v\n0 0\n1 1\n2 2\n3 3\n4 4\n5 5\n6 6\n");
+}
+
+#[test]
 fn without_photos_the_camera_must_be_said() {
     let folder = Folder::new("matches-alone");
     let rows = (0..20).map(|n| format!("{} {} {} {}\n", n * 7 % 20, n, n * 7 % 20 + 3, n));

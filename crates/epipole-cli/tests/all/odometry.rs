@@ -3,6 +3,7 @@
 use crate::common::lens;
 use crate::common::{Folder, epipole, fails, json, k, motion, moved, numbers, parse, path};
 use epipole::camera::{LensKind, PosedCamera, RigidTransform, look_at};
+use epipole_io::trajectory::read_trajectory;
 use nalgebra::{Point3, Vector3};
 use serde_json::Value;
 
@@ -54,9 +55,32 @@ fn a_moving_camera_is_followed_up_to_scale() {
     let cameras: Vec<PosedCamera> = (0..8).map(along).collect();
     folder.photographs("left", &cameras, SIZE);
     let left = folder.file("left");
-    let result = json(&["odometry", path(&left), "--k", &k(&cameras[0])]);
+    let written = folder.file("path.txt");
+    let camera = k(&cameras[0]);
+    let result = json(&[
+        "odometry",
+        path(&left),
+        "--k",
+        &camera,
+        "-o",
+        path(&written),
+    ]);
     assert_eq!(result["lost"], Value::Array(Vec::new()));
     assert_eq!(result["complete"], true);
+    let text = std::fs::read_to_string(&written).unwrap();
+    let times: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    assert_eq!(
+        times,
+        ["#", "0.0", "1.0", "2.0", "3.0", "4.0", "5.0", "6.0", "7.0"]
+    );
+    let (_, read) = read_trajectory(text.as_bytes()).unwrap();
+    for (read, told) in read.world_from_cam.iter().zip(path_of(&result)) {
+        let off = read.to_homogeneous() - told.to_homogeneous();
+        assert!(off.amax() < 1e-12, "{off}");
+    }
     assert_eq!(result["frames"][3]["name"], "3.png");
     let keyframes = numbers(&result["keyframes"]);
     assert!(keyframes.len() >= 2 && keyframes.windows(2).all(|pair| pair[0] < pair[1]));

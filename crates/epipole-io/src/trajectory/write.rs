@@ -31,7 +31,8 @@ pub fn write_trajectory(format: TrajectoryFormat, trajectory: &Trajectory) -> Re
             .filter(|stamps| stamps.len() == trajectory.world_from_cam.len())
             .ok_or_else(|| {
                 Error::unsupported(format!(
-                    "{} needs a time for each pose, and these poses have none",
+                    "{} needs a time for each pose, and these poses have none: images that are named by their times, such \
+                     as 1305031102.175304.png, give them; KITTI needs none",
                     format.name()
                 ))
             })

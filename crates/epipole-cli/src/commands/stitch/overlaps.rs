@@ -35,6 +35,8 @@ pub(super) struct Overlaps {
 pub(super) struct Judged {
     pub(super) mean_error_px: f64,
     pub(super) rows: Vec<Value>,
+    /// Whether the camera moved between two photos.
+    pub(super) has_parallax: bool,
 }
 
 impl Overlaps {
@@ -150,6 +152,7 @@ impl Overlaps {
         Judged {
             mean_error_px: sum_px / count.max(1) as f64,
             rows,
+            has_parallax: !moved.is_empty(),
         }
     }
 }
