@@ -1,4 +1,4 @@
-//! Bringing two reconstructions into one frame, and how far apart they then are.
+//! Alignment of two reconstructions, and trajectory errors.
 
 use crate::camera::RigidTransform;
 use crate::math::order::at_rank;
@@ -16,14 +16,14 @@ use nalgebra::{Matrix3, Point3, Rotation3, Similarity3, Translation3, UnitQuater
 pub enum AlignmentKind {
     /// Position and orientation.
     Rigid,
-    /// Position, orientation and scale, as for what one moving camera sees.
+    /// Position, orientation and scale, as for a single moving camera.
     #[default]
     Similarity,
 }
 
-/// The transform `T` that minimizes `Σ ‖T fromᵢ − toᵢ‖²`, in closed form.
+/// Finds the transform `T` that minimizes `Σ ‖T fromᵢ − toᵢ‖²`, in closed form.
 ///
-/// * `from`, `to`: matched points, at least three that are not on one line
+/// * `from`, `to`: matched points, at least three, not all on one line
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than three
@@ -92,9 +92,9 @@ pub fn align_points(
         Ok(spread)
     };
     let (from_spread, to_spread) = (spread(from, &from_mean)?, spread(to, &to_mean)?);
-    // Along the axes of each set. Of points near a line the covariance has singular values of very
-    // different size, and the rotation about that line is in the vectors of the small ones: in any
-    // other frame, rounding of the long coordinates would drown them.
+    // The principal axes of each set. For points near a line, the singular values differ widely,
+    // and the rotation about the line is in the vectors of the small ones: in any other frame,
+    // rounding of the long coordinates would swamp them.
     let (from_axes, to_axes) = (from_spread.u, to_spread.u);
     let mut covariance = Matrix3::zeros();
     for (a, b) in from.iter().zip(to) {
@@ -108,7 +108,7 @@ pub fn align_points(
         v,
     } = svd3(&covariance);
     let (u, v) = (to_axes * u, from_axes * v);
-    // A reflection would fit better than any rotation where this is −1: turn the weakest axis.
+    // At −1 a reflection would fit better than any rotation: flip the weakest axis.
     let sign = (u * v.transpose()).determinant().signum();
     let signs = Vector3::new(1.0, 1.0, sign);
     let rotation = u * Matrix3::from_diagonal(&signs) * v.transpose();
@@ -139,11 +139,11 @@ pub fn align_points(
 pub struct ErrorStatistics {
     /// Root of the mean square.
     pub rmse: f64,
-    /// Mean.
+    /// Arithmetic mean.
     pub mean: f64,
-    /// Median, the lower one of an even number.
+    /// Median; the lower of the two for an even number.
     pub median: f64,
-    /// Largest.
+    /// Maximum.
     pub max: f64,
 }
 
@@ -166,7 +166,8 @@ impl ErrorStatistics {
     }
 }
 
-/// The absolute trajectory error: distances between camera centers after the best alignment.
+/// Computes the absolute trajectory error: distances between camera centers after the best
+/// alignment.
 ///
 /// * `estimated`, `truth`: centers of the same cameras, in the same order
 ///
@@ -191,21 +192,21 @@ pub fn absolute_trajectory_error(
     Ok((ErrorStatistics::new(errors), truth_from_estimated))
 }
 
-/// Errors of the motion between frames.
+/// Relative pose error of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativePoseError {
-    /// Of the translation, in the unit of the trajectories.
+    /// Error of the translation, in the unit of the trajectories.
     pub translation: ErrorStatistics,
-    /// Of the rotation, degrees.
+    /// Error of the rotation, degrees.
     pub rotation_deg: ErrorStatistics,
 }
 
-/// The relative pose error over `step` frames: what remains of the estimated motion after the
-/// true one is undone, `(Qᵢ⁻¹ Qᵢ₊ₛ)⁻¹ (Pᵢ⁻¹ Pᵢ₊ₛ)`.
+/// Computes the relative pose error over `step` frames: the difference between the estimated and
+/// the true motion, `(Qᵢ⁻¹ Qᵢ₊ₛ)⁻¹ (Pᵢ⁻¹ Pᵢ₊ₛ)`.
 ///
-/// * `estimated`, `truth`: `world_from_cam` of the same frames, in order; scale the estimate of a
-///   single camera before, for example by the scale of [`align_points`]
-/// * `step`: frames between the two ends of a motion, at least 1
+/// * `estimated`, `truth`: `world_from_cam` of the same frames, in order; for a monocular estimate
+///   correct the scale first, for example by that of [`align_points`]
+/// * `step`: number of frames from the start of a motion to its end, at least 1
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::OutOfRange`] for a step of 0,
@@ -283,7 +284,7 @@ mod tests {
             Vector3::new(0.4, 1.1, -0.7),
             0.35,
         );
-        // A flat set, whose covariance has no full rank, too.
+        // Also a flat set, whose covariance is singular.
         let mut flat = cloud(12, 2);
         flat.iter_mut().for_each(|p| p.z = 0.25);
         for from in [cloud(3, 1), cloud(50, 1), flat] {
@@ -297,7 +298,7 @@ mod tests {
         }
     }
 
-    /// A kilometer along the road, a centimeter to either side, whichever way the road leads.
+    /// A kilometer along the road, a centimeter to either side, for any heading.
     #[test]
     fn a_path_that_is_nearly_a_line_keeps_its_roll() {
         let mut random = Random::new(9);

@@ -1,4 +1,4 @@
-//! Incremental structure from motion: start from two photographs, add one after the other.
+//! Incremental structure from motion: starts from two images, registers the others one by one.
 
 use super::builder::Builder;
 use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check};
@@ -8,11 +8,10 @@ use super::two_view_start::{VerifiedPair, verify_pairs};
 use crate::Result;
 use crate::progress::{Monitor, Part, Stage, report};
 
-/// Share of the work of [`reconstruct`] after which all pairs are tested, judged by some dozens of
-/// photographs.
+/// Progress of [`reconstruct`] when all pairs are verified, measured with some dozens of images.
 const VERIFIED: f32 = 0.25;
 
-/// Rounds of refining everything at the end of a component.
+/// Final rounds of global bundle adjustment per component.
 const FINAL_ROUNDS: usize = 2;
 
 /// One step of structure from motion or of odometry.
@@ -30,11 +29,11 @@ pub enum SfmStep {
     Registered {
         /// The image.
         image: usize,
-        /// Number of registered images, in this component.
+        /// Number of registered images in this component.
         num_registered: usize,
-        /// Number of points, in this component.
+        /// Number of points in this component.
         num_points: usize,
-        /// `½ Σ ρ(‖r‖²)` of the refinement that followed, square pixels; `None` if it failed.
+        /// `½ Σ ρ(‖r‖²)` of the refinement afterwards, square pixels; `None` if it failed.
         cost: Option<f64>,
     },
     /// Refinement of all cameras and points of a component.
@@ -60,7 +59,7 @@ impl SfmStep {
 pub struct SfmResult {
     /// Reconstructions that could not be connected, largest first; each has its own frame.
     pub components: Vec<Reconstruction>,
-    /// Images that are in none.
+    /// Images in no component.
     pub unregistered: Vec<usize>,
     /// Steps taken, in order.
     pub steps: Vec<SfmStep>,
@@ -69,29 +68,29 @@ pub struct SfmResult {
     pub is_complete: bool,
 }
 
-/// Cameras and points from matches between photographs.
+/// Reconstructs cameras and points from matches between images.
 ///
-/// Pairs are tested by their epipolar geometry, surviving matches joined into tracks. A pair with
-/// many matches under a wide angle starts the reconstruction; then the image that sees most of
-/// its points, well spread, is registered by P3P and RANSAC, its tracks are triangulated, and all
-/// is refined by bundle adjustment; observations that fit badly are dropped, others picked up
-/// again. Images that cannot be added start further components.
+/// Pairs are verified by their epipolar geometry, and the remaining matches joined into tracks. A
+/// pair with many matches and wide angles initializes the reconstruction; then the image that sees
+/// most points, well spread, is registered by P3P and RANSAC, its tracks are triangulated, and
+/// bundle adjustment refines everything. Observations that fit badly are dropped, others added
+/// again. Images that cannot be registered start further components.
 ///
-/// A component with three known [`SfmImage::position`]s that are not on one line is moved there in
-/// the end, and refined once more with these positions; some may be wrong.
+/// A component with three known [`SfmImage::position`]s that are not on one line is aligned with
+/// them at the end and refined once more; some positions may be wrong.
 ///
-/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`]
-///   and [`Stage::BundleAdjustment`]
+/// * `monitor`: the stages are [`Stage::PairVerification`], then alternately
+///   [`Stage::Registration`] and [`Stage::BundleAdjustment`]
 ///
-/// The result can be empty: then no pair of photographs had enough matches in common.
-/// [`IncrementalReconstruction`] does the same step by step, and keeps the partial result when it
-/// is canceled.
+/// The result is empty if no pair of images has enough common matches.
+/// [`IncrementalReconstruction`] does the same step by step, and keeps the partial result when
+/// canceled.
 ///
 /// # Errors
-/// [`TooFew`](crate::Error::TooFew) for fewer than two photographs,
-/// [`SizeMismatch`](crate::Error::SizeMismatch) unless there is one camera or one a
-/// photograph, [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with
-/// invalid indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, in a lens, too,
+/// [`TooFew`](crate::Error::TooFew) for fewer than two images,
+/// [`SizeMismatch`](crate::Error::SizeMismatch) unless there is one camera or one per image,
+/// [`OutOfRange`](crate::Error::OutOfRange) for options out of range or matches with invalid
+/// indices, [`NotFinite`](crate::Error::NotFinite) for NaN and infinities, also in lenses,
 /// [`Canceled`](crate::Error::Canceled).
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited".
@@ -116,7 +115,7 @@ pub fn reconstruct(
     Ok(run.finish())
 }
 
-/// [`reconstruct`], step by step.
+/// Step-by-step [`reconstruct`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -143,14 +142,15 @@ pub struct IncrementalReconstruction {
     share: f32,
 }
 
-/// The next thing to do.
+/// Phase of the reconstruction.
 enum Phase {
     Start,
     Grow {
         first_two: [usize; 2],
-        /// Points that an image saw when it could not be registered: it is tried again with more.
+        /// Number of points that an image saw when its registration failed: it is tried again with
+        /// more.
         failed_with: Vec<usize>,
-        /// Number of images when everything was refined last.
+        /// Number of registered images at the last global adjustment.
         adjusted_at: usize,
     },
     Refine {
@@ -161,10 +161,10 @@ enum Phase {
 }
 
 impl IncrementalReconstruction {
-    /// Tests the pairs of `input`.
+    /// Verifies the pairs of `input`.
     ///
-    /// * `monitor`: the one stage is [`Stage::PairVerification`]; shares are of the work with all
-    ///   steps
+    /// * `monitor`: the only stage is [`Stage::PairVerification`]; progress is relative to the
+    ///   whole reconstruction
     ///
     /// # Errors
     /// As [`reconstruct`].
@@ -172,7 +172,7 @@ impl IncrementalReconstruction {
         let images = &input.images;
         let cameras = check(OF_PHOTOGRAPHS, images, &input.cameras, options)?;
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-        // Bad indices are found before the work begins.
+        // Find invalid indices before the work begins.
         build_tracks(&counts, &input.pairs)?;
         let mut builder = Builder::new(images, cameras, options);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
@@ -210,7 +210,7 @@ impl IncrementalReconstruction {
                 SfmStep::Adjusted { .. } => Stage::BundleAdjustment,
                 _ => Stage::Registration,
             };
-            // A further component begins anew with two images; the share does not.
+            // A further component starts with two images again; progress does not go back.
             let num_registered = self.builder.num_registered();
             let whole = self.builder.images.len().max(num_registered);
             let grown = num_registered as f32 / whole as f32;
@@ -220,12 +220,12 @@ impl IncrementalReconstruction {
         }
     }
 
-    /// The component that grows now; `None` between two components.
+    /// Returns the component under construction; `None` between two components.
     pub fn current(&self) -> Option<Reconstruction> {
         (self.builder.num_registered() > 0).then(|| self.builder.so_far())
     }
 
-    /// All components, including the current one.
+    /// Returns all components, including the current one.
     pub fn finish(mut self) -> SfmResult {
         self.components.extend(self.current());
         (self.components).sort_by_key(|component| std::cmp::Reverse(component.num_registered()));
@@ -285,7 +285,7 @@ impl IncrementalReconstruction {
         builder.triangulate_of(Some(image));
         let num_registered = builder.num_registered();
         let mut part = Part::new(monitor, self.share, self.share);
-        // Everything is refined while it is small, later whenever it has grown by a tenth.
+        // Refine everything while the model is small, later whenever it has grown by a tenth.
         let everything = num_registered <= 12 || num_registered * 10 >= *adjusted_at * 11;
         let cost = if everything {
             *adjusted_at = num_registered;
@@ -307,7 +307,7 @@ impl IncrementalReconstruction {
         }))
     }
 
-    /// Refines a component that no image can be added to; the last round places it in the world.
+    /// Refines a complete component; the last round aligns it with the known positions.
     fn refine(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
         let Phase::Refine { first_two, round } = self.phase else {
             return Ok(None);
@@ -350,8 +350,8 @@ impl IncrementalReconstruction {
             }
             self.components.push(component);
         } else {
-            // No point survived, as if no point is seen by the required number of images. The same
-            // initial pair would end in the same way.
+            // No point survived, as when no point has the required number of images. The same
+            // initial pair would fail again.
             for image in first_two {
                 self.builder.taken[image] = true;
             }

@@ -1,18 +1,17 @@
-//! Which frames of a path give new points.
+//! Selection of the keyframes that provide new points.
 
 use super::builder::Builder;
 
-/// Frames that were chosen to give points, in order of time.
+/// Frames chosen to provide points, in order of time.
 ///
-/// A camera that stands still, or takes many pictures along a short way, adds nothing by most of
-/// its frames; points from them would be seen under hardly any angle, and the window of frames that
-/// are refined together would cover no length.
+/// Most frames of a slow or resting camera add nothing: their points would have tiny triangulation
+/// angles, and the window of jointly refined frames would cover no distance.
 #[derive(Debug, Default)]
 pub(super) struct Keyframes {
     frames: Vec<usize>,
 }
 
-/// Share of a keyframe's points that may be out of sight before the next keyframe is due.
+/// Fraction of a keyframe's points that may be out of sight before the next keyframe is due.
 const MAX_LOST_SHARE: f64 = 0.3;
 
 impl Keyframes {
@@ -22,13 +21,13 @@ impl Keyframes {
         }
     }
 
-    /// All that are left after those that lost their camera are taken out.
+    /// Returns the keyframes that still have a camera.
     pub(super) fn into_frames(mut self, has_camera: impl Fn(usize) -> bool) -> Vec<usize> {
         self.frames.retain(|frame| has_camera(*frame));
         self.frames
     }
 
-    /// The `count` keyframes that are nearest to a frame in time, with the frame itself.
+    /// Returns the `count` keyframes nearest to a frame in time, including the frame itself.
     pub(super) fn window(&self, frame: usize, count: usize) -> Vec<usize> {
         let mut near: Vec<usize> = self.frames.clone();
         near.retain(|other| *other != frame);
@@ -38,9 +37,9 @@ impl Keyframes {
         near
     }
 
-    /// Whether a frame with a camera shows enough that is new: it is far from the nearest
-    /// keyframe, judged by the median angle between their rays to common points, or much of what
-    /// that one sees is out of sight.
+    /// Returns whether a frame should be a keyframe: it is far from the nearest keyframe, by the
+    /// median angle between their rays to common points, or many of that keyframe's points are out
+    /// of sight.
     pub(super) fn is_due(&self, builder: &Builder, frame: usize, min_angle_rad: f64) -> bool {
         let nearest = self.frames.iter().min_by_key(|key| key.abs_diff(frame));
         let Some(&key) = nearest else {

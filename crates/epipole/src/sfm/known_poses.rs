@@ -1,4 +1,4 @@
-//! Points from matches between photographs whose poses are known.
+//! Points from matches between images with known poses.
 
 use super::builder::Builder;
 use super::options::{SfmInput, SfmOptions, check};
@@ -11,22 +11,21 @@ use crate::{Error, Result};
 /// Name of the result in [`Error::TooFew`].
 const OF_KNOWN_POSES: &str = "points from photographs with known poses";
 
-/// Points from matches between photographs whose poses are known; cameras stay as they are.
+/// Triangulates points from matches between images with known poses; the cameras do not change.
 ///
-/// Matches whose rays meet are joined into tracks, and each track is triangulated from the
-/// photographs that agree.
+/// Matches whose rays meet are joined into tracks, and each track is triangulated from the images
+/// that agree.
 ///
-/// * `cam_from_world`: pose of each photograph; one without takes no part
+/// * `cam_from_world`: pose of each image; images without a pose are ignored
 /// * `options`: [`SfmOptions::max_reprojection_error_px`], [`SfmOptions::min_angle_deg`] and
 ///   [`SfmOptions::min_track_length`]
-/// * `monitor`: the one stage is [`Stage::PairVerification`]
+/// * `monitor`: the only stage is [`Stage::PairVerification`]
 ///
-/// Points are in the world of the poses. With poses that are not those of the photographs there
-/// are few, or none.
+/// Points are in the world frame of the poses. Wrong poses give few points, or none.
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct); [`Error::TooFew`] for fewer than two poses,
-/// [`Error::SizeMismatch`] unless there is an entry for each photograph.
+/// [`Error::SizeMismatch`] unless there is an entry for each image.
 ///
 /// Source: Schönberger & Frahm 2016, §4.3.
 ///
@@ -58,7 +57,7 @@ pub fn triangulate_tracks(
     let cameras = check(OF_KNOWN_POSES, images, &input.cameras, options)?;
     check_poses(images.len(), cam_from_world)?;
     let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-    // Bad indices are found before the work begins.
+    // Find invalid indices before the work begins.
     build_tracks(&counts, &input.pairs)?;
     let mut builder = Builder::new(images, cameras, options);
     for (image, pose) in cam_from_world.iter().enumerate() {
@@ -103,7 +102,7 @@ fn check_poses(num_images: usize, cam_from_world: &[Option<RigidTransform>]) -> 
     }
 }
 
-/// The matches of a pair whose rays meet.
+/// Returns the matches of a pair whose rays meet.
 fn meeting(pair: &PairMatches, builder: &Builder) -> PairMatches {
     let element = |image: usize, keypoint: usize| TrackElement {
         image: image as u32,

@@ -1,4 +1,4 @@
-//! The pose of a new photo in a reconstruction.
+//! Localization of a new image in a reconstruction.
 
 use super::options::SfmOptions;
 use super::photos::PhotoFeatures;
@@ -22,16 +22,16 @@ use std::collections::BTreeMap;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct LocalizeOptions {
-    /// Tests of the matches. Ratio 0.8, mutual.
+    /// Filters of the matches. Ratio 0.8, mutual.
     pub matching: MatchOptions,
-    /// Robust estimation of the pose; its threshold is the largest reprojection error, 6 px.
+    /// Robust estimation of the pose, with a maximum reprojection error of 6 px.
     pub ransac: RansacOptions,
-    /// Minimum number of points that agree with the pose. 15.
+    /// Minimum number of inliers. 15.
     pub min_num_inliers: usize,
 }
 
 impl Default for LocalizeOptions {
-    /// Thresholds of [`SfmOptions`].
+    /// Returns the thresholds of [`SfmOptions`].
     fn default() -> Self {
         let sfm = SfmOptions::default();
         Self {
@@ -42,35 +42,35 @@ impl Default for LocalizeOptions {
     }
 }
 
-/// A photo localized in a reconstruction.
+/// Pose of an image localized in a reconstruction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Localization {
-    /// The pose of its camera.
+    /// Pose of the camera.
     pub cam_from_world: RigidTransform,
-    /// Points that agree with the pose: index of the point and of the photo's keypoint.
+    /// Inliers: indices of the point and of the image's keypoint.
     pub inliers: Vec<(usize, usize)>,
-    /// Number of matches between keypoints of the photo and points.
+    /// Number of matches between keypoints of the image and points.
     pub num_matches: usize,
 }
 
 impl Reconstruction {
-    /// Localizes a photo that is not part of the reconstruction.
+    /// Localizes an image that is not part of the reconstruction.
     ///
-    /// Keypoints of the photo are matched with those of each registered image, and stand for the
-    /// points that these saw.
+    /// Keypoints of the image are matched with those of each registered image, and thereby with the
+    /// points that these observe.
     ///
-    /// * `features`: of all images of the reconstruction, in their order
-    /// * `photo`: features of the new photo, of the same kind
-    /// * `camera`: of the new photo, of any lens
+    /// * `features`: features of all images of the reconstruction, in order
+    /// * `photo`: features of the new image, of the same kind
+    /// * `camera`: camera of the new image, with any lens
     /// * `monitor`: the stages are
     ///   [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching) and
     ///   [`Stage::RobustEstimation`](crate::progress::Stage::RobustEstimation)
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for features of another number of images and for keypoints without
-    /// descriptors, [`Error::OutOfRange`] for a track with a keypoint that is not there,
-    /// [`Error::TooFew`] where fewer than [`LocalizeOptions::min_num_inliers`] points are matched
-    /// or agree with a pose, and as [`match_descriptors`] and [`estimate_absolute_pose`].
+    /// [`Error::SizeMismatch`] if `features` has another number of images, or keypoints lack
+    /// descriptors, [`Error::OutOfRange`] for a track with an invalid keypoint, [`Error::TooFew`]
+    /// if fewer than [`LocalizeOptions::min_num_inliers`] points are matched or agree with a pose,
+    /// and as [`match_descriptors`] and [`estimate_absolute_pose`].
     ///
     /// Source: Sattler, Leibe & Kobbelt 2011, "Fast image-based localization using direct 2D-to-3D
     /// matching" (the problem); Schönberger & Frahm 2016, §4.2.
@@ -162,7 +162,7 @@ impl Reconstruction {
         })
     }
 
-    /// Points and keypoints of a photo that match, the least ambiguous first.
+    /// Matches points with keypoints of an image, the least ambiguous first.
     fn match_points(
         &self,
         features: &[PhotoFeatures],
@@ -186,7 +186,7 @@ impl Reconstruction {
         }
         let registered = (0..features.len()).filter(|&image| self.cameras[image].is_some());
         let share = |done: usize| MATCHED * done as f32 / self.num_registered() as f32;
-        // Of a point and a keypoint that several images match, the least ambiguous match.
+        // If several images match the same point and keypoint, keep the least ambiguous match.
         let mut ratios: BTreeMap<(usize, usize), f32> = BTreeMap::new();
         for (done, image) in registered.enumerate() {
             let mut part = Part::new(monitor, share(done), share(done + 1));
@@ -206,7 +206,7 @@ impl Reconstruction {
     }
 }
 
-/// Share of the work after which all is matched.
+/// Progress when all is matched.
 const MATCHED: f32 = 0.8;
 
 #[cfg(test)]

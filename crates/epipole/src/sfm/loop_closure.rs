@@ -1,4 +1,4 @@
-//! Loop closing: a revisited place reveals how far the path has drifted, in scale, too.
+//! Loop closing: a revisited place reveals the drift of the path, including that of the scale.
 
 use super::alignment::{AlignmentKind, align_points};
 use super::pose_graph::{Edge, Graph, GraphPose, PoseGraphReport};
@@ -8,38 +8,39 @@ use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Point3, SMatrix, Similarity3};
 
-/// A frame that shows part of an earlier one.
+/// Motion between two frames that show the same place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopClosure {
     /// Index of the earlier frame.
     pub from: usize,
     /// Index of the later frame.
     pub to: usize,
-    /// The later camera in the frame of the earlier one, with the ratio of their scales: points
-    /// that both reconstructed obey `x_in_from = from_from_to * x_in_to`.
+    /// Pose of the later camera in the frame of the earlier one, with the ratio of their scales:
+    /// points that both reconstructed satisfy `x_in_from = from_from_to * x_in_to`.
     pub from_from_to: Similarity3<f64>,
     /// Weight relative to one step of odometry.
     pub weight: f64,
 }
 
-/// A path after its loops were closed.
+/// A path after its loops are closed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedPath {
     /// `world_from_cam` of each frame, in the unit of the first one.
     pub world_from_cam: Vec<RigidTransform>,
-    /// By how much lengths around each frame have to be multiplied.
+    /// Factor for lengths around each frame.
     pub scale: Vec<f64>,
     /// Report of the optimization.
     pub report: PoseGraphReport,
 }
 
-/// The similarity between two reconstructions of the same points, with some wrong matches, and
-/// which points agree: `to_from_from * from[i]` is within `max_distance` of `to[i]`.
+/// Estimates the similarity between two reconstructions of the same points from matches with
+/// outliers. Also returns the inliers: `to_from_from * from[i]` is within `max_distance` of
+/// `to[i]`.
 ///
-/// Samples of three points are aligned; the similarity with the most inliers is fitted to them
-/// again. A pair with an infinite coordinate is wrong in any case and left out.
+/// Samples of three points are aligned; the similarity with the most inliers is refitted to them.
+/// Pairs with an infinite coordinate are outliers.
 ///
-/// * `max_distance`: in the unit of `to`, > 0
+/// * `max_distance`: inlier threshold in the unit of `to`, > 0
 /// * `seed`: equal seeds give equal results
 ///
 /// # Errors
@@ -104,7 +105,7 @@ struct SimilarityOfPoints<'a> {
 
 impl<'a> SimilarityOfPoints<'a> {
     fn new(from: &'a [Point3<f64>], to: &'a [Point3<f64>]) -> Result<Self> {
-        // The alignment of all finds the error in the lists.
+        // The alignment of all points reports invalid lists.
         align_points(from, to, AlignmentKind::Similarity).or_else(|error| match error {
             Error::Degenerate { .. } => Ok(Similarity3::identity()),
             other => Err(other),
@@ -155,24 +156,24 @@ impl crate::robust::Estimator for SimilarityOfPoints<'_> {
     serde(rename_all = "snake_case")
 )]
 pub enum LoopMotion {
-    /// Position and orientation, SE(3): right where the scale is measured, as by a stereo rig.
+    /// Position and orientation, SE(3), if the scale is measured, as by a stereo rig.
     Rigid,
     /// Position, orientation and scale, Sim(3), for a single moving camera.
     #[default]
     Similarity,
 }
 
-/// Spreads the error of closed loops over a path, by a graph of poses: each step of the path is one
+/// Spreads the error of closed loops over a path with a pose graph: each step of the path is an
 /// edge, each loop another.
 ///
-/// * `world_from_cam`: the path, frame after frame
-/// * `loops`: pairs of frames that meet again, with their motion
+/// * `world_from_cam`: the path, frame by frame
+/// * `loops`: pairs of frames at the same place, with their motion
 /// * `motion`: free components; [`LoopMotion::Rigid`] leaves every scale at 1 and ignores the
 ///   scales of the loops
-/// * `loss`: robust to wrong loops; its width is in standard deviations of a step
+/// * `loss`: robust to wrong loops; width in standard deviations of a step
 /// * `monitor`: as in [`Graph::optimize`]
 ///
-/// The first frame stays. Translations count relative to the mean length of a step.
+/// The first frame is fixed. Translations are weighted relative to the mean step length.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two frames or no loop, and as [`Graph::optimize`].
@@ -185,9 +186,9 @@ pub enum LoopMotion {
 /// use epipole::optim::RobustLoss;
 /// use epipole::sfm::{LoopClosure, LoopMotion, close_loops};
 /// use nalgebra::{Similarity3, Vector3};
-/// // Two steps straight ahead, of which the second seems twice as long as the first.
+/// // Two steps straight ahead; the second seems twice as long as the first.
 /// let path = [0.0, 1.0, 3.0].map(|z| RigidTransform::translation(0.0, 0.0, z));
-/// // The last frame is really 2 ahead of the first, and what it sees comes out 4 times too large.
+/// // The last frame is really 2 ahead of the first, and its reconstruction is 4 times too large.
 /// let closure = LoopClosure {
 ///     from: 0,
 ///     to: 2,
@@ -264,7 +265,8 @@ pub fn close_loops(
     }
 }
 
-/// The graph whose vertices are the frames; `vertex` makes a pose of a graph from one with a scale.
+/// Builds the graph whose vertices are the frames; `vertex` makes a graph pose from one with a
+/// scale.
 fn graph_of_path<T: GraphPose<D>, const D: usize>(
     world_from_cam: &[RigidTransform],
     loops: &[LoopClosure],
@@ -325,7 +327,7 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::Vector3;
 
-    /// A round trip whose scale is multiplied by `growth` in each step and whose heading drifts.
+    /// A round trip whose scale grows by the factor `growth` per step and whose heading drifts.
     fn drifted(count: usize, growth: f64) -> (Vec<RigidTransform>, Vec<RigidTransform>) {
         let turn = std::f64::consts::TAU / count as f64;
         let mut truth = vec![RigidTransform::identity()];
@@ -349,7 +351,7 @@ mod tests {
         path.iter().zip(truth).map(apart).sum::<f64>() / truth.len() as f64
     }
 
-    /// Closes the loop between the first frame and the last one, which is `drift` times too large.
+    /// Closes the loop between the first frame and the last, which is `drift` times too large.
     fn close(
         path: &[RigidTransform],
         truth: &[RigidTransform],
@@ -384,7 +386,7 @@ mod tests {
             "{:?}",
             similar.scale
         );
-        // The ends meet, too, but the path between them keeps its wrong lengths.
+        // The ends meet here as well, but the lengths in between stay wrong.
         assert!(
             rigid_error > 3.0 * similar_error,
             "{rigid_error}, {similar_error}"
@@ -430,7 +432,7 @@ mod tests {
         let (found, inliers) = estimate_similarity_of_points(&from, &to, 0.05, 1).unwrap();
         assert!((found.scaling() - 1.7).abs() < 1e-9);
         assert_eq!(inliers.iter().filter(|inlier| **inlier).count(), 40);
-        // One infinite pair is left out at any index, and NaN is refused.
+        // An infinite pair is ignored at any index; NaN is rejected.
         let (mut far_from, mut far_to) = (from.clone(), to.clone());
         far_from.insert(1, Point3::new(f64::INFINITY, 0.0, 1.0));
         far_to.insert(1, Point3::origin());

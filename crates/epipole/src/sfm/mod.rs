@@ -1,23 +1,21 @@
-//! Structure from motion: from many photographs to cameras and points.
+//! Structure from motion: cameras and points from many images.
 //!
-//! * [`adjust_bundle`] refines cameras, their lenses and points together, with known positions such
-//!   as those of satellite navigation ([`local_from_geodetic`](crate::math::local_from_geodetic))
-//!   if there are any; [`BalProblem`] is the published text format for such problems, and
-//!   [`adjust_bal`] solves it.
-//! * [`align_points`] brings two reconstructions into one frame;
-//!   [`absolute_trajectory_error`] and [`relative_pose_error`] compare them.
+//! * [`adjust_bundle`] refines cameras, lenses and points together, with priors for known positions
+//!   such as from GPS ([`local_from_geodetic`](crate::math::local_from_geodetic)); [`BalProblem`]
+//!   is the published benchmark format, solved by [`adjust_bal`].
+//! * [`align_points`] aligns two reconstructions; [`absolute_trajectory_error`] and
+//!   [`relative_pose_error`] compare trajectories.
 //! * [`PoseGraph`] spreads the error of closed loops over a trajectory; [`close_loops`] does so for
-//!   the path of a camera whose scale drifts. [`PoseGraph::initialize`] needs no start, and
-//!   [`average_rotations`] is its first step by itself.
-//! * [`two_view_reconstruction`] leads from the matches of two views and the motion between them to
-//!   points.
-//! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] lead from matches, or from
-//!   photographs, to cameras and points: a [`Reconstruction`].
-//! * [`triangulate_tracks`] gives the points where the poses are known.
-//! * [`Reconstruction::refine_lenses`] corrects lenses that are not as they were given, and
-//!   [`Reconstruction::determines_focal`] tells whether the photographs can.
-//! * [`Reconstruction::localize`] gives the pose of another photo.
-//! * [`monocular_odometry`] and [`stereo_odometry`] follow a camera frame after frame.
+//!   a path with drifting scale. [`PoseGraph::initialize`] needs no initial values;
+//!   [`average_rotations`] is its first step alone.
+//! * [`two_view_reconstruction`] triangulates the matches of two views with known motion.
+//! * [`build_tracks`], [`reconstruct`] and [`reconstruct_photos`] compute a [`Reconstruction`],
+//!   cameras and points, from matches or images.
+//! * [`triangulate_tracks`] computes points for known poses.
+//! * [`Reconstruction::refine_lenses`] corrects wrong lens parameters, and
+//!   [`Reconstruction::determines_focal`] checks whether the images determine them.
+//! * [`Reconstruction::localize`] computes the pose of another image.
+//! * [`monocular_odometry`] and [`stereo_odometry`] track a camera frame by frame.
 
 mod alignment;
 mod bal;

@@ -1,4 +1,4 @@
-//! Visual odometry: where a camera went, frame after frame.
+//! Visual odometry: the path of a camera, frame by frame.
 
 use super::builder::Builder;
 use super::bundle::Sensor;
@@ -19,30 +19,30 @@ use std::collections::VecDeque;
 /// Name of the result in [`Error::TooFew`].
 const OF_FRAMES: &str = "the path of a camera from frames";
 
-/// Maximum number of refinements at the end.
+/// Maximum number of final adjustments.
 const FINAL_ADJUSTMENTS: usize = 10;
 
-/// A focal length that changes by less than this share has arrived.
+/// Relative change of the focal length below which it has converged.
 const SETTLED_FOCAL: f64 = 2e-3;
 
-/// Share of the work after which all pairs are tested.
+/// Progress when all pairs are verified.
 const VERIFIED: f32 = 0.5;
 
-/// The path of a single camera, up to scale.
+/// Estimates the path of a single camera, up to scale.
 ///
-/// * `input`: frames in order of time, and matches between frames that are near in time; each
-///   frame with several before it, so that tracks survive a bad pair
-/// * `monitor`: the stages are [`Stage::PairVerification`], then by turns [`Stage::Registration`]
-///   and [`Stage::BundleAdjustment`]
+/// * `input`: frames in order of time, with matches between each frame and several before it, so
+///   that tracks survive a bad pair
+/// * `monitor`: the stages are [`Stage::PairVerification`], then alternately
+///   [`Stage::Registration`] and [`Stage::BundleAdjustment`]
 ///
-/// The start comes from the essential matrix of the first two frames that see their points under
-/// a sufficient angle; each further frame is placed by P3P. Frames that show something new become
-/// keyframes: they give points, and the last of them are refined together. [`Odometry`] does the
-/// same step by step, and keeps the partial result when it is canceled.
+/// The essential matrix of the first two frames with a sufficient angle initializes the path; P3P
+/// registers each further frame. Frames with enough new content become keyframes: they provide
+/// points, and the last of them are refined together. [`Odometry`] does the same step by step, and
+/// keeps the partial result when canceled.
 ///
 /// # Errors
-/// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames make a start,
-/// as for a camera that only rotates or does not move.
+/// As [`reconstruct`](super::reconstruct), and [`Error::Degenerate`] if no two frames can
+/// initialize the path, as for a camera that only rotates or does not move.
 ///
 /// Source: Nistér, Naroditsky & Bergen 2004, "Visual odometry"; Mouragnon et al. 2006, "Real time
 /// localization and 3D reconstruction" (refining the last frames).
@@ -54,13 +54,14 @@ pub fn monocular_odometry(
     Odometry::monocular(input, options, monitor)?.run(monitor)
 }
 
-/// The path of a stereo rig, in the unit of its baseline.
+/// Estimates the path of a stereo rig, in the unit of its baseline.
 ///
 /// * `left`: frames of the left camera in order of time, and matches between them
 /// * `right`: the same frames of the right camera
 /// * `left_right`: matches between the two images of each frame, left first
-/// * `right_from_left`: the rig; for rectified images its translation is minus the baseline along x
-/// * `right_camera`: of the right images
+/// * `right_from_left`: pose of the rig; for rectified images its translation is minus the baseline
+///   along x
+/// * `right_camera`: camera of the right images
 /// * `monitor`: as in [`monocular_odometry`]
 ///
 /// # Errors
@@ -90,7 +91,7 @@ pub fn stereo_odometry(
     .run(monitor)
 }
 
-/// [`monocular_odometry`] or [`stereo_odometry`], step by step.
+/// Step-by-step [`monocular_odometry`] or [`stereo_odometry`].
 ///
 /// ```
 /// # fn follow(frames: &epipole::sfm::SfmInput) -> Result<(), epipole::Error> {
@@ -107,18 +108,18 @@ pub struct Odometry {
     options: OdometryOptions,
     num_frames: usize,
     keyframes: Keyframes,
-    /// Frames to place, the next one first.
+    /// Frames to register, the next one first.
     order: VecDeque<usize>,
-    /// Refinements of everything that are left.
+    /// Number of remaining global adjustments.
     num_adjustments: usize,
     share: f32,
 }
 
 impl Odometry {
-    /// Tests the pairs and finds the first frames of [`monocular_odometry`].
+    /// Verifies the pairs and finds the initial frames of [`monocular_odometry`].
     ///
     /// * `monitor`: the stages are [`Stage::PairVerification`] and [`Stage::BundleAdjustment`];
-    ///   shares are of the work with all steps
+    ///   progress is relative to the whole odometry
     ///
     /// # Errors
     /// As [`monocular_odometry`].
@@ -131,7 +132,7 @@ impl Odometry {
         Self::start(input, cameras, None, options, monitor)
     }
 
-    /// Tests the pairs and finds the first frame of [`stereo_odometry`].
+    /// Verifies the pairs and finds the initial frame of [`stereo_odometry`].
     ///
     /// * `monitor`: as in [`monocular`](Self::monocular)
     ///
@@ -197,7 +198,7 @@ impl Odometry {
             None => images.len(),
         };
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
-        // Bad indices are found before the work begins.
+        // Find invalid indices before the work begins.
         build_tracks(&counts, &input.pairs)?;
         let mut builder = Builder::new(images, cameras, &options.sfm);
         let mut part = Part::new(monitor, 0.0, VERIFIED);
@@ -243,7 +244,7 @@ impl Odometry {
         })
     }
 
-    /// Places the next frame, or refines everything at the end; `None` after the last step.
+    /// Registers the next frame, or refines everything at the end; `None` after the last step.
     ///
     /// * `monitor`: the stages are [`Stage::Registration`] and [`Stage::BundleAdjustment`]
     ///
@@ -280,7 +281,7 @@ impl Odometry {
         Ok(None)
     }
 
-    /// The path so far.
+    /// Returns the path so far.
     pub fn finish(self) -> OdometryResult {
         let is_complete = self.order.is_empty() && self.num_adjustments == 0;
         let cameras = &self.builder.cameras;
@@ -297,7 +298,7 @@ impl Odometry {
         Ok(self.finish())
     }
 
-    /// Makes points of a new frame and refines the last keyframes with it.
+    /// Triangulates points of a new frame and refines the last keyframes with it.
     fn refine_around(&mut self, frame: usize, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
         let builder = &mut self.builder;
         let min_angle_rad = self.options.sfm.min_start_angle_deg.to_radians();
@@ -313,8 +314,8 @@ impl Odometry {
         cost
     }
 
-    /// Refines everything at once, again for as long as the focal length is on its way: with a
-    /// better one other matches fit.
+    /// Refines everything, and repeats until the focal length converges: with a better one, other
+    /// matches fit.
     fn adjust_all(&mut self, monitor: &mut dyn Monitor) -> Result<Option<f64>> {
         let builder = &mut self.builder;
         let before = builder.calibration.clone();
@@ -336,7 +337,7 @@ impl Odometry {
     }
 }
 
-/// Starts from the earliest pair that is wide enough.
+/// Initializes from the earliest pair with a sufficient angle.
 fn start_early(
     builder: &mut Builder,
     mut early: Vec<VerifiedPair>,
@@ -356,7 +357,7 @@ fn start_early(
     Ok(false)
 }
 
-/// Starts at the first frame whose two images share enough points.
+/// Initializes at the first frame whose two images share enough points.
 fn start_with_rig(builder: &mut Builder, num_frames: usize) -> bool {
     for frame in 0..num_frames {
         let camera = builder.posed(frame, RigidTransform::identity());

@@ -1,10 +1,10 @@
-//! Choices of visual odometry.
+//! Options of visual odometry.
 
 use super::options::SfmOptions;
 use crate::robust::RansacOptions;
 use derive_setters::Setters;
 
-/// Options of odometry.
+/// Options of visual odometry.
 #[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -14,13 +14,12 @@ use derive_setters::Setters;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct OdometryOptions {
-    /// Thresholds, in pixels and degrees. Frames are nearer to each other than photographs, so
-    /// that points are accepted under smaller angles: 0.3 degrees, and the start wants 1.
+    /// Thresholds, in pixels and degrees. Frames are closer together than images of a collection,
+    /// so smaller angles are accepted: 0.3 degrees for points, 1 for the initial pair.
     pub sfm: SfmOptions,
-    /// Keyframes that are refined together; older ones stay. 8.
+    /// Number of keyframes that are refined together; older ones are fixed. 8.
     pub window: usize,
-    /// Refine everything once more at the end, and again while a focal length that is refined has
-    /// not arrived. True.
+    /// Refine everything at the end, repeatedly until a refined focal length converges. True.
     pub final_adjustment: bool,
 }
 

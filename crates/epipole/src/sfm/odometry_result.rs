@@ -1,4 +1,4 @@
-//! The path of a camera that visual odometry found.
+//! Result of visual odometry.
 
 use super::builder::Builder;
 use super::reconstruction::Reconstruction;
@@ -7,22 +7,22 @@ use crate::camera::RigidTransform;
 /// Path of the camera.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OdometryResult {
-    /// `world_from_cam` of each frame, `None` where it was lost. The first frame that was found is
-    /// the origin. One camera alone leaves the unit of length open.
+    /// `world_from_cam` of each frame, `None` where tracking was lost. The first registered frame
+    /// is the origin. For a single camera the unit of length is arbitrary.
     pub world_from_cam: Vec<Option<RigidTransform>>,
-    /// Frames that gave points: those that lie sufficiently far from the one before, by the angle
-    /// under which points see the two, or that show much that it does not.
+    /// Frames that provided points: far enough from the previous one, by the triangulation angle of
+    /// their points, or with much new content.
     pub keyframes: Vec<usize>,
-    /// Frames that could not be placed.
+    /// Frames that could not be registered.
     pub lost: Vec<usize>,
-    /// The cameras and points; of a stereo rig the left cameras, then the right ones.
+    /// Cameras and points; for a stereo rig the left cameras, then the right ones.
     pub reconstruction: Reconstruction,
     /// Whether every frame was tried; false for [`Odometry::finish`](super::Odometry::finish)
     /// before the last step.
     pub is_complete: bool,
 }
 
-/// The path in the frame of its first camera. Keyframes are left empty.
+/// Returns the path in the frame of its first camera. Keyframes are left empty.
 pub(super) fn result_of(builder: &Builder, num_frames: usize) -> OdometryResult {
     let mut reconstruction = builder.so_far();
     let origin = reconstruction.cameras[..num_frames]
@@ -30,12 +30,12 @@ pub(super) fn result_of(builder: &Builder, num_frames: usize) -> OdometryResult 
         .flatten()
         .next()
         .map_or_else(RigidTransform::identity, |camera| camera.cam_from_world);
-    // The first frame is where the world's origin is.
+    // The first frame is the origin of the world.
     let world_from_old = origin;
     for camera in reconstruction.cameras.iter_mut().flatten() {
         camera.cam_from_world *= world_from_old.inverse();
     }
-    // Exactly, where rounding would leave a trace of the old pose.
+    // Exact, since rounding would leave a trace of the old pose.
     if let Some(first) = reconstruction.cameras[..num_frames]
         .iter_mut()
         .flatten()

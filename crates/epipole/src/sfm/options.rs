@@ -10,14 +10,14 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use std::collections::BTreeMap;
 
-/// Photographs, reduced to keypoints, and matches between them.
+/// Images, reduced to keypoints, and matches between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SfmInput {
     /// The photographs.
     pub images: Vec<SfmImage>,
-    /// The camera of each photograph, or one for all.
+    /// The camera of each image, or one for all.
     pub cameras: Vec<Camera>,
-    /// Matches between photographs, wrong ones among them.
+    /// Matches between images, including outliers.
     pub pairs: Vec<PairMatches>,
 }
 
@@ -31,30 +31,29 @@ pub struct SfmInput {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct SfmOptions {
-    /// RANSAC for the essential matrix of a pair, and, with a threshold and a sampler of its own,
-    /// for registering an image. Its threshold is 2 pixels, and its seed is ignored.
+    /// RANSAC for the essential matrix of a pair, and, with its own threshold and sampler, for
+    /// registering an image. The threshold is 2 pixels; the seed is ignored.
     pub ransac: RansacOptions,
-    /// Largest reprojection error when an image is registered, pixels. 6.
+    /// Maximum reprojection error when an image is registered, pixels. 6.
     pub max_registration_error_px: f64,
-    /// Largest reprojection error of an observation that is kept, pixels. 4.
+    /// Maximum reprojection error of an observation, pixels. 4.
     pub max_reprojection_error_px: f64,
-    /// Fewest matches that connect two images, and fewest points that register one. 15.
+    /// Minimum number of matches to connect two images, and of points to register one. 15.
     pub min_num_inliers: usize,
-    /// Smallest angle under which a point must be seen, degrees. 1.5.
+    /// Minimum triangulation angle of a point, degrees. 1.5.
     pub min_angle_deg: f64,
-    /// Median angle that the two first images should have, degrees; halved, again and again, if
-    /// no pair has it. 16.
+    /// Median triangulation angle of the initial pair, degrees; halved repeatedly until a pair has
+    /// it. 16.
     pub min_start_angle_deg: f64,
-    /// Fewest images that must see a point which is kept in the end. 2.
+    /// Minimum number of images that see a point in the result. 2.
     pub min_track_length: usize,
-    /// Refine one factor for the focal lengths of each lens. False.
+    /// Refine a factor of the focal lengths, one per lens. False.
     pub refine_focal: bool,
-    /// Refine where the principal points are, one shift for each lens. False: turning a camera
-    /// looks much the same.
+    /// Refine the principal points, one shift per lens. False, since a shift is hard to distinguish
+    /// from a rotation.
     pub refine_principal_point: bool,
-    /// Refine the radial terms of each lens, as
-    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion) has them.
-    /// False.
+    /// Refine the radial terms of each lens, as by
+    /// [`BundleOptions::refine_distortion`](super::BundleOptions::refine_distortion). False.
     pub refine_distortion: bool,
     /// Refine the tangential terms p1 and p2 of each lens that has them. False.
     pub refine_tangential: bool,
@@ -86,7 +85,7 @@ pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs"
 
 /// Checks images, cameras and options; returns the camera of each image.
 ///
-/// * `what`: name of the result, for the error of too few
+/// * `what`: name of the result, for [`Error::TooFew`]
 pub(super) fn check(
     what: &'static str,
     images: &[SfmImage],
@@ -162,7 +161,7 @@ pub(super) fn check(
 }
 
 /// # Errors
-/// [`Error::SizeMismatch`] unless there is one camera, or one for each photograph.
+/// [`Error::SizeMismatch`] unless there is one camera, or one per image.
 pub(super) fn check_count(num_photos: usize, cameras: &[Camera]) -> Result<()> {
     if cameras.len() == 1 || cameras.len() == num_photos {
         return Ok(());
@@ -174,7 +173,7 @@ pub(super) fn check_count(num_photos: usize, cameras: &[Camera]) -> Result<()> {
     })
 }
 
-/// Options of the test of pairs.
+/// Returns the options for verifying pairs.
 pub(super) fn pair_ransac(options: &SfmOptions) -> RansacOptions {
     RansacOptions {
         seed: options.seed,

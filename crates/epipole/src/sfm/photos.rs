@@ -1,4 +1,4 @@
-//! The whole way from photographs to a reconstruction.
+//! The full pipeline from images to a reconstruction.
 
 use super::bundle::PositionPrior;
 use super::incremental::{SfmResult, reconstruct};
@@ -15,12 +15,12 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use image::RgbImage;
 
-/// A photograph with a name.
+/// An image with a name.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Photo {
     /// Name, such as the file name.
     pub name: String,
-    /// Its pixels.
+    /// Pixels.
     pub image: RgbImage,
     /// As [`SfmImage::lens`].
     pub lens: usize,
@@ -38,32 +38,31 @@ pub struct Photo {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct PhotoOptions {
-    /// RootSIFT, up to 8192 features, faint ones too.
+    /// RootSIFT, up to 8192 features, including faint ones.
     pub features: FeatureOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
-    /// Number of following photographs to match each one with; 0 for all. For frames in order of
-    /// time.
+    /// Number of following images to match each one with; 0 for all. For frames in order of time.
     pub neighbors: usize,
-    /// Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than
-    /// in the order of the first photograph's keypoints. False.
+    /// Sort the matches of a pair by ambiguity, as PROSAC needs, rather than by the keypoints of
+    /// the first image. False.
     pub best_first: bool,
 }
 
-/// Input of [`match_features`] for one photograph; its pixels are no longer needed.
+/// Input of [`match_features`] for one image; its pixels are no longer needed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhotoFeatures {
     /// Size, keypoints and their colors.
     pub image: SfmImage,
     /// Descriptors of the keypoints, in the same order.
     pub descriptors: Descriptors,
-    /// The keypoints once more, with their scales and directions.
+    /// The keypoints with their scales and directions.
     pub keypoints: Vec<Keypoint>,
 }
 
-/// Keypoints and descriptors of a photograph.
+/// Detects keypoints of an image and computes their descriptors.
 ///
-/// * `monitor`: the one stage is [`Stage::FeatureDetection`]
+/// * `monitor`: the only stage is [`Stage::FeatureDetection`]
 ///
 /// # Errors
 /// As [`detect_features`](crate::feature::detect_features).
@@ -95,14 +94,14 @@ pub fn photo_features(
     })
 }
 
-/// Matches between all pairs of photographs, or between those that are near in order.
+/// Matches all pairs of images, or those that are close in order.
 ///
-/// * `monitor`: the one stage is [`Stage::FeatureMatching`]
+/// * `monitor`: the only stage is [`Stage::FeatureMatching`]
 ///
 /// # Errors
 /// As [`match_descriptors`].
 ///
-/// Source: Lowe 2004; all pairs are compared, which suits some dozens of photographs.
+/// Source: Lowe 2004. Comparing all pairs suits some dozens of images.
 pub fn match_features(
     features: &[PhotoFeatures],
     options: &PhotoOptions,
@@ -132,8 +131,8 @@ pub fn match_features(
     Ok(pairs)
 }
 
-/// Matches between the two images of a rectified stereo pair, left first: those that share a row to
-/// within 2 pixels and are further right in the left image.
+/// Matches the two images of a rectified stereo pair, left first: keeps matches in the same row to
+/// within 2 pixels that are further right in the left image.
 ///
 /// # Errors
 /// As [`match_descriptors`].
@@ -159,7 +158,7 @@ pub fn match_rectified(
 /// Maximum row error of a rectification.
 const MAX_ROW_ERROR_PX: f64 = 2.0;
 
-/// Matches between the features of two photographs.
+/// Matches the features of two images.
 fn match_pair(
     first: &PhotoFeatures,
     second: &PhotoFeatures,
@@ -174,15 +173,14 @@ fn match_pair(
     Ok(matches)
 }
 
-/// Keypoints of all photographs and matches between all pairs of them.
+/// Computes keypoints of all images and matches between all pairs.
 ///
 /// * `monitor`: the stages are [`Stage::FeatureDetection`] and [`Stage::FeatureMatching`]
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two photographs, and as [`photo_features`] and
-/// [`match_features`].
+/// [`Error::TooFew`] for fewer than two images, and as [`photo_features`] and [`match_features`].
 ///
-/// Source: as these.
+/// Source: as [`photo_features`] and [`match_features`].
 pub fn match_photos(
     photos: &[Photo],
     options: &PhotoOptions,
@@ -206,18 +204,17 @@ pub fn match_photos(
     Ok((features.into_iter().map(|f| f.image).collect(), pairs))
 }
 
-/// Share of the work of [`match_photos`] after which all features are found, judged by some dozens
-/// of photographs.
+/// Progress of [`match_photos`] when all features are found, measured with some dozens of images.
 const DETECTED: f32 = 0.5;
-/// Share of the work of [`reconstruct_photos`] after which all are matched.
+/// Progress of [`reconstruct_photos`] when all is matched.
 const MATCHED: f32 = 0.6;
 
-/// Cameras and points from photographs: features, matches, and [`reconstruct`].
+/// Reconstructs cameras and points from images: features, matches, and [`reconstruct`].
 ///
-/// * `cameras`: of each photograph, or one for all
+/// * `cameras`: the camera of each image, or one for all
 /// * `monitor`: the stages are those of [`match_photos`], then those of [`reconstruct`]
 ///
-/// Returns the keypoints and matches, too.
+/// Also returns the keypoints and matches.
 ///
 /// # Errors
 /// As [`reconstruct`] and [`match_photos`].

@@ -6,21 +6,20 @@ use crate::camera::{PosedCamera, RigidTransform};
 use crate::optim::RobustLoss;
 use nalgebra::{Point2, Point3, Similarity3, Translation3};
 
-/// Loss of a reprojection error in a model of photographs, pixels: beyond a pixel and a half,
-/// matches are more often wrong than imprecise.
+/// Loss of reprojection errors, pixels: beyond a pixel and a half, matches are more often wrong
+/// than imprecise.
 pub(super) const LOSS: RobustLoss = RobustLoss::Cauchy { width: 1.5 };
 
-/// A photograph, reduced to its keypoints.
+/// An image, reduced to its keypoints.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SfmImage {
-    /// A name, such as that of its file.
+    /// Name, such as the file name.
     pub name: String,
-    /// Positions of its keypoints, pixels.
+    /// Positions of the keypoints, pixels.
     pub keypoints: Vec<Point2<f64>>,
-    /// Their colors, red, green, blue; empty if not known.
+    /// Colors of the keypoints, red, green, blue; empty if unknown.
     pub colors: Vec<[u8; 3]>,
-    /// Number of its lens: photographs with the same number have equal lenses and share what is
-    /// refined of them. 0.
+    /// Lens number: images with the same number have equal lenses and share refined parameters. 0.
     pub lens: usize,
     /// Position of the camera, if known.
     pub position: Option<PositionPrior>,
@@ -33,19 +32,19 @@ pub struct ScenePoint {
     pub position: Point3<f64>,
     /// Mean color of its keypoints; gray if none is known.
     pub color: [u8; 3],
-    /// Observations: at least two elements, sorted by image.
+    /// Observations: at least two, sorted by image.
     pub track: Vec<TrackElement>,
-    /// Root mean square of its reprojection errors, pixels.
+    /// RMS of its reprojection errors, pixels.
     pub error_px: f64,
 }
 
-/// Cameras and points that share one frame. Its scale and pose are arbitrary, unless positions of
-/// photographs are known: see [`is_placed`](Self::is_placed).
+/// Cameras and points in a common frame. Its scale and pose are arbitrary, unless positions of
+/// images are known: see [`is_placed`](Self::is_placed).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reconstruction {
-    /// The camera of each image, `None` if it could not be registered here.
+    /// The camera of each image, `None` if not registered in this reconstruction.
     pub cameras: Vec<Option<PosedCamera>>,
-    /// Whether it stands where the known positions of its photographs are, in their unit of length.
+    /// Whether the frame is that of the known image positions, in their unit.
     pub is_placed: bool,
     /// The points.
     pub points: Vec<ScenePoint>,
@@ -57,7 +56,7 @@ impl Reconstruction {
         self.cameras.iter().flatten().count()
     }
 
-    /// The same in another world: places are where `to_from_world` moves them.
+    /// Transforms the world: positions move by `to_from_world`.
     ///
     /// ```
     /// use epipole::sfm::{Reconstruction, ScenePoint};
@@ -83,15 +82,14 @@ impl Reconstruction {
         self.points.iter().map(|point| point.track.len()).sum()
     }
 
-    /// The pixel where a camera shows a point through its lens; `None` if the image is not
-    /// registered or the lens does not see the point: what is behind its camera, except by a
-    /// fisheye.
+    /// Projects a point through the lens of an image. `None` if the image is not registered or the
+    /// lens does not see the point: any point behind the camera, except for a fisheye.
     pub fn project(&self, image: usize, point: &Point3<f64>) -> Option<Point2<f64>> {
         let camera = self.cameras.get(image)?.as_ref()?;
         camera.project(point).ok()
     }
 
-    /// Mean length of all reprojection errors, pixels; 0 without observations.
+    /// Returns the mean reprojection error, pixels; 0 without observations.
     pub fn mean_reprojection_px(&self, images: &[SfmImage]) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for point in &self.points {
@@ -106,7 +104,7 @@ impl Reconstruction {
         if count > 0.0 { sum / count } else { 0.0 }
     }
 
-    /// The same as a [`Bundle`], with the image of each of its cameras.
+    /// Converts to a [`Bundle`], with the image of each of its cameras.
     pub fn to_bundle(&self, images: &[SfmImage]) -> (Bundle, Vec<usize>) {
         let mut camera_of_image = vec![usize::MAX; self.cameras.len()];
         let mut image_of_camera = Vec::new();
@@ -135,7 +133,7 @@ impl Reconstruction {
         (bundle, image_of_camera)
     }
 
-    /// Brings [`ScenePoint::color`] and [`ScenePoint::error_px`] up to date.
+    /// Updates [`ScenePoint::color`] and [`ScenePoint::error_px`].
     pub(super) fn finish_points(&mut self, images: &[SfmImage]) {
         let mut points = std::mem::take(&mut self.points);
         for point in &mut points {
@@ -164,8 +162,8 @@ impl Reconstruction {
     }
 }
 
-/// `cam_from_world` after the world was moved; the camera keeps its unit of length no more than the
-/// world does.
+/// Returns `cam_from_world` after the world was transformed; the camera's unit of length changes
+/// with that of the world.
 pub(super) fn moved_pose(
     cam_from_world: &RigidTransform,
     to_from_world: &Similarity3<f64>,
@@ -175,7 +173,7 @@ pub(super) fn moved_pose(
     RigidTransform::from_parts(Translation3::from(-(rotation * center.coords)), rotation)
 }
 
-/// Numbers of lenses without gaps, in the order in which they come.
+/// Lens numbers without gaps, in order of appearance.
 #[derive(Default)]
 pub(super) struct Lenses(Vec<usize>);
 

@@ -6,24 +6,24 @@ use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// Least relative increase of the cost by a wrong focal length. Errors that repeat from photograph
-/// to photograph, such as those of the lens, move the minimum of anything flatter.
+/// Minimum relative increase of the cost by a wrong focal length. Systematic errors, such as from
+/// the lens, shift any flatter minimum.
 const MIN_FOCAL_RISE: f64 = 0.02;
 
-/// Minimum number of photographs of a lens that is corrected.
+/// Minimum number of images to correct a lens.
 const MIN_IMAGES_OF_LENS: usize = 5;
 
-/// The lenses are corrected if that lowers the cost to this share at least. The cost is of second
-/// order in the error: a share of 0.9 is an error of 5 %.
+/// The lenses are corrected if the cost falls at least to this fraction. The cost is quadratic in
+/// the error: 0.9 corresponds to an error of 5 %.
 const MAX_COST_SHARE: f64 = 0.9;
 
 impl Reconstruction {
-    /// Whether the observations determine the focal length of every lens: a change by 20 %, with
-    /// cameras and points refined again, would raise the cost by at least 2 %. The focal lengths of
-    /// a camera that moves along a straight line without turning, or only sees one plane head on,
-    /// are arbitrary, and with them the depth of the scene. Assumes a refined model.
+    /// Returns whether the observations determine the focal length of every lens: changing it by 20
+    /// % and refining cameras and points again would raise the cost by at least 2 %. For a camera
+    /// that moves along a straight line without rotating, or sees a single plane head-on, the focal
+    /// length and the depth of the scene are arbitrary. Assumes a refined model.
     ///
-    /// * `images`: the photographs of the reconstruction
+    /// * `images`: images of the reconstruction
     ///
     /// # Errors
     /// [`Error::TooFew`] without observations.
@@ -46,11 +46,11 @@ impl Reconstruction {
     }
 
     /// Corrects the focal lengths and radial terms of all lenses, with cameras and points, if that
-    /// lowers the robust cost by at least a tenth and the photographs
+    /// lowers the robust cost by at least a tenth and the images
     /// [determine](Self::determines_focal) the focal lengths. Returns whether it did; otherwise the
-    /// reconstruction is unchanged, as it is where a lens has fewer than five photographs.
+    /// reconstruction is unchanged, also if any lens has fewer than five images.
     ///
-    /// * `images`: the photographs of the reconstruction
+    /// * `images`: images of the reconstruction
     /// * `monitor`: as of [`adjust_bundle`]
     ///
     /// # Errors
@@ -90,7 +90,8 @@ impl Reconstruction {
             refine_distortion: true,
             ..fixed.clone()
         };
-        // The model may have been refined less far than this, which is no merit of the lens.
+        // Adjust with fixed lenses first: the model may not have converged, and that gain is not
+        // due to the lenses.
         let before = unless_degenerate(adjust_bundle(&mut bundle, &fixed, monitor))?;
         let after = unless_degenerate(adjust_bundle(&mut bundle, &free, monitor))?;
         let has_helped = (before.zip(after))
@@ -123,7 +124,7 @@ fn has_enough_of_each(bundle: &Bundle) -> bool {
     counts.iter().all(|count| *count >= MIN_IMAGES_OF_LENS)
 }
 
-/// `None` for any failure but a cancellation.
+/// Converts any error except cancellation to `None`.
 fn unless_degenerate<T>(found: Result<T>) -> Result<Option<T>> {
     match found {
         Ok(found) => Ok(Some(found)),

@@ -1,4 +1,4 @@
-//! Tracks: which keypoints of which photographs show the same point of the scene.
+//! Tracks: keypoints of several images that show the same scene point.
 
 use crate::feature::Match;
 use crate::math::UnionFind;
@@ -24,18 +24,18 @@ pub struct PairMatches {
     pub matches: Vec<Match>,
 }
 
-/// Joins matches into tracks: each is a list of keypoints, at most one an image, sorted by image.
+/// Joins matches into tracks: lists of keypoints, at most one per image, sorted by image.
 ///
-/// * `num_keypoints`: of each image
-/// * `pairs`: matches that have passed a geometric test. Those of pairs with many matches are
-///   trusted first: a match that would give a track two keypoints of one image is left out, so
-///   that a wrong match costs itself and not the two tracks that it touches.
+/// * `num_keypoints`: number of keypoints of each image
+/// * `pairs`: geometrically verified matches. Pairs with many matches take precedence: a match that
+///   would give a track two keypoints of one image is dropped, so that a wrong match does not spoil
+///   the two tracks that it touches.
 ///
-/// Tracks are sorted by their first element; keypoints without a match are in none.
+/// Tracks are sorted by their first element; keypoints without a match are in no track.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] if a match refers to an image or keypoint that is not there, or to one
-/// image twice.
+/// [`Error::OutOfRange`] if a match refers to a missing image or keypoint, or joins an image with
+/// itself.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -83,7 +83,7 @@ pub fn build_tracks(
 
     let total = starts[num_keypoints.len()];
     let mut sets = UnionFind::new(total);
-    // The images of each set, sorted, at its root; empty stands for the keypoint alone.
+    // Sorted images of each set, at its root; empty for a single keypoint.
     let mut images: Vec<Vec<u32>> = vec![Vec::new(); total];
     for &p in &order {
         let pair = &pairs[p];
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn a_wrong_match_costs_itself_alone() {
-        // Points 0 and 1 are seen in three images; one match of the weakest pair mixes them.
+        // Points 0 and 1 are seen in three images; a match of the weakest pair mixes them.
         let pairs = [
             pair(0, 1, &[(0, 0), (1, 1), (2, 2)]),
             pair(1, 2, &[(0, 0), (1, 1), (2, 2)]),

@@ -1,11 +1,11 @@
-//! A point from a track, some of whose keypoints may be wrong.
+//! Robust triangulation of a track with outliers.
 
 use super::views::View;
 use crate::camera::PosedCamera;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Vector2, Vector3};
 
-/// A keypoint, without what the lens did, and the camera that saw it.
+/// An undistorted keypoint and its camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight<'a> {
     pub(super) camera: PosedCamera,
@@ -23,7 +23,8 @@ impl Sight<'_> {
         }
     }
 
-    /// Squared reprojection error; infinite behind the camera, or 90° and more off the ray.
+    /// Returns the squared reprojection error; infinite behind the camera, or 90° and more off the
+    /// ray.
     pub(super) fn error_sq(&self, point: &Point3<f64>) -> f64 {
         match &self.view {
             View::Pixel(pixel) => self
@@ -34,8 +35,8 @@ impl Sight<'_> {
         }
     }
 
-    /// The reprojection error and its derivative by the point in the camera frame; `None` 90° and
-    /// more off a ray.
+    /// Returns the reprojection error and its derivative by the point in the camera frame; `None`
+    /// 90° or more off the ray.
     fn residual(&self, p: &Point3<f64>) -> Option<(Vector2<f64>, SMatrix<f64, 2, 3>)> {
         let pixel = match &self.view {
             View::Pixel(pixel) => pixel,
@@ -54,8 +55,7 @@ impl Sight<'_> {
     }
 }
 
-/// The point nearest to all rays in the sense of `Σ ‖(I − d dᵀ)(X − C)‖²`; `None` if they are
-/// parallel.
+/// Returns the point nearest to all rays by `Σ ‖(I − d dᵀ)(X − C)‖²`; `None` if they are parallel.
 fn nearest_to_rays(sights: &[Sight<'_>], chosen: impl Fn(usize) -> bool) -> Option<Point3<f64>> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (_, sight) in sights.iter().enumerate().filter(|(i, _)| chosen(*i)) {
@@ -71,9 +71,9 @@ fn nearest_to_rays(sights: &[Sight<'_>], chosen: impl Fn(usize) -> bool) -> Opti
         .then(|| Point3::from(solved))
 }
 
-/// The largest angle at which rays from two of the cameras meet in a point, radians, in [0, π/2];
-/// as [`triangulation_angle_rad`](crate::triangulation::triangulation_angle_rad), rays that meet
-/// head on are as bad as parallel ones.
+/// Returns the largest angle between rays from two of the cameras to a point, radians, in [0, π/2].
+/// As for [`triangulation_angle_rad`](crate::triangulation::triangulation_angle_rad), opposite rays
+/// are as bad as parallel ones.
 pub(super) fn widest_angle_rad<'a>(
     point: &Point3<f64>,
     centers: impl Iterator<Item = Point3<f64>> + Clone + 'a,
@@ -135,10 +135,10 @@ impl FixedProblem<3> for Refinement<'_> {
     }
 }
 
-/// The point that most of the sights agree on, and which do; `None` unless two at least do under
-/// a sufficient angle.
+/// Triangulates the point on which most sights agree. Also returns these sights; `None` unless at
+/// least two agree under a sufficient angle.
 ///
-/// Every pair of sights (of long tracks, the pairs of some) proposes a point; that with the
+/// Each pair of sights (a subset of the pairs for long tracks) proposes a point; the one with the
 /// smallest truncated error is refined on its inliers.
 pub(super) fn triangulate_track(
     sights: &[Sight<'_>],
@@ -166,7 +166,7 @@ pub(super) fn triangulate_track(
         }
     };
     propose(&|_| true);
-    // Up to about 30 pairs: those of the first eight, spread over a long track.
+    // At most about 30 pairs: those of eight sights, spread over a long track.
     let stride = sights.len().div_ceil(8).max(1);
     for i in (0..sights.len()).step_by(stride) {
         for j in (i + stride..sights.len()).step_by(stride) {
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn what_cannot_be_triangulated_is_refused() {
         let truth = Point3::new(0.3, -0.2, 0.4);
-        // Too small an angle; one camera twice, whose rays are parallel; no agreement.
+        // Too small an angle; the same camera twice, hence parallel rays; no agreement.
         assert!(triangulate_track(&sights(&truth, 2, 0.001), 2.0, 0.03).is_none());
         let one = sights(&truth, 1, 1.0)[0];
         assert!(triangulate_track(&[one, one], 2.0, 0.0).is_none());
@@ -271,7 +271,8 @@ mod tests {
         assert!(triangulate_track(&[], 2.0, 0.0).is_none());
     }
 
-    /// Two cameras that face each other leave a point between them free to move along their rays.
+    /// Asserts that two cameras facing each other leave a point between them undetermined along
+    /// their rays.
     #[test]
     fn cameras_that_face_each_other_do_not_place_a_point() {
         let up = Vector3::new(0.0, -1.0, 0.0);
@@ -290,7 +291,7 @@ mod tests {
         assert!(triangulate_track(&facing, 2.0, 0.03).is_none());
         let centers = facing.map(|sight| sight.camera.center_in_world());
         assert!(widest_angle_rad(&truth, centers.into_iter()) < 0.01);
-        // A third one, aside, does.
+        // A third camera, to the side, does.
         let aside = [facing[0], facing[1], sight(2.0, -5.0, (0.1, -0.2))];
         let (point, inliers) = triangulate_track(&aside, 2.0, 0.03).unwrap();
         assert!((point - truth).norm() < 0.02, "{point}");

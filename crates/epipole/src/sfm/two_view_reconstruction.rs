@@ -10,10 +10,10 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::{Point2, Point3};
 
-/// Number of refinements after points were left out.
+/// Maximum number of repeated refinements after points were removed.
 const MAX_REPETITIONS: usize = 5;
 
-/// Which points of two views to keep, and how to refine them.
+/// Options of [`two_view_reconstruction`].
 #[derive(Debug, Clone, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -27,15 +27,15 @@ pub struct TwoViewReconstructionOptions {
     pub min_angle_rad: f64,
     /// Maximum reprojection error of a point after the refinement, pixels, > 0.
     pub max_error_px: f64,
-    /// Fewer points than this are no reconstruction.
+    /// Minimum number of points of a reconstruction.
     pub min_num_points: usize,
-    /// The refinement of both cameras' motion and all points.
+    /// Options of the bundle adjustment of motion and points.
     pub bundle: BundleOptions,
 }
 
 impl Default for TwoViewReconstructionOptions {
-    /// A triangulation angle of at least half a degree, errors of at most 4 pixels, at least 15
-    /// points, and Huber's loss of 2 pixels.
+    /// Returns a minimum angle of half a degree, a maximum error of 4 pixels, at least 15 points,
+    /// and Huber's loss of 2 pixels.
     fn default() -> Self {
         Self {
             min_angle_rad: 0.5_f64.to_radians(),
@@ -49,41 +49,39 @@ impl Default for TwoViewReconstructionOptions {
     }
 }
 
-/// Two cameras and the points that both see, in the frame of camera 1, the distance of the cameras
-/// being 1.
+/// Two cameras and the points that both see, in the frame of camera 1; the baseline is 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewReconstruction {
     /// The refined motion, |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// The points.
     pub points: Vec<Point3<f64>>,
-    /// The same points as first triangulated from the given motion, its translation scaled to
+    /// The points as first triangulated from the given motion, with its translation scaled to
     /// length 1.
     pub triangulated: Vec<Point3<f64>>,
-    /// For each point, the index of its match; in increasing order.
+    /// Index of each point's match, in increasing order.
     pub match_of_point: Vec<usize>,
     /// Number of matches that each of the four motions of E puts in front of both cameras, most
-    /// first: one motion has nearly all, unless something is wrong.
+    /// first: usually one motion has nearly all.
     pub num_in_front: [usize; 4],
-    /// Root mean square of the reprojection errors of these points as first triangulated, pixels.
+    /// RMS reprojection error of the points as first triangulated, pixels.
     pub rms_before_px: f64,
-    /// The same after the refinement.
+    /// RMS reprojection error after the refinement, pixels.
     pub rms_px: f64,
-    /// Report of the refinement; of the last one, where it was repeated.
+    /// Report of the last refinement.
     pub report: LmReport,
 }
 
-/// Points for the matches of two views, refined together with the motion between the views.
+/// Triangulates the matches of two views and refines the points together with the motion.
 ///
-/// Each match is triangulated. Points that are behind a camera, or whose rays meet at a narrow
-/// angle, are left out; the others and the motion are refined by bundle adjustment. Points that
-/// then are behind a camera, too narrow, or far from their pixels are also left out, and the rest
-/// is refined again.
+/// Points behind a camera, or with a small triangulation angle, are dropped; bundle adjustment
+/// refines the others and the motion. Points that are then behind a camera, at a small angle, or
+/// far from their pixels are also dropped, and the rest is refined again.
 ///
-/// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
-/// * `cameras`: the two cameras, of any lens
-/// * `cam2_from_cam1`: the motion to start from; the length of its translation does not matter
-/// * `monitor`: the one stage is
+/// * `pixels1`, `pixels2`: matches without outliers: all of them count
+/// * `cameras`: the two cameras, with any lens
+/// * `cam2_from_cam1`: initial motion; the length of its translation does not matter
+/// * `monitor`: the only stage is
 ///   [`Stage::BundleAdjustment`](crate::progress::Stage::BundleAdjustment)
 ///
 /// # Errors
@@ -92,8 +90,8 @@ pub struct TwoViewReconstruction {
 /// motion without translation, [`Error::TooFew`] if fewer than `min_num_points` points remain, as
 /// for a camera that hardly moved; and as [`adjust_bundle`].
 ///
-/// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.4 (to leave points out
-/// and refine the rest again); the four motions are those of Hartley & Zisserman 2004, §9.6.
+/// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.4 (filtering and
+/// repeated refinement); the four motions are those of Hartley & Zisserman 2004, §9.6.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -109,7 +107,7 @@ pub struct TwoViewReconstruction {
 ///     pixels1.push(pixel);
 ///     pixels2.push(Point2::new(pixel.x - disparity, pixel.y));
 /// }
-/// // The motion that we start from is turned by a hundredth of a radian too far.
+/// // The initial motion is rotated by a hundredth of a radian too far.
 /// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.01, 0.0, 0.0));
 /// let options = TwoViewReconstructionOptions::default();
 /// let found =
@@ -145,7 +143,7 @@ pub fn two_view_reconstruction(
     for (index, (pixel1, pixel2)) in pixels1.iter().zip(pixels2).enumerate() {
         let triangulated =
             triangulate_optimal(&start.cameras[0], &start.cameras[1], pixel1, pixel2);
-        // Rays that are parallel or diverge have no point.
+        // Parallel or diverging rays have no point.
         let Ok(point) = triangulated else { continue };
         if angle_rad(&start, &point) < options.min_angle_rad {
             continue;
@@ -175,7 +173,7 @@ pub fn two_view_reconstruction(
         }
         matches = kept.iter().map(|&point| matches[point]).collect();
         (start, bundle) = (only(&start, &kept), only(&bundle, &kept));
-        // The points just removed had pulled at all the others.
+        // The removed points had biased all the others.
         if round < MAX_REPETITIONS {
             // Each repetition takes half of the remaining progress.
             let next = 0.5 * (1.0 + share);
@@ -185,7 +183,7 @@ pub fn two_view_reconstruction(
         }
     }
     let all: Vec<usize> = (0..matches.len()).collect();
-    // The unit of length is the distance of the cameras.
+    // The unit of length is the baseline.
     let motion = bundle.cameras[1].cam_from_world * bundle.cameras[0].cam_from_world.inverse();
     let unit = motion.translation.vector.norm();
     let motion = in_baselines(&motion);
@@ -271,14 +269,14 @@ fn enough(got: usize, options: &TwoViewReconstructionOptions) -> Result<()> {
     })
 }
 
-/// The same motion with a translation of length 1.
+/// Scales the translation to length 1.
 fn in_baselines(motion: &RigidTransform) -> RigidTransform {
     let mut motion = *motion;
     motion.translation.vector /= motion.translation.vector.norm();
     motion
 }
 
-/// Some points of a bundle of two cameras with their observations, two a point.
+/// Returns some points of a bundle of two cameras with their observations, two per point.
 fn only(bundle: &Bundle, points: &[usize]) -> Bundle {
     let observation = |(new, &old): (usize, &usize)| {
         [2 * old, 2 * old + 1].map(|observation| BundleObservation {
@@ -300,7 +298,8 @@ fn angle_rad(bundle: &Bundle, point: &Point3<f64>) -> f64 {
     triangulation_angle_rad(&first, &second, point)
 }
 
-/// Whether a point is in front of both cameras, wide enough, and near both of its pixels.
+/// Returns whether a point is in front of both cameras, at a sufficient angle, and near both of its
+/// pixels.
 fn is_good(bundle: &Bundle, point: usize, options: &TwoViewReconstructionOptions) -> bool {
     let place = &bundle.points[point];
     let in_front = (bundle.cameras.iter()).all(|camera| camera.project(place).is_ok());
@@ -311,7 +310,7 @@ fn is_good(bundle: &Bundle, point: usize, options: &TwoViewReconstructionOptions
         && angle_rad(bundle, place) >= options.min_angle_rad
 }
 
-/// Root mean square of the reprojection errors of some points, at least one.
+/// Returns the RMS reprojection error of some points, at least one.
 fn rms_px(bundle: &Bundle, points: &[usize]) -> f64 {
     let squares = points
         .iter()
@@ -328,7 +327,7 @@ fn four_counts(
     cameras: &[PosedCamera],
 ) -> Result<[usize; 4]> {
     let [first, second] = [&cameras[0].camera, &cameras[1].camera];
-    // Pixels that a lens bends no ray to are in front of nothing.
+    // Pixels without a ray are in front of no camera.
     let straight = |(p1, p2)| {
         first
             .pinhole_pixel(p1)
@@ -375,7 +374,7 @@ mod tests {
         )
     }
 
-    /// Matches of points around 6 units away, and the points.
+    /// Matches of points about 6 units away, and the points.
     fn matches(count: usize, noise_px: f64, far: f64) -> ([Vec<Point2<f64>>; 2], Vec<Point3<f64>>) {
         matches_through([&camera(); 2], count, noise_px, far)
     }
@@ -440,7 +439,7 @@ mod tests {
         }
     }
 
-    /// The motion, knocked off by an angle and a shift, and three times as long.
+    /// The motion, perturbed by an angle and a shift, with a translation three times as long.
     fn knocked(angle_rad: f64) -> RigidTransform {
         let knock = Vector3::new(0.6, 0.64, -0.48) * angle_rad;
         let mut start = motion();
@@ -458,7 +457,7 @@ mod tests {
         assert!(found.rms_px < 1e-3, "{}", found.rms_px);
         assert_eq!(found.num_in_front, [200, 0, 0, 0]);
         assert_eq!(found.match_of_point, (0..200).collect::<Vec<_>>());
-        // From the true motion they are triangulated where they end up.
+        // From the true motion they are triangulated at their final positions.
         let at_once = reconstruct(&pixels, &motion()).unwrap();
         for (place, point) in at_once.triangulated.iter().zip(&found.points) {
             assert!((place - point).norm() < 0.01, "{place} {point}");

@@ -1,4 +1,4 @@
-//! Which matches of two photographs belong together, and how the cameras moved between them.
+//! Two-view geometric verification of matches.
 
 use super::options::{SfmOptions, pair_ransac};
 use super::reconstruction::SfmImage;
@@ -16,32 +16,32 @@ use crate::two_view::{
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// A pair of images that passed the test of epipolar geometry.
+/// A geometrically verified pair of images.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifiedPair {
-    /// The matches that passed.
+    /// Matches that agree with the motion.
     pub pair: PairMatches,
     /// Motion of the camera; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// Median angle between the two rays of a match, radians: small for pure rotations and far
-    /// scenes, where the start of a reconstruction would be ill-conditioned. 0 if they show a plane
-    /// and a pure rotation explains them, by the focal length given or by another one.
+    /// scenes, where an initialization would be ill-conditioned. 0 if the matches fit a plane and a
+    /// pure rotation explains them, with the given focal length or another one.
     pub median_angle_rad: f64,
     /// A homography explains most matches: the scene is flat or the camera only rotated. A pair
-    /// with depth makes the safer start.
+    /// with depth is a safer start.
     pub is_flat: bool,
 }
 
-/// The matches of two photographs that agree with one motion of the camera; `None` if too few do.
+/// Finds the matches of two images that agree with one motion of the camera; `None` if too few do.
 ///
-/// * `pair`: matches of the photographs' keypoints
-/// * `images`, `cameras`: of the two photographs that the pair names
+/// * `pair`: matches between the images' keypoints
+/// * `images`, `cameras`: the two images of the pair and their cameras
 /// * `options`: [`SfmOptions::ransac`], [`SfmOptions::min_num_inliers`] and the seed
-/// * `monitor`: hears from the searches, in the one stage [`Stage::PairVerification`]
+/// * `monitor`: notified by the searches, in the only stage, [`Stage::PairVerification`]
 ///
 /// # Errors
-/// [`Error::Canceled`]; [`Error::OutOfRange`] if a match refers to a keypoint that is not there,
-/// [`Error::NotFinite`] for a lens with such a coefficient.
+/// [`Error::Canceled`]; [`Error::OutOfRange`] if a match refers to a missing keypoint,
+/// [`Error::NotFinite`] for a lens coefficient that is not finite.
 ///
 /// Source: Schönberger & Frahm 2016, "Structure-from-motion revisited", §4.1.
 pub fn verify_matches(
@@ -66,7 +66,7 @@ pub fn verify_matches(
     let images = images.map(Clone::clone);
     (cameras.iter()).try_for_each(|camera| camera.lens.check())?;
     let views = Views::new(&images, &cameras.map(|camera| *camera));
-    // The two are all the images that there are.
+    // The pair refers to the two images given.
     let here = PairMatches {
         image1: 0,
         image2: 1,
@@ -88,9 +88,9 @@ pub fn verify_matches(
     }))
 }
 
-/// Tests all pairs; shares are of the pairs, in the one stage [`Stage::PairVerification`].
+/// Verifies all pairs; progress is by pairs, in the only stage, [`Stage::PairVerification`].
 ///
-/// * `views`: of all images
+/// * `views`: views of all images
 pub(super) fn verify_pairs(
     pairs: &[PairMatches],
     views: &Views,
@@ -104,7 +104,7 @@ pub(super) fn verify_pairs(
         let mut found: Vec<Option<VerifiedPair>> = vec![None; group.len()];
         crate::math::parallel::for_each_chunk(&mut found, 1, |n, found| {
             let needed = options.min_num_inliers;
-            // Without a monitor nothing cancels it.
+            // Without a monitor nothing cancels the search.
             found[0] = verify_pair(&group[n], views, &ransac, needed, &mut ()).unwrap_or(None);
         });
         verified.extend(found.into_iter().flatten());
@@ -115,12 +115,12 @@ pub(super) fn verify_pairs(
     Ok(verified)
 }
 
-/// Pairs between two reports of progress.
+/// Number of pairs between two progress reports.
 const VERIFIED_AT_ONCE: usize = 8;
 
 /// Keeps the matches that agree with one motion of the camera; `None` if too few do.
 ///
-/// * `views`: of all images
+/// * `views`: views of all images
 pub(super) fn verify_pair(
     pair: &PairMatches,
     views: &Views,
@@ -140,7 +140,7 @@ pub(super) fn verify_pair(
     let pixels2: Vec<_> = (pair.matches.iter())
         .map(|found| pixels[1][found.index2])
         .collect();
-    // Without consensus the two photographs simply do not overlap.
+    // Without consensus the two images simply do not overlap.
     let search = &mut Part::new(monitor, 0.0, 0.6);
     let report = unless_canceled(estimate_relative_pose(
         &pixels1, &pixels2, cameras, options, search,
@@ -159,11 +159,11 @@ pub(super) fn verify_pair(
             return Ok(None);
         };
         let ray1 = cam2_from_cam1.rotation * ray1;
-        // Head on is as bad as parallel.
+        // Opposite rays are as bad as parallel ones.
         angles.push(libm::acos(ray1.dot(&ray2).abs().min(1.0)));
     }
     angles.sort_by(f64::total_cmp);
-    // The share that makes two views planar makes a pair flat.
+    // The ratio that makes two views planar makes a pair flat.
     let judging = TwoViewOptions {
         ransac: RansacOptions {
             max_iterations: MAX_SAMPLES,
@@ -173,7 +173,7 @@ pub(super) fn verify_pair(
     };
     let rest = &mut Part::new(monitor, 0.6, 1.0);
     let flat = find_plane(&pixels1, &pixels2, cameras, &judging, rest)?;
-    // A rotation gives no depth, and with a wrong focal length a rotation passes for a plane.
+    // A rotation gives no depth, and with a wrong focal length it passes for a plane.
     let only_turned = flat.as_ref().is_some_and(|flat| {
         find_explaining_turn(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
             .is_ok_and(|turn| turn.is_some())
@@ -191,7 +191,7 @@ pub(super) fn verify_pair(
     }))
 }
 
-/// `None` for any failure but a cancellation.
+/// Converts any error except cancellation to `None`.
 fn unless_canceled<T>(found: Result<T>) -> Result<Option<T>> {
     match found {
         Ok(found) => Ok(Some(found)),
@@ -200,10 +200,10 @@ fn unless_canceled<T>(found: Result<T>) -> Result<Option<T>> {
     }
 }
 
-/// Maximum number of samples in search of a plane or a rotation among inliers.
+/// Maximum number of samples in the search for a plane or rotation among inliers.
 const MAX_SAMPLES: usize = 500;
 
-/// The homography that explains nearly all inliers of a motion, if there is one.
+/// Finds the homography that explains nearly all inliers of a motion, if any.
 fn find_plane(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -221,7 +221,7 @@ fn find_plane(
     Ok(unless_canceled(search)?.filter(|flat| flat.num_inliers as f64 > needed))
 }
 
-/// Whether a rotation with another focal length explains matches on a plane.
+/// Returns whether a rotation with another focal length explains matches on a plane.
 fn turned_otherwise(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     cameras: [&Camera; 2],

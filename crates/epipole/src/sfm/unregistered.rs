@@ -1,4 +1,4 @@
-//! Why photographs are missing from a reconstruction.
+//! Reasons why images are missing from a reconstruction.
 
 use super::incremental::SfmResult;
 use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check, pair_ransac};
@@ -7,73 +7,73 @@ use super::views::Views;
 use crate::Result;
 use crate::progress::{Monitor, Stage, report};
 
-/// Why a photograph is in no reconstruction.
+/// Reason why an image is in no reconstruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WhyUnregistered {
-    /// The picture is blurred, flat or very small.
+    /// The image is blurred, uniform or very small.
     #[error("it has only {num_keypoints} features, and {needed} are needed")]
     FewFeatures {
-        /// Features found.
+        /// Number of features.
         num_keypoints: usize,
-        /// The fewest that could do.
+        /// Minimum number needed.
         needed: usize,
     },
-    /// No other picture looks like it.
+    /// No other image resembles it.
     #[error("no other photograph has more than {most} matches with it, and {needed} are needed")]
     FewMatches {
-        /// With the photograph that has most.
+        /// Number of matches with the image that has most.
         most: usize,
-        /// The fewest that could do.
+        /// Minimum number needed.
         needed: usize,
     },
-    /// Things look alike, but are not the same, or too few of them are.
+    /// Its matches are between similar but different objects, or too few.
     #[error(
         "its matches with other photographs agree on no motion of the camera: the pictures may show different things that look alike"
     )]
     NoMotion,
-    /// It could have begun a reconstruction, but the cameras stood at one place.
+    /// It could have started a reconstruction, but the cameras had no baseline.
     #[error(
         "it was taken from nearly the same place as the photographs that match it, so that nothing can be said about depth"
     )]
     NoBaseline,
-    /// It could have begun a reconstruction with one that matches it, and no points were left of
-    /// it.
+    /// It could have started a reconstruction with an image that matches it, but no points
+    /// remained.
     #[error(
         "too few of its matches become points within the largest error and under the smallest angle that are asked for, or its focal length is wrong"
     )]
     NoStart,
-    /// It matches photographs that are placed, but hardly where these have points.
+    /// It matches registered images, but mostly where these have no points.
     #[error("it sees {visible} of the reconstructed points, and {needed} are needed")]
     FewPoints {
-        /// Points that it sees.
+        /// Number of points that it sees.
         visible: usize,
-        /// The fewest that could do.
+        /// Minimum number needed.
         needed: usize,
     },
-    /// It sees points enough, and no pose explains them.
+    /// It sees enough points, but no pose explains them.
     #[error(
         "no place of the camera explains what it sees of the {visible} points: its focal length or the matches may be wrong"
     )]
     NoPose {
-        /// Points that it sees.
+        /// Number of points that it sees.
         visible: usize,
     },
-    /// The work was ended before its turn came.
+    /// The reconstruction was stopped before this image was tried.
     #[error("the work was ended before it was tried")]
     NotTried,
 }
 
-/// Median angle between the rays of a pair below which it cannot begin a reconstruction, radians.
+/// Minimum median angle between the rays of an initial pair, radians.
 const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 
-/// For each of [`SfmResult::unregistered`], in its order, why it is in no reconstruction.
+/// Returns the reason for each of [`SfmResult::unregistered`], in its order.
 ///
-/// * `input`, `options`: what [`reconstruct`](super::reconstruct) was given
-/// * `result`: what it answered
+/// * `input`, `options`: input of [`reconstruct`](super::reconstruct)
+/// * `result`: its result
 ///
-/// The pairs of these photographs are tested once more, so this takes a moment for each, in the one
-/// stage [`Stage::PairVerification`].
+/// Verifies the pairs of these images again, so each takes a moment, in the only stage,
+/// [`Stage::PairVerification`].
 ///
 /// # Errors
 /// As [`reconstruct`](super::reconstruct).
@@ -82,7 +82,7 @@ const LEAST_START_ANGLE_RAD: f64 = 0.25 * core::f64::consts::PI / 180.0;
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::sfm::{SfmImage, SfmInput, SfmOptions, reconstruct, why_unregistered};
-/// // Two photographs without a feature.
+/// // Two images without a feature.
 /// let input = SfmInput {
 ///     images: vec![SfmImage::default(); 2],
 ///     cameras: vec![Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480)],
@@ -104,7 +104,7 @@ pub fn why_unregistered(
     let views = Views::new(&input.images, &cameras);
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
-    // Which keypoints of placed photographs belong to points.
+    // Keypoints of registered images that belong to points.
     let mut has_point: Vec<Vec<bool>> = input
         .images
         .iter()
@@ -222,8 +222,7 @@ mod tests {
         let at = |x: f64| RigidTransform::new(Vector3::new(x, 0.0, 0.1 * x), Vector3::zeros());
         let mut keypoints: Vec<Vec<Point2<f64>>> =
             [0.0, -0.6, -1.2].iter().map(|x| see(&at(*x))).collect();
-        // 3: nothing in it. 4: looks like nothing else. 5: matches at random. 6: sees 10 of the
-        // points.
+        // 3: no keypoints. 4: matches nothing. 5: matches at random. 6: sees 10 of the points.
         keypoints.push(Vec::new());
         let mut anywhere = |count: usize| -> Vec<Point2<f64>> {
             (0..count)

@@ -1,4 +1,4 @@
-//! Keypoints and cameras from which motions, poses and points are found.
+//! Keypoints and cameras for estimating motions, poses and points.
 
 use super::reconstruction::SfmImage;
 use crate::camera::{Camera, Distortion, Lens, LensKind, Observation};
@@ -7,16 +7,16 @@ use nalgebra::Point2;
 /// The keypoints of all images with their cameras.
 #[derive(Clone)]
 pub(super) struct Views {
-    /// Pinholes where all lenses are Brown's.
+    /// Cameras; pinholes if all lenses are Brown's.
     pub(super) cameras: Vec<Camera>,
-    /// Keypoints as these cameras see them.
+    /// Keypoints as seen by these cameras.
     pub(super) pixels: Vec<Vec<Point2<f64>>>,
-    /// Rays of all keypoints, where some lens is not Brown's.
+    /// Rays of all keypoints, if some lens is not Brown's.
     observed: Option<Vec<Vec<Option<Observation>>>>,
 }
 
 impl Views {
-    /// * `cameras`: of each image
+    /// * `cameras`: camera of each image
     pub(super) fn new(images: &[SfmImage], cameras: &[Camera]) -> Self {
         let pinhole = |camera: &Camera| Camera {
             lens: Lens::NONE,
@@ -36,7 +36,7 @@ impl Views {
         }
     }
 
-    /// View of a keypoint; `None` where its lens sees no ray.
+    /// Returns the view of a keypoint; `None` where its lens has no ray.
     pub(super) fn of(&self, image: usize, keypoint: usize) -> Option<View<'_>> {
         match &self.observed {
             None => Some(View::Pixel(self.pixels[image][keypoint])),
@@ -45,15 +45,15 @@ impl Views {
     }
 }
 
-/// A keypoint without what the lens did.
+/// An undistorted keypoint.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum View<'a> {
-    /// Of a pinhole camera.
+    /// Pixel of a pinhole camera.
     Pixel(Point2<f64>),
     Ray(&'a Observation),
 }
 
-/// The rays of all keypoints. Keypoints beyond what a lens model bends rays to have none.
+/// Computes the rays of all keypoints; `None` for keypoints beyond the range of the lens model.
 fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observation>>> {
     let mut seen: Vec<Vec<Option<Observation>>> = vec![Vec::new(); images.len()];
     crate::math::parallel::for_each_chunk(&mut seen, 1, |index, seen| {
@@ -63,7 +63,7 @@ fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observati
     seen
 }
 
-/// All keypoints as a camera without distortion would show them.
+/// Undistorts all keypoints.
 fn undistorted(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Point2<f64>>> {
     images
         .iter()

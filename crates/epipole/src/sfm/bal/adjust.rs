@@ -1,4 +1,4 @@
-//! The solution of a published problem.
+//! Bundle adjustment of BAL problems.
 
 use super::problem::BalProblem;
 use super::residuals::{Problem, State};
@@ -9,18 +9,17 @@ use crate::{Error, Result};
 
 /// Refines all cameras and points of a problem, in place.
 ///
-/// * `loss`: its width is in pixels
-/// * `monitor`: hears before the first step and after each one, in the one stage
+/// * `loss`: width in pixels
+/// * `monitor`: notified before the first step and after each, in the only stage,
 ///   [`Stage::BundleAdjustment`]
 ///
-/// Every observation counts, those of points behind their camera too, so that costs can be
-/// compared.
+/// All observations count, even those of points behind their camera, so that costs are comparable.
 ///
 /// # Errors
 /// [`TooFew`](crate::Error::TooFew) without observations, [`OutOfRange`](crate::Error::OutOfRange)
-/// if an observation refers to a camera or point that is not there, or for a loss that
-/// [`RobustLoss::check`] refuses, [`NotFinite`](crate::Error::NotFinite) if the cost at the start
-/// is not finite, [`Canceled`](crate::Error::Canceled); the problem is then the best found so far.
+/// if an observation refers to a missing camera or point, or for a loss that [`RobustLoss::check`]
+/// rejects, [`NotFinite`](crate::Error::NotFinite) if the initial cost is not finite,
+/// [`Canceled`](crate::Error::Canceled); the problem is then the best found so far.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis".
 pub fn adjust_bal(
@@ -67,7 +66,7 @@ mod tests {
     use crate::sfm::BundleObservation;
     use nalgebra::{DMatrix, DVector, Point2, Point3, Vector3};
 
-    /// Cameras around a ball of points; every point is seen by every camera.
+    /// Cameras around a ball of points; every camera sees every point.
     fn ring(num_cameras: usize, num_points: usize, noise_px: f64, seed: u64) -> BalProblem {
         let mut random = Random::new(seed);
         let mut problem = BalProblem::default();
@@ -186,7 +185,7 @@ mod tests {
             &mut (),
         )
         .unwrap();
-        // E[½ Σ r²] = ½ σ² (residuals − parameters + 7 of the gauge).
+        // E[½ Σ r²] = ½ σ² (residuals − parameters + 7 for the gauge).
         let freedom = (2 * 6 * 200 - 9 * 6 - 3 * 200 + 7) as f64;
         let expected = 0.5 * 0.25 * freedom;
         assert!(
@@ -208,7 +207,7 @@ mod tests {
         let mut pairs = report.history.windows(2);
         assert!(pairs.all(|pair| pair[1].cost <= pair[0].cost));
         assert!((problem.cost(loss) - report.final_cost).abs() < 1e-9 * report.final_cost);
-        // Without the outliers the refined cameras explain what the true ones do.
+        // Without the outliers the refined cameras fit as well as the true ones.
         problem.observations = truth.observations.clone();
         let clean = problem.cost(RobustLoss::Trivial);
         assert!(clean < 1.5 * truth.cost(RobustLoss::Trivial), "{clean}");

@@ -1,4 +1,4 @@
-//! Bundle adjustment in the large: published problems and their solution.
+//! Published bundle adjustment problems (BAL) and their solver.
 
 mod adjust;
 mod problem;

@@ -1,29 +1,28 @@
-//! Published problems: cameras of their format, points and observations.
+//! Cameras, points and observations of a BAL problem.
 
 use crate::sfm::BundleObservation;
 use nalgebra::{Point3, Vector3};
 
-/// The camera of the format: it looks along −z, and its image has the origin in the middle and v
-/// up.
+/// BAL camera: looks along −z; the image has its origin in the middle and v up.
 ///
 /// `P = R X + t`, `p = −(P.x, P.y)/P.z`, `pixel = f (1 + k1 ‖p‖² + k2 ‖p‖⁴) p`.
 ///
 /// Source: Agarwal, Snavely, Seitz & Szeliski 2010, "Bundle adjustment in the large".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BalCamera {
-    /// Axis times angle of R, radians.
+    /// Rotation vector of R (axis times angle), radians.
     pub rotation: Vector3<f64>,
-    /// t.
+    /// Translation t.
     pub translation: Vector3<f64>,
-    /// f, pixels.
+    /// Focal length f, pixels.
     pub focal_px: f64,
-    /// Radial distortion of second order.
+    /// Second-order radial distortion.
     pub k1: f64,
-    /// Radial distortion of fourth order.
+    /// Fourth-order radial distortion.
     pub k2: f64,
 }
 
-/// A bundle adjustment problem: cameras, points and what was seen where.
+/// Bundle adjustment problem: cameras, points and observations.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -1,6 +1,6 @@
-//! The two radial terms of the format's cameras.
+//! Radial distortion of BAL cameras.
 
-/// The distortion's factor at a normalized point, and its Jacobian times the point.
+/// The distortion factor at a normalized point, and its derivatives.
 pub(super) struct RadialTerms {
     pub(super) r_sq: f64,
     pub(super) factor: f64,

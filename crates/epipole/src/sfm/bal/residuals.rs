@@ -1,4 +1,4 @@
-//! A published problem as the solver sees it: residuals, their derivatives, and steps.
+//! BAL problem for the solver: residuals, derivatives and steps.
 
 use super::problem::BalProblem;
 use super::radial::radial_terms;
@@ -51,7 +51,8 @@ impl State {
 }
 
 impl BalProblem {
-    /// The cost `½ Σ ρ(‖r‖²)` over all observations, those of points behind their camera included.
+    /// Returns the cost `½ Σ ρ(‖r‖²)` over all observations, including those of points behind their
+    /// camera.
     ///
     /// Infinite or NaN if a point lies in the center plane of a camera that sees it.
     pub fn cost(&self, loss: RobustLoss) -> f64 {

@@ -1,4 +1,4 @@
-//! Bundle adjustment of a growing reconstruction, or of a part of it.
+//! Bundle adjustment of a growing reconstruction, whole or in part.
 
 use super::Builder;
 use crate::camera::Intrinsics;
@@ -10,7 +10,7 @@ use crate::sfm::views::Views;
 use crate::{Error, Result};
 
 impl Builder {
-    /// The image itself and those that share most points with it.
+    /// Returns the image itself and the images that share most points with it.
     pub(in crate::sfm) fn neighborhood(&self, image: usize, count: usize) -> Vec<usize> {
         let mut shared = vec![0; self.images.len()];
         for point in self.points.iter().flatten() {
@@ -30,8 +30,8 @@ impl Builder {
         order
     }
 
-    /// Bundle adjustment of everything, or of some images with the points that they see. Returns
-    /// the cost; `None` if there is nothing that can be refined.
+    /// Adjusts everything, or some images with the points that they see. Returns the cost; `None`
+    /// if nothing can be refined.
     ///
     /// # Errors
     /// [`Error::Canceled`]; cameras and points are then the best found so far.
@@ -59,7 +59,7 @@ impl Builder {
             refine_principal_point: with_intrinsics && self.options.refine_principal_point,
             refine_distortion: with_intrinsics && self.options.refine_distortion,
             refine_tangential: with_intrinsics && self.options.refine_tangential,
-            // Receivers are sure of themselves also where they are wrong.
+            // GPS receivers report small uncertainties even when they are wrong.
             position_loss: RobustLoss::Cauchy { width: 2.0 },
             ..BundleOptions::default()
         };
@@ -121,7 +121,7 @@ impl Builder {
         adjusted
     }
 
-    /// Gives what was refined of a lens to all its images, those that are still to come, too.
+    /// Copies the refined intrinsics of a lens to all its images, registered or not.
     fn share_intrinsics(&mut self, bundle: &Bundle, image_of: &[usize], lenses: &Lenses) {
         if let (Some(rig), Some(sensor)) = (&mut self.rig, bundle.sensors.first()) {
             rig.camera = sensor.camera;

@@ -1,4 +1,4 @@
-//! The state of a growing reconstruction, and how it starts and takes in image after image.
+//! State of a growing reconstruction: initialization and registration of images.
 
 mod adjust;
 mod place;
@@ -28,28 +28,28 @@ pub(super) struct TrackPoint {
 pub(super) struct Builder {
     pub(super) images: Vec<SfmImage>,
     pub(super) options: SfmOptions,
-    /// Of each image, before any refinement.
+    /// Cameras of all images before any refinement.
     first_calibration: Vec<Camera>,
     pub(super) views: Views,
-    /// Of each image, refined as far as it is.
+    /// Cameras of all images, refined so far.
     pub(super) calibration: Vec<Camera>,
     pub(super) tracks: Vec<Vec<TrackElement>>,
     /// Track of each keypoint, `u32::MAX` if none.
     pub(super) track_of: Vec<Vec<u32>>,
-    /// Images that earlier components have.
+    /// Images in earlier components.
     pub(super) taken: Vec<bool>,
-    /// Second sensor of a stereo rig: the second half of the images are those of the right camera.
+    /// Second sensor of a stereo rig; its images are the second half.
     pub(super) rig: Option<Sensor>,
     pub(super) cameras: Vec<Option<PosedCamera>>,
     pub(super) points: Vec<Option<TrackPoint>>,
-    /// Whether the world is that of the known positions.
+    /// Whether the world is aligned with known positions.
     pub(super) is_placed: bool,
 }
 
 impl Builder {
-    /// Nothing is registered yet, and [`join_tracks`](Self::join_tracks) gives it tracks.
+    /// Creates a builder without registered images; [`join_tracks`](Self::join_tracks) adds tracks.
     ///
-    /// * `calibration`: the camera of each image
+    /// * `calibration`: camera of each image
     pub(super) fn new(images: &[SfmImage], calibration: Vec<Camera>, options: &SfmOptions) -> Self {
         Self {
             images: images.to_vec(),
@@ -67,7 +67,7 @@ impl Builder {
         }
     }
 
-    /// Joins matches into the tracks to make points from.
+    /// Joins matches into tracks.
     pub(super) fn join_tracks(&mut self, pairs: &[PairMatches]) -> Result<()> {
         let counts: Vec<usize> = (self.images.iter())
             .map(|image| image.keypoints.len())
@@ -83,7 +83,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Forgets cameras, points and refined lenses, for another component.
+    /// Clears cameras, points and refined lenses, for another component.
     pub(super) fn clear(&mut self) {
         self.calibration.clone_from(&self.first_calibration);
         self.views = Views::new(&self.images, &self.calibration);
@@ -92,7 +92,8 @@ impl Builder {
         self.is_placed = false;
     }
 
-    /// The image that holds the camera of `image`, and 1 if it is the right one of a rig.
+    /// Returns the image that holds the camera of `image`, and 1 if `image` is the right one of a
+    /// rig.
     fn frame_of(&self, image: usize) -> (usize, usize) {
         let num_frames = self.images.len() / 2;
         if self.rig.is_some() && image >= num_frames {
@@ -102,7 +103,7 @@ impl Builder {
         }
     }
 
-    /// The camera of an image at a pose.
+    /// Returns the camera of an image at a pose.
     pub(super) fn posed(&self, image: usize, cam_from_world: RigidTransform) -> PosedCamera {
         PosedCamera {
             camera: self.calibration[image],
@@ -110,7 +111,7 @@ impl Builder {
         }
     }
 
-    /// Places a camera, and with it the right one of its rig.
+    /// Sets the pose of a camera, and thereby that of the right camera of its rig.
     pub(super) fn place(&mut self, image: usize, camera: Option<PosedCamera>) {
         self.cameras[image] = camera;
         if let Some(rig) = self.rig {
@@ -137,7 +138,7 @@ impl Builder {
         Some(Sight { camera, view })
     }
 
-    /// Starts from the best pair that works, and answers which images these are.
+    /// Initializes from the best pair that works. Returns its images.
     pub(super) fn start(
         &mut self,
         verified: &[VerifiedPair],
@@ -195,7 +196,7 @@ impl Builder {
         adjusted.map(|_| false)
     }
 
-    /// The points that an image sees through its tracks.
+    /// Returns the points that an image sees through its tracks.
     pub(super) fn visible(&self, image: usize) -> Vec<(TrackElement, usize)> {
         let mut visible = Vec::new();
         for (keypoint, &track) in self.track_of[image].iter().enumerate() {
@@ -210,7 +211,7 @@ impl Builder {
         visible
     }
 
-    /// The image with the best view of the points: many, and well spread.
+    /// Returns the image with the best view of the points: many, and well spread.
     ///
     /// Source: Schönberger & Frahm 2016, §4.2.
     pub(super) fn next_image(&self, failed_with: &[usize]) -> Option<usize> {
@@ -247,10 +248,10 @@ impl Builder {
         best.map(|(_, image)| image)
     }
 
-    /// Finds the camera of an image from the points it sees, and adds its observations.
+    /// Registers an image by the points that it sees, and adds its observations.
     pub(super) fn register(&mut self, image: usize) -> Option<usize> {
         let visible = self.visible(image);
-        // Points come in no order.
+        // The points are in no particular order.
         let ransac = RansacOptions {
             sampler: SamplerKind::Uniform,
             ..pair_ransac(&self.options).within(self.options.max_registration_error_px)
@@ -263,7 +264,7 @@ impl Builder {
                 of_visible.push(n);
             }
         }
-        // Without consensus the image is not registered, and may be later.
+        // Without consensus the image stays unregistered; it may be tried again.
         let camera = &self.views.cameras[image];
         let found = estimate_absolute_pose(&positions, &pixels, camera, &ransac, &mut ());
         let found = found.ok()?;
@@ -281,7 +282,7 @@ impl Builder {
         Some(found.num_inliers)
     }
 
-    /// The reconstruction so far.
+    /// Returns the current reconstruction.
     pub(super) fn so_far(&self) -> Reconstruction {
         let mut reconstruction = Reconstruction {
             is_placed: self.is_placed,

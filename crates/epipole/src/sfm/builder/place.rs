@@ -9,8 +9,8 @@ use crate::sfm::reconstruction::moved_pose;
 const WRONG_SIGMAS: f64 = 4.0;
 
 impl Builder {
-    /// Aligns cameras and points with the known positions, if at least three of them are not on one
-    /// line. Some may be wrong.
+    /// Aligns cameras and points with the known positions, if at least three are not on one line.
+    /// Some may be wrong.
     pub(in crate::sfm) fn place_in_world(&mut self) -> bool {
         if self.rig.is_some() {
             return false;

@@ -1,4 +1,4 @@
-//! Points of a growing reconstruction: made, given more observations, and dropped.
+//! Points of a growing reconstruction: triangulation, completion and filtering.
 
 use super::{Builder, TrackPoint, insert};
 use crate::sfm::tracks::TrackElement;
@@ -54,7 +54,7 @@ impl Builder {
         }
     }
 
-    /// Whether the rays of two keypoints meet in front of their cameras, at any angle.
+    /// Returns whether the rays of two keypoints meet in front of their cameras, at any angle.
     pub(in crate::sfm) fn meet(&self, first: TrackElement, second: TrackElement) -> bool {
         let (Some(first), Some(second)) = (self.sight(first), self.sight(second)) else {
             return false;
@@ -63,7 +63,7 @@ impl Builder {
         triangulate_track(&[first, second], max_error_px, 0.0).is_some()
     }
 
-    /// Picks up observations that fit their point after all.
+    /// Adds observations that fit their point after all.
     pub(in crate::sfm) fn complete(&mut self) {
         let max_error_sq = {
             let max_error_px = self.options.max_reprojection_error_px;
@@ -85,7 +85,7 @@ impl Builder {
         }
     }
 
-    /// Drops points that fewer images saw than the options ask for.
+    /// Drops points with fewer observations than the options require.
     pub(in crate::sfm) fn drop_short_tracks(&mut self) {
         for slot in &mut self.points {
             if (slot.as_ref()).is_some_and(|point| point.seen.len() < self.options.min_track_length)
@@ -95,8 +95,8 @@ impl Builder {
         }
     }
 
-    /// Drops observations that fit badly, points seen under too small an angle, and cameras that
-    /// see too little.
+    /// Drops observations with large errors, points with small triangulation angles, and cameras
+    /// that see too few points.
     pub(in crate::sfm) fn filter(&mut self) {
         let max_error_px = self.options.max_reprojection_error_px;
         let min_angle_rad = self.options.min_angle_deg.to_radians();

@@ -1,4 +1,4 @@
-//! Refinement of a bundle.
+//! Bundle adjustment.
 
 use super::gauge;
 use super::lens_state::{self, OF_ANY, OF_BROWN};
@@ -12,28 +12,27 @@ use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
 use nalgebra::Translation3;
 
-/// Refines cameras, points and, if wanted, what [`BundleOptions`] names of their lenses, in place:
-/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, and what is known of positions
-/// beside it, each difference in its standard deviations: a pixel weighs as much as one of them.
-/// Positions that are far from where the cameras are want
-/// [`align_points`](crate::sfm::align_points) first.
+/// Refines cameras, points and the lens parameters that [`BundleOptions`] selects, in place:
+/// minimizes `½ Σ ρ(‖predicted − observed‖²)`, in square pixels, plus the squared differences from
+/// known positions, in standard deviations. If known positions are far from the cameras, align the
+/// bundle first, by [`align_points`](crate::sfm::align_points).
 ///
-/// * `monitor`: hears before the first step and after each one, in the one stage
+/// * `monitor`: notified before the first step and after each, in the only stage,
 ///   [`Stage::BundleAdjustment`]
 ///
-/// Cameras and points without observations stay where they are.
+/// Cameras and points without observations do not move.
 ///
 /// # Errors
 /// [`Error::TooFew`] without observations, [`Error::OutOfRange`] if an observation refers to a
-/// camera or point that is not there, for a lens beyond the number of cameras and sensors, a
-/// standard deviation that is not positive, or for a loss that
-/// [`RobustLoss::check`](crate::optim::RobustLoss::check) refuses, [`Error::Degenerate`] if cameras
-/// of one lens number have different lenses, [`Error::NotFinite`] if a pixel,
-/// a coefficient of a lens, a known position or the cost at the start is not finite,
-/// [`Error::Canceled`]; the bundle is then the best found so far.
+/// missing camera or point, for a lens number beyond the number of cameras and sensors, a standard
+/// deviation that is not positive, or a loss that
+/// [`RobustLoss::check`](crate::optim::RobustLoss::check) rejects, [`Error::Degenerate`] if cameras
+/// with the same lens number have different lenses, [`Error::NotFinite`] if a pixel, a lens
+/// coefficient, a known position or the initial cost is not finite, [`Error::Canceled`]; the bundle
+/// is then the best found so far.
 ///
-/// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; the gauge by two cameras
-/// is its §9.
+/// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis"; §9 for the gauge by two
+/// cameras.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -100,14 +99,14 @@ pub fn adjust_bundle(
         });
     }
     let lenses = bundle.lenses()?;
-    // Room for more coefficients costs time, so it is taken only where some lens has more.
+    // Capacity for more coefficients costs time, so only rational lenses get it.
     match (lenses.iter()).any(|lens| lens.kind() == LensKind::Rational) {
         true => adjust::<OF_ANY>(bundle, pairs, &lenses, options, monitor),
         false => adjust::<OF_BROWN>(bundle, pairs, &lenses, options, monitor),
     }
 }
 
-/// * `S`: room for what is refined of a lens
+/// * `S`: capacity for the refined parameters of a lens
 fn adjust<const S: usize>(
     bundle: &mut Bundle,
     pairs: Vec<(u32, u32)>,
@@ -129,7 +128,7 @@ fn adjust<const S: usize>(
     if !matches!(report, Ok(_) | Err(Error::Canceled)) {
         return report;
     }
-    // Either all of it is taken over, or nothing.
+    // A failed adjustment leaves the bundle unchanged.
     let (mut cameras, mut sensors) = (bundle.cameras.clone(), bundle.sensors.clone());
     for (index, (camera, new)) in cameras.iter_mut().zip(&state.cameras).enumerate() {
         camera.cam_from_world =

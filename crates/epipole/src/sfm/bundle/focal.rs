@@ -10,12 +10,12 @@ use crate::Result;
 use crate::camera::{Lens, LensKind};
 use crate::optim::{RobustLoss, SchurSystem, System};
 
-/// Relative change of a focal length whose effect is judged: a model this far off is visibly bent.
+/// Relative change of a focal length to judge: at this error a model is visibly bent.
 const CHANGE: f64 = 0.2;
 
-/// Relative increase of the cost when each lens changes its focal length by [`CHANGE`] and all
-/// cameras and points follow, by the quadratic model around a refined bundle. 0 where the normal
-/// equations are singular.
+/// Returns the relative increase of the cost when each lens changes its focal length by [`CHANGE`]
+/// and all cameras and points adapt, by the quadratic model around a refined bundle. 0 where the
+/// normal equations are singular.
 ///
 /// # Errors
 /// As [`adjust_bundle`](super::adjust_bundle).
@@ -57,7 +57,7 @@ fn sensitivity<const S: usize>(
         return Ok(vec![0.0; lenses.len()]);
     }
     let variances = system.shared_variances();
-    // The factor of the focal length is the first parameter of each lens, and the only one here.
+    // The focal factor is the first parameter of each lens, and the only one refined here.
     Ok((variances.iter())
         .map(|variance| 0.5 * CHANGE * CHANGE / (variance * cost.max(f64::MIN_POSITIVE)))
         .collect())
@@ -73,8 +73,8 @@ mod tests {
     use crate::sfm::bundle::{BundleObservation, adjust_bundle};
     use nalgebra::{Point3, Vector3};
 
-    /// Twelve cameras that move straight ahead, each turned by `turn_rad` more than the one before,
-    /// refined from pixels with a noise of 0.3 px.
+    /// Twelve cameras that move straight ahead, each rotated by `turn_rad` from the one before,
+    /// refined from pixels with 0.3 px noise.
     fn drive(turn_rad: f64, focal_px: f64) -> Bundle {
         let mut random = Random::new(7);
         let with = |focal_px| {
@@ -145,7 +145,8 @@ mod tests {
             let report = adjust_bundle(&mut bundle, &BundleOptions::default(), &mut ()).unwrap();
             report.final_cost
         };
-        // Both sides, so that the cubic term cancels; a small step, since the model is quadratic.
+        // Both directions, so that the cubic term cancels; a small step, since the model is
+        // quadratic.
         let rise = (cost(1.02) + cost(0.98)) / (2.0 * cost(1.0)) - 1.0;
         let predicted = focal_sensitivity(&found, RobustLoss::Trivial).unwrap()[0]
             * (0.02 / CHANGE)

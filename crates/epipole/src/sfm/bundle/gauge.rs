@@ -1,15 +1,15 @@
-//! Which freedoms of the cameras are held, so that the world stays where it is.
+//! Gauge: degrees of freedom of the cameras that are held fixed.
 
 use super::options::{BundleOptions, Gauge};
 use super::scene::Bundle;
 
-/// Which degrees of freedom of each camera are held.
+/// Returns the held degrees of freedom of each camera.
 pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bool; 6]> {
     let is_held = |i: usize| options.held_cameras.get(i).copied().unwrap_or(false);
     let mut held: Vec<[bool; 6]> = (0..bundle.cameras.len()).map(|i| [is_held(i); 6]).collect();
     let num_held = held.iter().filter(|h| h[0]).count();
     let point_held = options.held_points.iter().any(|&h| h);
-    // Known positions say where the world is, and damping keeps what they leave open.
+    // Known positions fix the world; damping handles the rest.
     let known = options.position_priors.iter().any(Option::is_some);
     if options.gauge == Gauge::Free || num_held >= 2 || point_held || known {
         return held;
@@ -33,7 +33,7 @@ pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bo
             farthest = (distance, Some(i));
         }
     }
-    // A rig knows its own size, so only a single camera leaves the scale open.
+    // A rig fixes the scale; a single camera leaves it open.
     if let Some(other) = farthest.1
         && bundle.sensors.is_empty()
     {

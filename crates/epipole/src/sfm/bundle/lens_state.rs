@@ -10,16 +10,16 @@ use nalgebra::Vector2;
 /// k2, p1, p2), a fisheye and the division model. Parameters refined more often come first, as the
 /// unused tail costs nothing.
 pub(super) const OF_BROWN: usize = 4 + BESIDE_COEFFICIENTS;
-/// The same for the rational model, too.
+/// Capacity for any lens, including the rational model.
 pub(super) const OF_ANY: usize = MAX_COEFFICIENTS + BESIDE_COEFFICIENTS;
 const BESIDE_COEFFICIENTS: usize = 3;
 
 /// The refined parameters of a lens.
 #[derive(Clone)]
 pub(super) struct LensState {
-    /// A factor of the focal lengths.
+    /// Factor of the focal lengths.
     pub(super) focal: f64,
-    /// Of the principal point.
+    /// Shift of the principal point.
     pub(super) shift_px: Vector2<f64>,
     pub(super) lens: Lens,
 }
@@ -55,7 +55,7 @@ impl LensState {
     }
 }
 
-/// Which coefficients are refined, lens by lens.
+/// Returns which coefficients are refined, for each lens.
 pub(super) fn refined(lenses: &[Lens], options: &BundleOptions) -> Vec<[bool; MAX_COEFFICIENTS]> {
     (lenses.iter())
         .map(|lens| options.refined(lens.kind()))

@@ -1,4 +1,4 @@
-//! Bundles seen through lenses beyond Brown's model.
+//! Bundle adjustment with lenses beyond Brown's model.
 
 use super::lens_state::{OF_ANY, OF_BROWN};
 use super::tests::{check_derivatives, disturb, everything, photograph, set_lenses};
@@ -20,8 +20,8 @@ fn lens(kind: LensKind) -> Lens {
     Lens::from_coefficients(kind, numbers).unwrap()
 }
 
-/// Cameras amid points that are all around them, each point seen by those whose lens sees it within
-/// so many degrees of its axis.
+/// Cameras amid points in all directions. A camera sees the points within `half_deg` degrees of its
+/// axis.
 fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: f64) -> Bundle {
     let mut random = Random::new(31);
     let mut bundle = Bundle {
@@ -81,7 +81,7 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
     check_derivatives::<OF_BROWN>(&few, &options);
     let mut any = surrounded(4, 60, &all.map(lens), 60.0);
     check_derivatives::<OF_ANY>(&any, &options);
-    // Beside the camera and behind it.
+    // Points beside the camera and behind it.
     check_derivatives::<OF_BROWN>(
         &surrounded(2, 90, &[lens(LensKind::Fisheye)], 100.0),
         &options,
@@ -101,7 +101,7 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
     check_derivatives::<OF_ANY>(&any, &options);
 }
 
-/// From a wrong focal length, principal point and coefficients back to the exact ones.
+/// Recovers exact parameters from a wrong focal length, principal point and coefficients.
 fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
     let mut bundle = surrounded(6, 200, lenses, half_deg);
     let truth = bundle.clone();
@@ -154,7 +154,7 @@ fn lenses_of_all_models_in_one_bundle_find_theirs() {
     }
 }
 
-/// Eight numbers say much the same twice, so the bending is compared, not the numbers.
+/// The eight coefficients are nearly redundant, so compare the distortion instead.
 #[test]
 fn a_rational_lens_finds_how_it_bends() {
     let truth = lens(LensKind::Rational);
@@ -223,7 +223,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
         );
         assert!(refused.unwrap_err().to_string().contains("coefficient"));
     }
-    // A point straight behind a fisheye is seen everywhere and nowhere.
+    // A point straight behind a fisheye projects to the whole circle.
     let mut behind = good.clone();
     let o = behind.observations[0];
     let camera = behind.cameras[o.camera].cam_from_world;
@@ -238,7 +238,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
         ),
         Err(error) => assert!(matches!(error, Error::NotFinite { .. }), "{error}"),
     }
-    // A cushion does not see rays beyond its fold.
+    // A pincushion lens sees no rays beyond its fold.
     let mut folded = good;
     set_lenses(&mut folded, &[Division { k: 0.5 }.into()]);
     let refused = adjust_bundle(&mut folded, &everything(), &mut ());

@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// A camera saw a point at a pixel.
+/// Pixel at which a camera saw a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BundleObservation {
     /// Index of the camera.

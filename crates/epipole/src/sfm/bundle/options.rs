@@ -6,7 +6,7 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::{Point3, Vector3};
 
-/// Fixes the gauge: position, orientation and scale of the world are not observable.
+/// Method to fix the gauge: position, orientation and scale of the world are not observable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -14,7 +14,7 @@ use nalgebra::{Point3, Vector3};
     serde(rename_all = "snake_case")
 )]
 pub enum Gauge {
-    /// The first camera and one coordinate of another one's translation are held fixed: exactly
+    /// The first camera and one coordinate of another camera's translation are held fixed: exactly
     /// the seven free dimensions.
     #[default]
     TwoCameras,
@@ -32,19 +32,19 @@ pub enum Gauge {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct BundleOptions {
-    /// When to stop.
+    /// Stopping criteria of the solver.
     pub lm: LmOptions,
-    /// The loss of each reprojection error; its width is in pixels.
+    /// Loss of each reprojection error; width in pixels.
     pub loss: RobustLoss,
-    /// Used only while fewer than two cameras are held.
+    /// Gauge while fewer than two cameras are held.
     pub gauge: Gauge,
-    /// Cameras that stay where they are, by index; missing entries are free.
+    /// Cameras held fixed, by index; missing entries are free.
     pub held_cameras: Vec<bool>,
-    /// Points that stay where they are, by index; missing entries are free.
+    /// Points held fixed, by index; missing entries are free.
     pub held_points: Vec<bool>,
-    /// Refine one factor for the focal lengths of each lens.
+    /// Refine a factor of the focal lengths, one per lens.
     pub refine_focal: bool,
-    /// Refine where the principal points are: one shift for each lens, pixels.
+    /// Refine the principal points: one shift per lens, pixels.
     pub refine_principal_point: bool,
     /// Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational
     /// one, k1 to k4 of a fisheye, k of the division model.
@@ -55,12 +55,12 @@ pub struct BundleOptions {
     /// Priors of camera positions, by index; missing entries are unknown. With any prior, no camera
     /// is held by the gauge.
     pub position_priors: Vec<Option<PositionPrior>>,
-    /// The loss of the position priors; its width is in standard deviations.
+    /// Loss of the position priors; width in standard deviations.
     pub position_loss: RobustLoss,
 }
 
 impl BundleOptions {
-    /// Whether anything of the lenses is refined.
+    /// Returns whether any lens parameter is refined.
     pub(in crate::sfm) fn refines_lens(&self) -> bool {
         self.refine_focal
             || self.refine_principal_point
@@ -68,7 +68,7 @@ impl BundleOptions {
             || self.refine_tangential
     }
 
-    /// Which coefficients of a lens are refined, in OpenCV's order.
+    /// Returns which coefficients of a lens are refined, in OpenCV's order.
     pub(super) fn refined(&self, kind: LensKind) -> [bool; MAX_COEFFICIENTS] {
         let (radial, tangential) = (self.refine_distortion, self.refine_tangential);
         let mut refined = [false; MAX_COEFFICIENTS];
@@ -84,7 +84,7 @@ impl BundleOptions {
         refined
     }
 
-    /// Refuses losses and priors that make no sense.
+    /// Rejects invalid losses and priors.
     pub(super) fn check(&self) -> Result<()> {
         self.loss.check()?;
         self.position_loss.check()?;
@@ -95,8 +95,8 @@ impl BundleOptions {
     }
 }
 
-/// A camera position measured otherwise, such as by GPS: see
-/// [`local_from_geodetic`](crate::math::local_from_geodetic) for converting its degrees.
+/// Prior of a camera position, such as from GPS;
+/// [`local_from_geodetic`](crate::math::local_from_geodetic) converts degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -104,14 +104,14 @@ impl BundleOptions {
     serde(deny_unknown_fields)
 )]
 pub struct PositionPrior {
-    /// The camera's center in the world.
+    /// Camera center in the world.
     pub center_in_world: Point3<f64>,
-    /// Standard deviation along each axis of the world, in its unit.
+    /// Standard deviation along each world axis, in world units.
     pub sigma: Vector3<f64>,
 }
 
 impl PositionPrior {
-    /// Refuses values that are not finite or of no width.
+    /// Rejects values that are not finite and standard deviations that are not positive.
     pub(in crate::sfm) fn check(&self) -> Result<()> {
         if !self.center_in_world.iter().all(|x| x.is_finite()) {
             return Err(Error::NotFinite {

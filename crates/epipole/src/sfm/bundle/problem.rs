@@ -16,7 +16,7 @@ pub(super) struct State {
 }
 
 impl State {
-    /// * `lenses`: of the bundle, by number
+    /// * `lenses`: lenses of the bundle, by number
     pub(super) fn new(bundle: &Bundle, lenses: &[Lens]) -> Self {
         let cameras = bundle
             .cameras
@@ -39,24 +39,24 @@ pub(super) struct Problem<'a, const S: usize> {
     pub(super) pairs: Vec<(u32, u32)>,
     pub(super) options: &'a BundleOptions,
     pub(super) held_cameras: Vec<[bool; 6]>,
-    /// Which coefficients are, lens by lens.
+    /// Refined coefficients of each lens.
     pub(super) refined: Vec<[bool; MAX_COEFFICIENTS]>,
 }
 
-/// An observation, as the cameras and lenses of a state make it.
+/// An observation in a state of cameras and lenses.
 struct Sight<'a> {
     camera: &'a PoseState,
     eye: Eye<'a>,
     lens: &'a LensState,
-    /// The camera's, see [`PoseState::rotated`].
+    /// The point rotated by the camera, see [`PoseState::rotated`].
     rotated: Vector3<f64>,
-    /// The point, in the frame of the eye.
+    /// The point in the frame of the eye.
     p: Vector3<f64>,
     pixel: Point2<f64>,
 }
 
 impl Sight<'_> {
-    /// The focal length that a row of the residual started with.
+    /// Returns the initial focal length for a row of the residual.
     fn focal_px(&self, row: usize) -> f64 {
         match row {
             0 => self.eye.camera.intrinsics.fu_px(),
@@ -95,11 +95,11 @@ impl<const S: usize> Problem<'_, S> {
         }
     }
 
-    /// Fills a row of the terms.
+    /// Fills a row of the linearized terms.
     ///
-    /// * `shown`: where the lens shows the point, in units of the focal length
-    /// * `by_p`: how the pixel moves with the point, in the frame of the eye
-    /// * `by_coefficients`: how `shown` moves with the lens's
+    /// * `shown`: projection by the lens, in units of the focal length
+    /// * `by_p`: derivative of the pixel by the point in the frame of the eye
+    /// * `by_coefficients`: derivative of `shown` by the lens coefficients
     #[inline]
     fn fill(
         &self,
@@ -128,7 +128,7 @@ impl<const S: usize> Problem<'_, S> {
         }
     }
 
-    /// [`linearize`](BundleProblem::linearize) by the derivatives of any lens.
+    /// Implements [`linearize`](BundleProblem::linearize) for lenses other than Brown's.
     fn linearize_beyond_brown(&self, sight: &Sight<'_>) -> ObservationTerms<6, S> {
         let (lens, p) = (&sight.lens.lens, &sight.p);
         let shown = lens.project_or_mirror(p);
@@ -180,7 +180,7 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
     fn held_shared(&self) -> [bool; S] {
         let mut held = [true; S];
         held[0] = !self.options.refine_focal;
-        // Held where no lens has it refined; of the others it has no derivative.
+        // Hold a coefficient unless some lens refines it; the other lenses have zero derivatives.
         for (n, held) in held[1..S - 2].iter_mut().enumerate() {
             *held = !self.refined.iter().any(|refined| refined[n]);
         }
@@ -230,7 +230,7 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
         let bend = distortion.jacobian(&ray);
         let (x, y) = (ray.x, ray.y);
         let r_sq = x * x + y * y;
-        // Derivatives by k1, k2, p1 and p2, before the focal length.
+        // Derivatives by k1, k2, p1 and p2, without the focal length.
         let by_distortion = [
             [r_sq * x, r_sq * r_sq * x, 2.0 * x * y, r_sq + 2.0 * x * x],
             [r_sq * y, r_sq * r_sq * y, r_sq + 2.0 * y * y, 2.0 * x * y],
@@ -262,7 +262,7 @@ impl<const S: usize> BundleProblem<6, S> for Problem<'_, S> {
         {
             *new = old.moved(*d);
         }
-        // Empty where no lens is refined.
+        // Empty if no lens is refined.
         for ((old, new), d) in from.lenses.iter().zip(&mut into.lenses).zip(&step.shared) {
             *new = old.moved(d);
         }

@@ -5,13 +5,12 @@ use crate::camera::{Camera, Lens, PosedCamera, RigidTransform};
 use crate::{Error, Result};
 use nalgebra::{Point3, Vector2};
 
-/// A further camera rigidly mounted on each camera of a bundle, such as the right one of a stereo
-/// rig.
+/// A camera rigidly mounted on each camera of a bundle, such as the right camera of a stereo rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
-    /// From the frame of the camera to that of the sensor; it is not refined.
+    /// Transformation from the frame of the camera to that of the sensor; not refined.
     pub sensor_from_camera: RigidTransform,
-    /// Image size, intrinsics and lens of the sensor.
+    /// Image size, intrinsics and lens.
     pub camera: Camera,
     /// Number of its lens, as in [`Bundle::lens_of_camera`].
     pub lens: usize,
@@ -19,29 +18,29 @@ pub struct Sensor {
 
 /// Cameras, points and observations.
 ///
-/// Cameras of one lens share its refined parameters: a factor for their focal lengths, a shift of
-/// their principal points, and its coefficients. One lens for all is the default; as many lenses as
-/// cameras give each its own.
+/// Cameras of one lens share its refined parameters: a factor of their focal lengths, a shift of
+/// their principal points, and its coefficients. By default all cameras share one lens; as many
+/// lenses as cameras give each its own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bundle {
     /// The cameras.
     pub cameras: Vec<PosedCamera>,
-    /// Number of the lens of each camera; missing entries are 0. Cameras and sensors of one number
+    /// Lens number of each camera; missing entries are 0. Cameras and sensors with the same number
     /// must have equal lenses.
     pub lens_of_camera: Vec<usize>,
     /// The points, in the world.
     pub points: Vec<Point3<f64>>,
     /// Observations.
     pub observations: Vec<BundleObservation>,
-    /// Further cameras bolted to each camera.
+    /// Sensors mounted on each camera.
     pub sensors: Vec<Sensor>,
-    /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing
-    /// entries are 0.
+    /// For each observation, 0 if the camera itself made it, k if sensor k − 1 did; missing entries
+    /// are 0.
     pub sensor_of_observation: Vec<usize>,
 }
 
 impl Bundle {
-    /// The optics of an observation: the camera itself, or a sensor.
+    /// Returns the optics of an observation: the camera itself, or a sensor.
     pub(super) fn eye(&self, observation: usize) -> Eye<'_> {
         let sensor = match self.sensor_of_observation.get(observation) {
             Some(&k) if k > 0 => self.sensors.get(k - 1),
@@ -62,16 +61,16 @@ impl Bundle {
         }
     }
 
-    /// Number of the lens of a camera.
+    /// Returns the lens number of a camera.
     pub(super) fn lens_of(&self, camera: usize) -> usize {
         self.lens_of_camera.get(camera).copied().unwrap_or(0)
     }
 
-    /// The lenses by number; numbers without a camera have no distortion.
+    /// Returns the lenses by number; numbers without a camera have no distortion.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] if cameras of one number have different lenses, [`Error::NotFinite`]
-    /// for a coefficient.
+    /// [`Error::Degenerate`] if cameras with the same number have different lenses,
+    /// [`Error::NotFinite`] for a coefficient.
     pub(super) fn lenses(&self) -> Result<Vec<Lens>> {
         let mut lenses: Vec<Option<Lens>> = vec![None; self.num_lenses()];
         let of_cameras = self.cameras.iter().map(|camera| camera.camera.lens);
@@ -91,17 +90,17 @@ impl Bundle {
         Ok(lenses.into_iter().map(Option::unwrap_or_default).collect())
     }
 
-    /// The number of lenses, as far as cameras and sensors have them.
+    /// Returns the number of lenses of cameras and sensors.
     pub(super) fn num_lenses(&self) -> usize {
         let of_cameras = self.lens_of_camera.iter().take(self.cameras.len());
         let used = of_cameras.chain(self.sensors.iter().map(|sensor| &sensor.lens));
         used.max().map_or(1, |last| last.saturating_add(1))
     }
 
-    /// Predicted minus observed pixel of an observation, given by its index; not finite if the lens
-    /// does not see the point, or it is in the camera's center plane. Points behind the camera are
-    /// mirrored through its center, as in [`adjust_bundle`](super::adjust_bundle), except by a
-    /// fisheye, which may see them.
+    /// Returns the predicted minus the observed pixel of an observation; not finite if the lens
+    /// does not see the point, or the point is in the camera's center plane. Points behind the
+    /// camera are mirrored through its center, as in [`adjust_bundle`](super::adjust_bundle),
+    /// except by a fisheye, which may see them.
     pub fn residual_px(&self, observation: usize) -> Vector2<f64> {
         let o = &self.observations[observation];
         let eye = self.eye(observation);
@@ -119,10 +118,10 @@ impl Bundle {
     }
 }
 
-/// Source of an observation.
+/// Camera or sensor that made an observation.
 pub(super) struct Eye<'a> {
     pub(super) camera: &'a Camera,
-    /// Number of its lens.
+    /// Lens number.
     pub(super) lens: usize,
     /// `None` for the camera itself.
     pub(super) sensor_from_camera: Option<&'a RigidTransform>,

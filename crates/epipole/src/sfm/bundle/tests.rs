@@ -1,4 +1,4 @@
-//! Cameras around points, put right again after they were disturbed.
+//! Bundle adjustment recovers disturbed cameras and points.
 
 use super::lens_state::OF_BROWN;
 use super::problem::{Problem, State};
@@ -111,7 +111,7 @@ fn jacobians_are_those_of_central_differences() {
         position_priors: vec![None, known(&bundle.cameras[1], 0.3)],
         ..everything()
     };
-    // The second half is seen by a sensor that looks from the side, through a lens of its own.
+    // A sensor that looks sideways through its own lens sees the second half.
     let turn = Vector3::new(0.05, -0.2, 0.1);
     bundle.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), turn),
@@ -129,8 +129,8 @@ fn jacobians_are_those_of_central_differences() {
     check_derivatives::<OF_BROWN>(&bundle, &options);
 }
 
-/// The derivatives of every residual are those of differences; the second camera's position is
-/// known.
+/// Compares the derivatives of every residual with differences; the second camera has a known
+/// position.
 pub(super) fn check_derivatives<const S: usize>(bundle: &Bundle, options: &BundleOptions) {
     let (num_cameras, num_points) = (bundle.cameras.len(), bundle.points.len());
     let problem = Problem::<S> {
@@ -234,7 +234,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     let truth = bundle.clone();
     disturb(&mut bundle, 0.01);
     for (index, camera) in bundle.cameras.iter_mut().enumerate() {
-        // Of each lens another focal length, but the same ratio of its two.
+        // Each lens has another focal length with the same aspect ratio.
         let factor = [1.03, 0.98, 1.01][index % 3];
         let k = k[index % 3];
         camera.camera.intrinsics =
@@ -315,10 +315,10 @@ fn known_positions_move_the_world_there_and_wrong_ones_do_not() {
     let mut bundle = arc(8, 60, Distortion::NONE);
     let truth = bundle.clone();
     let mut priors: Vec<_> = truth.cameras.iter().map(|c| known(c, 0.05)).collect();
-    // One receiver is wrong by far, one camera has none.
+    // One position is far off, one camera has none.
     priors[3].as_mut().unwrap().center_in_world.x += 40.0;
     priors[5] = None;
-    // A similarity transform of everything, as a reconstruction has its own frame.
+    // A similarity transform of everything, since a reconstruction has its own frame.
     let elsewhere = nalgebra::Similarity3::new(
         Vector3::new(0.3, -0.2, 0.1),
         Vector3::new(0.02, 0.05, 0.01),
@@ -387,7 +387,7 @@ fn two_cameras_fix_the_gauge_and_the_truth_is_found() {
     let mut bundle = arc(5, 50, Distortion::NONE);
     let truth = bundle.clone();
     disturb(&mut bundle, 0.02);
-    // Give the far camera back the coordinate that holds the scale.
+    // Restore the coordinate of the far camera that holds the scale.
     bundle.cameras[4] = truth.cameras[4];
     let options = BundleOptions {
         lm: exact(),

@@ -1,4 +1,4 @@
-//! A pose graph whose kind a file decides.
+//! Pose graph of a kind that is known only at run time.
 
 use super::{Graph, PoseGraphReport};
 use crate::Result;
@@ -6,7 +6,7 @@ use crate::optim::{LmOptions, RobustLoss};
 use crate::progress::Monitor;
 use nalgebra::{Isometry2, Isometry3, Similarity3};
 
-/// A pose graph of any kind, as a file may hold it.
+/// Pose graph of any kind, as read from a file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PoseGraph {
     /// Poses in the plane.
@@ -27,7 +27,7 @@ impl PoseGraph {
         }
     }
 
-    /// Places the vertices anew, from the measurements alone: see [`Graph::initialize`].
+    /// Initializes the vertices from the measurements alone: see [`Graph::initialize`].
     ///
     /// # Errors
     /// As [`Graph::initialize`].
@@ -74,7 +74,7 @@ impl PoseGraph {
         }
     }
 
-    /// Numbers of vertices, landmarks among them, and edges.
+    /// Returns the numbers of vertices, of landmarks among them, and of edges.
     pub fn size(&self) -> (usize, usize) {
         match self {
             PoseGraph::Se2(graph) => (graph.vertices.len(), graph.edges.len()),

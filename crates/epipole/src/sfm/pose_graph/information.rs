@@ -1,12 +1,12 @@
-//! Inverse covariances of measurements: symmetric, without negative eigenvalues.
+//! Information matrices of measurements: symmetric, without negative eigenvalues.
 
 use crate::{Error, Result};
 use nalgebra::{DMatrix, SMatrix};
 
-/// Rounding that a file with six digits has, of the largest entry.
+/// Rounding error of a file with six digits, relative to the largest entry.
 const TOLERANCE: f64 = 1e-5;
 
-/// Names of an information matrix and of its properties in messages.
+/// Names of an information matrix and its properties in messages.
 pub(super) struct Names {
     matrix: &'static str,
     asymmetry: &'static str,
@@ -45,7 +45,7 @@ pub(super) fn check<const D: usize>(matrix: &SMatrix<f64, D, D>, names: &Names) 
             value: asymmetry,
         });
     }
-    // Most matrices are definite, which costs a tenth of the eigenvalues to find out.
+    // Most matrices are definite, and Cholesky takes a tenth of the time of the eigenvalues.
     if matrix.cholesky().is_some() {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! Pose graphs: poses joined by measured relative poses, loops among them.
+//! Pose graphs: poses joined by measured relative poses, including loops.
 
 mod any;
 mod chordal;
@@ -34,19 +34,19 @@ pub struct Edge<T, const D: usize> {
 /// Vertices and edges of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Graph<T, const D: usize> {
-    /// The number that each vertex has in a file.
+    /// Number of each vertex in its file.
     pub ids: Vec<u64>,
     /// `world_from_vertex` of each vertex.
     pub vertices: Vec<T>,
     /// The measurements.
     pub edges: Vec<Edge<T, D>>,
-    /// Measurements of single vertices, such as those of a GPS receiver.
+    /// Measurements of single vertices, such as from GPS.
     pub priors: Vec<PosePrior<T, D>>,
-    /// Indices of the vertices that stay where they are. Where a connected part of the graph has
-    /// neither one nor a prior, its first vertex stays.
+    /// Indices of fixed vertices. In a connected part of the graph without a fixed vertex or prior,
+    /// the first vertex is fixed.
     pub fixed: Vec<usize>,
     /// Indices of the vertices that are points, such as landmarks: they have no rotation, and an
-    /// edge to one measures its position only, with an information of 0 for the rest.
+    /// edge to one measures only its position, with zero information for the rest.
     pub landmarks: Vec<usize>,
 }
 
@@ -122,7 +122,7 @@ pub struct PoseGraphReport {
     pub iterations: usize,
     /// Why the loop ended.
     pub termination: Termination,
-    /// The number of connected parts; priors connect all that have one.
+    /// Number of connected parts; priors connect all parts that have one.
     pub num_components: usize,
 }
 
@@ -143,17 +143,18 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
     /// Moves the vertices to minimize `Σ ρ(eᵀ Ω e)`, in place.
     ///
-    /// The search starts with almost undamped steps and gives each some patience, whatever the
-    /// options say: damping would hold back the slow bends of long trajectories.
+    /// The search starts with almost no damping and tolerates at least three steps in a row that
+    /// raise the cost, whatever the options: damping would slow the correction of long, gradual
+    /// bends.
     ///
-    /// * `loss`: robust to wrong loop closures; its width is in standard deviations
-    /// * `monitor`: hears before the first step and after each one, in the one stage
+    /// * `loss`: robust to wrong loop closures; width in standard deviations
+    /// * `monitor`: notified before the first step and after each, in the only stage,
     ///   [`Stage::PoseGraph`]
     ///
     /// # Errors
-    /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins what is
-    /// not there or a vertex with itself, for an information matrix that is asymmetric or has a
-    /// negative eigenvalue, or for a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`]
+    /// [`Error::TooFew`] without edges and priors, [`Error::OutOfRange`] if an edge joins missing
+    /// vertices or a vertex with itself, for an information matrix that is asymmetric or has a
+    /// negative eigenvalue, or for a loss that [`RobustLoss::check`] rejects, [`Error::NotFinite`]
     /// for NaN and infinities, [`Error::Canceled`]; the graph is then the best found so far.
     ///
     /// Source: Grisetti, Kümmerle, Stachniss & Burgard 2010, "A tutorial on graph-based SLAM".
@@ -259,7 +260,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         Ok(())
     }
 
-    /// Whether each vertex is a point.
+    /// Returns whether each vertex is a point.
     fn is_landmark(&self) -> Vec<bool> {
         let mut is_landmark = vec![false; self.vertices.len()];
         for &vertex in &self.landmarks {
@@ -268,7 +269,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         is_landmark
     }
 
-    /// Which vertices stay, and the number of connected parts.
+    /// Returns which vertices are held, and the number of connected parts.
     fn held(&self) -> (Vec<bool>, usize) {
         let mut parts = crate::math::UnionFind::new(self.vertices.len());
         for edge in &self.edges {
@@ -282,7 +283,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         }
         let mut num_components = 0;
         let mut counted = vec![false; self.vertices.len()];
-        // A landmark would hold the position of its part, and not the rotation.
+        // A landmark would fix the position of its part, but not the rotation.
         let is_landmark = self.is_landmark();
         let (landmarks, poses): (Vec<_>, Vec<_>) =
             (0..self.vertices.len()).partition(|&vertex| is_landmark[vertex]);
@@ -365,7 +366,7 @@ mod tests {
 
     #[test]
     fn drift_of_scale_is_spread_over_the_loop() {
-        // Every step seems 2 % longer than the one before; the loop says it is not.
+        // Every step seems 2 % longer than the one before, but the loop contradicts this.
         let turn = std::f64::consts::TAU / 30.0;
         let true_step = Similarity3::new(
             Vector3::new(1.0, 0.0, 0.0),
@@ -380,7 +381,7 @@ mod tests {
         let mut graph = circle(30, drifting, |a, b| a * b, Similarity3::identity());
         let truth: Graph<_, 7> = circle(30, true_step, |a, b| a * b, Similarity3::identity());
         graph.edges[29].from_from_to = true_step;
-        // The loop closure knows the scale of the last pose in that of the first.
+        // The loop closure measures the scale of the last pose relative to the first.
         graph.edges[29].information *= 1e4;
         let error_of = |graph: &Graph<Similarity3<f64>, 7>| {
             let mut sum = 0.0;
@@ -400,7 +401,7 @@ mod tests {
 
     #[test]
     fn landmarks_are_places_of_points() {
-        // A pose a step ahead, both seeing two points, of which the start has a wrong idea.
+        // A pose a step ahead; both see two points, whose initial values are wrong.
         let at = |x: f64, y: f64| Isometry2::new(Vector2::new(x, y), 0.0);
         let points = [at(2.0, 1.0), at(1.0, -2.0)];
         let truth = Isometry2::new(Vector2::new(1.0, 0.5), 0.4);
@@ -443,7 +444,7 @@ mod tests {
             let report = (graph.optimize(&options, RobustLoss::Trivial, &mut ())).unwrap();
             assert_eq!(report.num_components, 1);
             assert!(report.final_chi2 < 1e-12, "{report:?}");
-            // The first pose stays, not the first vertex.
+            // The first pose is fixed, not the first vertex.
             assert_eq!(graph.vertices[2], identity);
             for (found, point) in graph.vertices.iter().zip(&points) {
                 assert!((found.translation.vector - point.translation.vector).norm() < 1e-6);
@@ -459,7 +460,7 @@ mod tests {
     fn contradictory_loops_still_give_a_report() {
         let step = Isometry2::new(Vector2::new(1.0, 0.0), 0.0);
         let mut graph = circle(4, step, |a, b| a * b, Isometry2::identity());
-        // Four steps ahead lead back to the start, says the last edge.
+        // The last edge measures the fourth pose at the start.
         let report = graph
             .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
             .unwrap();

@@ -1,4 +1,4 @@
-//! The poses that a graph can join: in the plane, in space, and similarities in space.
+//! Poses of a graph: in the plane, in space, and similarities in space.
 
 use crate::optim::EdgeTerms;
 use nalgebra::{
@@ -6,7 +6,7 @@ use nalgebra::{
     Translation3, UnitComplex, UnitQuaternion, Vector2, Vector3,
 };
 
-/// A pose that a graph's vertices can be: SE(2), SE(3) or Sim(3), with `D` degrees of freedom.
+/// A pose of a graph's vertices: SE(2), SE(3) or Sim(3), with `D` degrees of freedom.
 pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
     /// The error of an edge, from the difference `measured⁻¹ · a⁻¹ · b`.
     fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, D>;
@@ -18,13 +18,13 @@ pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
     fn translation_sq(&self) -> f64;
     /// Whether every number is finite.
     fn is_finite(&self) -> bool;
-    /// The same in space, with a scale: a pose in the plane lies in x and y.
+    /// Converts to a similarity; a pose in the plane lies in x and y.
     fn to_similarity(&self) -> Similarity3<f64>;
     /// The part of a similarity that a pose of this kind represents.
     fn from_similarity(pose: &Similarity3<f64>) -> Self;
 }
 
-/// An angle brought to (−π, π].
+/// Wraps an angle to (−π, π].
 fn wrapped(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let turns = (angle_rad / TAU).round();
@@ -99,7 +99,7 @@ impl GraphPose<3> for Isometry2<f64> {
     }
 }
 
-/// The vector part of the quaternion that has a nonnegative real part.
+/// Returns the quaternion with a nonnegative real part, split into real and vector part.
 fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
     let (w, v) = (rotation.w, rotation.imag());
     if w < 0.0 { (-w, -v) } else { (w, v) }
@@ -125,14 +125,14 @@ fn similarity_terms(
     error[6] = libm::log(difference.scaling());
 
     let rotation = |s: &Similarity3<f64>| *s.isometry.rotation.to_rotation_matrix().matrix();
-    // To the right of b: its translation is turned and scaled, its quaternion multiplied.
+    // On the right of b: its translation is rotated and scaled, its quaternion multiplied.
     let mut to = SMatrix::<f64, 7, 7>::zeros();
     to.fixed_view_mut::<3, 3>(0, 0)
         .copy_from(&(rotation(&difference) * difference.scaling()));
     to.fixed_view_mut::<3, 3>(3, 3)
         .copy_from(&((Matrix3::identity() * w + v.cross_matrix()) * 0.5));
     to[(6, 6)] = 1.0;
-    // To the right of a: the inverse of the step acts on b as a sees it.
+    // On the right of a: the inverse of the step acts on b in the frame of a.
     let undo = rotation(measured).transpose();
     let scaled_undo = undo / measured.scaling();
     let seen = b_in_a.isometry.translation.vector;
@@ -154,7 +154,7 @@ fn similarity_plus(pose: &Similarity3<f64>, delta: &SVector<f64, 7>) -> Similari
     let mut rotation = pose.isometry.rotation * turn;
     rotation.renormalize();
     let translation = pose.isometry.translation.vector + shift * pose.scaling();
-    // Kept away from zero and infinity, where a similarity is none.
+    // Keep the scale away from zero and infinity, where the similarity degenerates.
     let scale = (pose.scaling() * libm::exp(delta[6])).clamp(1e-100, 1e100);
     Similarity3::from_parts(Translation3::from(translation), rotation, scale)
 }

@@ -1,4 +1,4 @@
-//! Measurements of single poses, as edges from a vertex that is the world.
+//! Priors of single poses, as edges from a vertex for the world.
 
 use super::{Edge, Graph, GraphPose};
 use nalgebra::{SMatrix, Similarity3};
@@ -10,14 +10,14 @@ pub struct PosePrior<T, const D: usize> {
     pub vertex: usize,
     /// The measured pose.
     pub world_from_vertex: T,
-    /// The inverse covariance Ω of the error, in the order of [`Edge::information`]. Zero where
-    /// nothing is measured, such as the rotation in a position from GPS.
+    /// The inverse covariance Ω of the error, in the order of [`Edge::information`]. Zero for
+    /// unmeasured components, such as the rotation in a GPS position.
     pub information: SMatrix<f64, D, D>,
 }
 
 impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
-    /// The same problem without priors: each is an edge from one more vertex, which is fixed at
-    /// the identity. `None` without priors.
+    /// Returns the same problem without priors: each becomes an edge from an additional vertex,
+    /// fixed at the identity. `None` without priors.
     pub(super) fn with_world(&self) -> Option<Self> {
         if self.priors.is_empty() {
             return None;
@@ -42,7 +42,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         Some(joined)
     }
 
-    /// Takes the poses over from [`with_world`](Self::with_world).
+    /// Copies the poses back from [`with_world`](Self::with_world).
     pub(super) fn take_vertices(&mut self, mut joined: Self) {
         joined.vertices.truncate(self.vertices.len());
         self.vertices = joined.vertices;
@@ -108,8 +108,8 @@ mod tests {
 
     #[test]
     fn positions_alone_turn_the_row() {
-        // Two positions 2.2 apart of poses measured 2 apart: each of the four errors is 0.05
-        // along the row if all weigh alike, as 0.1 of the positions at both ends balances it.
+        // Two positions 2.2 apart of poses measured 2 apart: with equal weights each of the four
+        // errors is 0.05 along the row, and 0.1 at both ends of the positions balances it.
         let mut graph = row();
         let position = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0));
         for (vertex, y) in [(0, 10.0), (2, 12.2)] {

@@ -1,5 +1,5 @@
-//! A start for a pose graph from its measurements alone: rotations first, then scales, then places,
-//! each by linear least squares.
+//! Initialization of a pose graph from its measurements alone: rotations first, then scales, then
+//! positions, each by linear least squares.
 
 use super::{Graph, GraphPose};
 use crate::math::{Svd3, svd3};
@@ -12,7 +12,7 @@ use nalgebra::{
     Vector3,
 };
 
-/// An equation of least squares on a graph: `x_to = A x_from + b`, weighted.
+/// A weighted least-squares equation on a graph: `x_to = A x_from + b`.
 struct Link<const N: usize> {
     ends: (usize, usize),
     /// A, a rotation.
@@ -20,7 +20,7 @@ struct Link<const N: usize> {
     weight: f64,
 }
 
-/// Solver of these equations for several right-hand sides; held vertices keep their values.
+/// Solver of these equations for several right-hand sides; held vertices are constant.
 struct Links<'a, const N: usize> {
     links: &'a [Link<N>],
     held: &'a [bool],
@@ -28,7 +28,7 @@ struct Links<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Links<'a, N> {
-    /// `None` if the equations leave a vertex open.
+    /// Returns `None` if the equations do not determine a vertex.
     fn new(links: &'a [Link<N>], held: &'a [bool]) -> Option<Self> {
         let pair = |link: &Link<N>| (link.ends.0 as u32, link.ends.1 as u32);
         let pairs: Vec<_> = links.iter().map(pair).collect();
@@ -55,7 +55,7 @@ impl<'a, const N: usize> Links<'a, N> {
         })
     }
 
-    /// * `values`: those of held vertices; replaced by the solution
+    /// * `values`: values of held vertices; replaced by the solution
     /// * `offset`: b of each link
     fn solve(&self, values: &mut [SVector<f64, N>], offset: impl Fn(usize) -> SVector<f64, N>) {
         for (vertex, value) in values.iter_mut().enumerate() {
@@ -83,7 +83,7 @@ impl<'a, const N: usize> Links<'a, N> {
     }
 }
 
-/// The rotation nearest to a matrix, by the sum of squares of the entries.
+/// Returns the rotation nearest to a matrix in Frobenius norm.
 fn nearest_rotation(m: &Matrix3<f64>) -> UnitQuaternion<f64> {
     let Svd3 { u, v, .. } = svd3(m);
     let sign = (u * v.transpose()).determinant().signum();
@@ -93,16 +93,17 @@ fn nearest_rotation(m: &Matrix3<f64>) -> UnitQuaternion<f64> {
 
 impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// Computes all vertices from the measurements alone: the result does not depend on their
-    /// previous values, and is near enough to the optimum for [`optimize`](Graph::optimize), unless
-    /// measurements contradict each other wildly.
+    /// previous values, and is close enough to the optimum for [`optimize`](Graph::optimize),
+    /// unless measurements contradict each other wildly.
     ///
-    /// Rotations come first, as the nine entries of matrices, for which `R_to = R_from R` is
-    /// linear, each brought to the nearest rotation; then, of similarities, logarithms of scales;
-    /// then places. Fixed vertices stay, and where a connected part has none, its first one.
+    /// First the rotations, as matrix entries, for which `R_to = R_from R` is linear, each
+    /// projected to the nearest rotation; then, for similarities, logarithms of scales; then
+    /// positions. Fixed vertices do not move; in a connected part without any, the first vertex is
+    /// fixed.
     ///
     /// # Errors
-    /// As [`optimize`](Graph::optimize), and [`Error::Degenerate`] if some vertex hangs on
-    /// measurements without weight. The one stage is [`Stage::PoseGraph`].
+    /// As [`optimize`](Graph::optimize), and [`Error::Degenerate`] if a vertex depends on
+    /// measurements without weight. The only stage is [`Stage::PoseGraph`].
     ///
     /// Source: Carlone, Tron, Daniilidis & Dellaert 2015, "Initialization techniques for 3D SLAM: a
     /// survey on rotation estimation and its use in pose graph optimization", §IV.A (chordal
@@ -112,7 +113,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::nalgebra::{Isometry2, Matrix3, Vector2};
     /// use epipole::sfm::{Edge, Graph};
-    /// // Vertex 1 was measured 1 ahead and a quarter turn to the left, but stands anywhere.
+    /// // Vertex 1 was measured 1 ahead and rotated by 90° to the left, but starts anywhere.
     /// let quarter = std::f64::consts::FRAC_PI_2;
     /// let mut graph = Graph {
     ///     ids: vec![0, 1],
@@ -172,7 +173,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
             })
             .collect();
         report(monitor, Stage::PoseGraph, 0.0)?;
-        // A landmark has no rotation to be found.
+        // A landmark has no rotation.
         let is_landmark = self.is_landmark();
         let kept: Vec<bool> = held
             .iter()
@@ -259,22 +260,22 @@ pub struct RelativeRotation {
     pub to_from_from: UnitQuaternion<f64>,
 }
 
-/// The rotations of views that agree best with those measured between pairs of them:
-/// `view_from_world` of each, and how far each measurement is off, radians.
+/// Averages rotations: returns `view_from_world` of each view that agrees best with the measured
+/// relative rotations, and the error of each measurement, radians.
 ///
 /// Minimizes `Σ ρ(e²)` where `2 arcsin(e/2)` is the angle between `view_from_world` of `to` and its
 /// prediction from the measurement and `view_from_world` of `from`. The first view of each
 /// connected part has the identity.
 ///
 /// * `count`: number of views
-/// * `loss`: robust to wrong measurements; its width is in radians
+/// * `loss`: robust to wrong measurements; width in radians
 ///
 /// # Errors
 /// [`Error::TooFew`] without measurements, [`Error::OutOfRange`] for an invalid index or a view
-/// joined with itself, or for a loss that [`RobustLoss::check`] refuses; [`Error::NotFinite`] for
+/// joined with itself, or for a loss that [`RobustLoss::check`] rejects; [`Error::NotFinite`] for
 /// NaN; [`Error::Canceled`].
 ///
-/// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; the start is that of
+/// Source: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"; initialized as by
 /// [`Graph::initialize`].
 ///
 /// ```
@@ -282,7 +283,8 @@ pub struct RelativeRotation {
 /// use epipole::optim::RobustLoss;
 /// use epipole::sfm::{RelativeRotation, average_rotations};
 /// use nalgebra::{UnitQuaternion, Vector3};
-/// // About one axis by 0.1 and 0.2; the way around says 0.36: each of the three is off by 0.02.
+/// // About one axis by 0.1 and 0.2; the direct edge measures 0.36: each of the three is off by
+/// // 0.02.
 /// let turn = |from, to, angle| RelativeRotation {
 ///     from, to, to_from_from: UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle),
 /// };
@@ -299,7 +301,7 @@ pub fn average_rotations(
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<UnitQuaternion<f64>>, Vec<f64>)> {
     let turned = |rotation| Isometry3::from_parts(Translation3::identity(), rotation);
-    // The error of an edge is the sine of half the angle.
+    // The error of an edge is the sine of half the angle, so e = 2 × that.
     let information = SMatrix::<f64, 6, 6>::identity() * 4.0;
     let mut graph = Graph {
         ids: (0..count as u64).collect(),

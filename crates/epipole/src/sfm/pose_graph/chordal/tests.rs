@@ -18,7 +18,7 @@ fn anywhere(random: &mut Random, scale: f64) -> Similarity3<f64> {
 }
 
 /// A path through these poses with a loop from every fifth to every later fifth, measured with
-/// noise, and every vertex but the first put anywhere.
+/// noise; all vertices but the first are arbitrary.
 fn graph<T: GraphPose<D>, const D: usize>(
     truth: &[Similarity3<f64>],
     noise: f64,
@@ -104,8 +104,7 @@ fn exact_measurements_are_met_from_anywhere() {
     }
 }
 
-/// The least squares of the entries are not those of the angles, but their result is where the
-/// latter begin.
+/// Chordal least squares differ from those of the angles, but initialize them well.
 #[test]
 fn noise_is_shared_and_the_optimum_is_near() {
     let mut random = Random::new(2);
@@ -149,7 +148,7 @@ fn what_hangs_on_nothing_is_told() {
     let error = open.initialize(&mut ()).unwrap_err();
     assert!(error.to_string().contains("without weight"), "{error}");
     assert_eq!(open, before);
-    // Two parts: each has a vertex that stays.
+    // Two parts, each with a fixed vertex.
     let mut parts: Graph<Isometry3<f64>, 6> = graph(&truth, 0.0, &mut random);
     parts.edges.retain(|edge| (edge.from < 3) == (edge.to < 3));
     let stays = parts.vertices[3];
