@@ -1,4 +1,4 @@
-//! The model that two views deserve.
+//! Choice of the model for two views.
 
 use super::explaining_turn::{ExplainingTurn, homography_of_turn};
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
@@ -25,8 +25,8 @@ use nalgebra::{Matrix3, Point2};
 
 /// Chooses between F and H for two views of unknown intrinsics.
 ///
-/// Both are estimated; if H explains nearly all matches that F does, the scene is a plane or the
-/// camera only turned.
+/// Estimates both; if H explains nearly all matches that F does, the scene is a plane or the camera
+/// only rotated.
 ///
 /// # Errors
 /// As [`TwoViewOptions::check`], and as [`estimate_fundamental`] and [`estimate_homography`] if
@@ -39,11 +39,11 @@ use nalgebra::{Matrix3, Point2};
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view};
 /// use nalgebra::Point2;
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
-/// // A step to the right past a wall that stands straight ahead: everything moves by 12 pixels.
+/// // A step to the right past a frontal wall: everything moves by 12 pixels.
 /// let wall: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
 /// let report = estimate_two_view(&p1, &wall, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
-/// // With depth, near things move more than far ones.
+/// // With depth, near objects move more than far ones.
 /// let depth: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
 /// let report = estimate_two_view(&p1, &depth, &TwoViewOptions::default(), &mut ())?;
 /// assert_eq!(report.configuration, Configuration::General);
@@ -66,7 +66,7 @@ pub fn estimate_two_view(
         &options.in_two_dimensions(),
     );
     let homography_wins = match (&fundamental, &homography) {
-        // H needs fewer matches than F: what it lacks, F lacks as well.
+        // H needs fewer matches than F, so an error of H also applies to F.
         (Err(_), Err(error)) => return Err(error.clone()),
         (Err(_), Ok(_)) => true,
         (Ok(_), Err(_)) => false,
@@ -94,20 +94,20 @@ pub fn estimate_two_view(
     Ok(found)
 }
 
-/// Chooses among E, F and H for two views of known intrinsics, and finds the motion.
+/// Chooses among E, F and H for two views of known intrinsics, and estimates the motion.
 ///
-/// * `cameras`: the two cameras, of any lens. If the intrinsics of pinhole cameras are wrong, F
+/// * `cameras`: the two cameras, with any lens. If the intrinsics of pinhole cameras are wrong, F
 ///   explains more matches than E and is chosen
 ///
-/// A camera that only turned is recognized by a rotation that explains nearly all matches that the
-/// best other model does. Where F is chosen, the motion is still that of E, if enough matches
-/// support it: it is the best that agrees with the intrinsics. For a plane the motion is taken from
-/// E or from the decomposition of H, whichever fits more matches with the points in front of both
-/// cameras; often two motions do equally well.
+/// The camera only rotated if a rotation explains nearly all matches of the best other model. If F
+/// is chosen, the motion is still that of E, if enough matches support it: it is the best motion
+/// that agrees with the intrinsics. For a plane the motion comes from E or from the decomposition
+/// of H, whichever fits more matches with the points in front of both cameras; often two motions
+/// fit equally well.
 ///
-/// Other lenses than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`]
-/// are of rays then ([`TwoViewReport::is_of_rays`]), `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors in
-/// the pixels of the distorted images.
+/// Lenses other than pinholes have no F: [`TwoViewReport::model`] and [`TwoViewReport::homography`]
+/// then apply to rays ([`TwoViewReport::is_of_rays`]), `x2ᵀ E x1 = 0` and `x2 ∝ H x1`, and errors
+/// are in pixels of the distorted images.
 ///
 /// # Errors
 /// As [`TwoViewOptions::check`], and as [`estimate_relative_pose`] and [`estimate_homography`] if
@@ -172,7 +172,7 @@ pub fn estimate_two_view_calibrated(
             pairs.explained_share(matrix, inliers, options) >= options.max_homography_share
         })
     };
-    // A homography may explain what a rotation does not, even where nothing epipolar was found.
+    // A homography may explain more than a rotation, even if no epipolar geometry was found.
     let num_needed = options.max_homography_share * support(&homography) as f64;
     if let Ok(report) = &rotation
         && report.num_unique_inliers as f64 >= num_needed
@@ -216,13 +216,13 @@ pub fn estimate_two_view_calibrated(
         found.fundamental = report.model.fundamental(k1, k2).ok();
         found.take(report.inliers.clone(), report, options);
     } else {
-        // H needs fewer matches than F: what it lacks, F lacks as well.
+        // H needs fewer matches than F, so an error of H also applies to F.
         let report = fundamental.map_err(|error| homography.err().unwrap_or(error))?;
         found.model = TwoViewModel::Fundamental(report.model);
         found.configuration = Configuration::General;
         found.fundamental = Some(report.model);
-        // E's motion was fitted with the intrinsics. F's, made to respect them afterwards, is far
-        // less exact, all the more where F has bent to wrong matches that E refused.
+        // E's motion was fitted with the intrinsics. F's, which must be projected onto them, is far
+        // less exact, especially where F has fitted outliers that E rejected.
         found.cam2_from_cam1 = match &essential {
             Ok(essential) if num_e >= options.min_num_inliers && !essential.could_be_chance() => {
                 Some(essential.model.cam2_from_cam1())

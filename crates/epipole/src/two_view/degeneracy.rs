@@ -7,37 +7,37 @@ use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// Samples of four matches, at most: where a homography explains nearly all, a tenth is plenty.
+/// Maximum number of four-match samples: where a homography explains nearly all, a tenth is plenty.
 const MAX_SAMPLES: usize = 500;
 
-/// Why a fundamental matrix that fits its inliers is one of many.
+/// Reason why a fundamental matrix is not determined by its inliers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Degeneracy {
-    /// Nearly all inliers are where they were in image 1, but for noise: the camera hardly moved,
-    /// or the matches are of something that moves with it.
+    /// Nearly all inliers have the same position in both images, up to noise: the camera hardly
+    /// moved, or the matches are on an object that moves with it.
     Unmoved {
-        /// Number of them.
+        /// Number of unmoved inliers.
         num_unmoved: usize,
         /// Number of inliers.
         num_inliers: usize,
     },
-    /// A homography explains nearly all inliers: they show a plane, or the camera only turned.
+    /// A homography explains nearly all inliers: they show a plane, or the camera only rotated.
     Homography {
-        /// Number of them that it explains.
+        /// Number of inliers that it explains.
         num_explained: usize,
         /// Number of inliers.
         num_inliers: usize,
     },
 }
 
-/// Why the inliers of F do not determine it, if they do not: F fits a camera that never moved, one
-/// that only turned, and a plane, and means nothing there.
+/// Checks whether the inliers determine F, and if not, why. F also fits the matches of a camera
+/// that never moved or only rotated, and those of a plane, but is meaningless there.
 ///
-/// * `pixels1`, `pixels2`: the matches that F was found from
+/// * `pixels1`, `pixels2`: the matches from which F was estimated
 /// * `inliers`: for each match, whether it is an inlier of F
-/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
-///   [`RansacOptions::max_error_px`] should be that of F. Matches have to fit a homography in two
-///   dimensions, with the noise of both images: they are given 1.25 √2 times as much
+/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
+///   [`RansacOptions::max_error_px`] should be that of F. The threshold of the homography is 1.25
+///   √2 times as large, since its errors have two dimensions and the noise of both images
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] if the lists differ in length, [`Error::NotFinite`] for NaN, and as
@@ -53,11 +53,11 @@ pub enum Degeneracy {
 /// let (all, options) = ([true; 60], TwoViewOptions::default());
 /// let unmoved = Degeneracy::Unmoved { num_unmoved: 60, num_inliers: 60 };
 /// assert_eq!(find_degeneracy(&p1, &p1, &all, &options)?, Some(unmoved));
-/// // A step to the right past a wall that stands straight ahead: everything moves by 12 pixels.
+/// // A step to the right past a frontal wall: everything moves by 12 pixels.
 /// let wall: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 12.0, p.y)).collect();
 /// let plane = Degeneracy::Homography { num_explained: 60, num_inliers: 60 };
 /// assert_eq!(find_degeneracy(&p1, &wall, &all, &options)?, Some(plane));
-/// // With depth, near things move more than far ones.
+/// // With depth, near objects move more than far ones.
 /// let depth: Vec<_> = (0..60).map(|i| Point2::new(p1[i].x - (5 + i * 13 % 31) as f64, p1[i].y)).collect();
 /// assert_eq!(find_degeneracy(&p1, &depth, &all, &options)?, None);
 /// # Ok(()) }
@@ -96,9 +96,9 @@ pub fn find_degeneracy(
     }))
 }
 
-/// Whether nearly all inliers of a model are where they were: [`Degeneracy::Unmoved`], or `None`.
-/// It is all that there is to ask of a homography, which planes and turns determine;
-/// [`find_degeneracy`] asks it first.
+/// Checks whether nearly all inliers of a model are unmoved: returns [`Degeneracy::Unmoved`] or
+/// `None`. For a homography, determined by planes and rotations, this is the only degeneracy;
+/// [`find_degeneracy`] checks it first.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] if the lists differ in length, and as [`TwoViewOptions::check`].
@@ -162,7 +162,7 @@ mod tests {
         assert!(matches!(error, Error::NotFinite { .. }));
     }
 
-    /// Some inliers that did move do not make it a motion; many do.
+    /// Asserts that some moving inliers do not make a motion, but many do.
     #[test]
     fn nearly_all_is_a_share() {
         let options = TwoViewOptions::default();

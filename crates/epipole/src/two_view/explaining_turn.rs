@@ -1,14 +1,14 @@
-//! A turn in the place of another model.
+//! A rotation in place of another model.
 
 use super::TwoViewOptions;
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::robust::RansacReport;
 use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
 
-/// A turn that explains nearly all inliers of another model.
+/// A rotation that explains nearly all inliers of another model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExplainingTurn {
-    /// The turn; its translation is zero.
+    /// The rotation; its translation is zero.
     pub cam2_from_cam1: RigidTransform,
     /// Number of inliers that it explains.
     pub num_explained: usize,
@@ -17,17 +17,17 @@ pub struct ExplainingTurn {
 }
 
 impl ExplainingTurn {
-    /// The turn of a search, if it explains nearly all inliers of another model.
+    /// Returns the rotation of a search if it explains nearly all inliers of another model.
     ///
-    /// * `intrinsics`: of the two cameras
-    /// * `inliers`: the matches that fit the other model
+    /// * `intrinsics`: intrinsics of the two cameras
+    /// * `inliers`: inliers of the other model
     pub(super) fn new<'a>(
         turn: &RansacReport<Matrix3<f64>>,
         intrinsics: [&Intrinsics; 2],
         inliers: impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
         options: &TwoViewOptions,
     ) -> Option<Self> {
-        // Two matches fit a turn always.
+        // A rotation always fits two matches.
         if turn.num_unique_inliers < 3 {
             return None;
         }
@@ -40,8 +40,8 @@ impl ExplainingTurn {
         Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
     }
 
-    /// A turn that explains so many of the inliers, if these are nearly all: the one place where
-    /// that is decided, whatever the lens.
+    /// Returns a rotation that explains `num_explained` of the inliers, if these are nearly all.
+    /// The only place for this decision, for any lens.
     pub(super) fn if_nearly_all(
         rotation: &Matrix3<f64>,
         num_explained: usize,
@@ -57,7 +57,7 @@ impl ExplainingTurn {
     }
 }
 
-/// The motion of a camera that only turns.
+/// Returns the motion of a camera that only rotates.
 pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
     let rotation = Rotation3::from_matrix_unchecked(*rotation);
     RigidTransform::from_parts(
@@ -66,7 +66,7 @@ pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
     )
 }
 
-/// Homography of a turn, in pixels: `K2 R K1⁻¹`.
+/// Returns the homography of a rotation, in pixels: `K2 R K1⁻¹`.
 pub(super) fn homography_of_turn(
     rotation: &Matrix3<f64>,
     [k1, k2]: [&Intrinsics; 2],

@@ -1,4 +1,4 @@
-//! Two views, whatever they show: a scene with depth, a plane, or a turn of the camera.
+//! Geometry of two views of any scene: with depth, a plane, or under pure rotation.
 
 mod choice;
 mod degeneracy;

@@ -1,4 +1,4 @@
-//! Motions from models.
+//! Motion from two-view models.
 
 use super::pairs::Pairs;
 use crate::camera::{Intrinsics, RigidTransform};
@@ -22,14 +22,14 @@ pub(super) fn pose_of_fundamental(
         .map(|selected| selected.cam2_from_cam1)
 }
 
-/// A motion explains the matches as well as the best one if it fits this share of as many.
+/// A motion is as good as the best if it fits at least this fraction of the best one's inliers.
 const AS_WELL: f64 = 0.95;
 
-/// Motions nearer than this are one: both of the rotations, radians, and of the directions.
+/// Motions closer than this are equal: both their rotations, radians, and their directions.
 const SAME_MOTION: f64 = 0.05;
 
-/// The motion past a plane with the most matches that fit and lie in front of both cameras, and
-/// another one that does as well, if any.
+/// Returns the motion past a plane with the most inliers in front of both cameras, and another
+/// motion that is equally good, if any.
 pub(super) fn planar_motions(
     pairs: &Pairs<'_>,
     k1: &Intrinsics,
@@ -60,8 +60,8 @@ pub(super) fn planar_motions(
     best_and_rival(&scores, pose).map(|place| place.map(|i| motions[i]))
 }
 
-/// Rotations and directions of the motions that put most of a plane's points in front of camera 1:
-/// n · x < 0 for the rays of its inliers, of which some may be wrong.
+/// Returns rotations and directions of the motions that put most of a plane's points in front of
+/// camera 1: n · x < 0 for the rays of its inliers, which may include outliers.
 pub(super) fn in_front_of_plane(
     motions: &[PlaneMotion],
     rays1: impl Iterator<Item = Vector3<f64>> + Clone,
@@ -82,10 +82,10 @@ pub(super) fn in_front_of_plane(
     kept
 }
 
-/// The motion with the most support, the first of equals, and another one with nearly as much, if
-/// there is one.
+/// Returns the motion with the most support, the first of equals, and another one with nearly as
+/// much, if any.
 ///
-/// * `pose`: rotation and direction of each motion, by its place in `scores`
+/// * `pose`: rotation and direction of each motion, by index in `scores`
 pub(super) fn best_and_rival(
     scores: &[usize],
     pose: impl Fn(usize) -> (Matrix3<f64>, Vector3<f64>),
@@ -115,7 +115,7 @@ pub(super) fn median_angle(
     let mut angles: Vec<f64> = pairs
         .among(inliers)
         .map(|(p1, p2)| {
-            // Rays of short lenses are long: their products must not be beyond numbers.
+            // Normalize: products of the long rays of short lenses could overflow.
             let (r1, r2) = (k1.ray(p1).normalize(), k2.ray(p2).normalize());
             let r1 = motion.rotation * r1;
             libm::atan2(r1.cross(&r2).norm(), r1.dot(&r2))

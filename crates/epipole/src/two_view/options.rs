@@ -1,4 +1,4 @@
-//! Options of the choice among models of two views.
+//! Options of the two-view model choice.
 
 use crate::homography::homography_sampson_sq;
 use crate::robust::RansacOptions;
@@ -6,12 +6,12 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use nalgebra::{Matrix3, Point2};
 
-/// The largest error of a match of two photographs, pixels, that the commands on photographs and
-/// [`SfmOptions`](crate::sfm::SfmOptions) begin with. Features of photographs are less exact, and
-/// their lenses less straight, than the one pixel of [`RansacOptions`] would have it.
+/// Default maximum error of a match between photos, pixels, in
+/// [`SfmOptions`](crate::sfm::SfmOptions) and the photo commands. Larger than the one pixel of
+/// [`RansacOptions`], as photos have less exact features and imperfect lens models.
 pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 
-/// Options of the choice among models of two views.
+/// Options of the two-view model choice.
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -21,19 +21,18 @@ pub const PHOTO_MAX_ERROR_PX: f64 = 2.0;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct TwoViewOptions {
-    /// For each of the models that are tried. H and turns, which have to fit in two dimensions, are
-    /// given 1.25 times its threshold, by the Sampson error.
-    /// [`ThresholdKind::Noise`](crate::robust::ThresholdKind) is that of F, which needs no
-    /// intrinsics, for all of them.
+    /// Options for each model that is tried. For H and rotations the threshold is 1.25 times as
+    /// large, as their Sampson errors have two dimensions. With
+    /// [`ThresholdKind::Noise`](crate::robust::ThresholdKind) all models use the threshold of F,
+    /// which needs no intrinsics.
     pub ransac: RansacOptions,
-    /// Fewer different inliers than this mean
+    /// Minimum number of unique inliers; otherwise the pair is
     /// [`Configuration::Degenerate`](super::Configuration::Degenerate). 15.
     pub min_num_inliers: usize,
-    /// A homography that explains at least this share of the epipolar inliers means a plane or a
-    /// turn. Above 1 nothing does. 0.8.
+    /// Minimum fraction of epipolar inliers that a homography must explain for the scene to count
+    /// as a plane or pure rotation. Above 1 none does. 0.8.
     pub max_homography_share: f64,
-    /// E is preferred to F if it has at least this share of F's inliers. A share above 1 asks
-    /// for more of them than F has. 0.95.
+    /// Minimum ratio of E's inliers to F's for E to be preferred. 0.95.
     pub min_essential_share: f64,
 }
 
@@ -48,16 +47,16 @@ impl Default for TwoViewOptions {
     }
 }
 
-/// A match misses a homography in two dimensions, an epipolar line in one. With Gaussian noise, so
-/// many times the distance holds the same share of the right matches: 2.45 against 1.96 standard
-/// deviations for 95 %.
+/// Ratio of thresholds for errors of two dimensions (homographies) and one (epipolar lines). It
+/// keeps the same fraction of correct matches with Gaussian noise: 95 % lie within 2.45 and 1.96
+/// standard deviations.
 const TWO_DIMENSIONS: f64 = 1.25;
 
 impl TwoViewOptions {
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] naming the first field that is not; as [`RansacOptions::check`].
+    /// [`Error::OutOfRange`] with the name of the first invalid field; as [`RansacOptions::check`].
     pub fn check(&self) -> Result<()> {
         self.ransac.check()?;
         for (what, value) in [
@@ -81,13 +80,14 @@ impl TwoViewOptions {
         Ok(())
     }
 
-    /// For models whose errors are distances in image 2, which have the noise of both images.
+    /// Returns options for models whose errors are distances in image 2, with the noise of both
+    /// images.
     pub(super) fn in_two_dimensions(&self) -> RansacOptions {
         let max_error_px = self.ransac.max_error_px;
         (self.ransac).within(TWO_DIMENSIONS * core::f64::consts::SQRT_2 * max_error_px)
     }
 
-    /// The same with a threshold that is given, as [`RansacOptions::within`].
+    /// Replaces the threshold, as [`RansacOptions::within`].
     ///
     /// ```
     /// use epipole::two_view::TwoViewOptions;
@@ -110,7 +110,7 @@ impl TwoViewOptions {
         homography_sampson_sq(h, p1, p2) < reach_px * reach_px
     }
 
-    /// Maximum Sampson error of a homography, pixels.
+    /// Returns the maximum Sampson error of a homography, pixels.
     pub(super) fn reach_in_two_dimensions_px(&self) -> f64 {
         TWO_DIMENSIONS * self.ransac.max_error_px
     }

@@ -1,17 +1,17 @@
-//! Matches as the caller gave them, each different one counted once.
+//! Matches from the caller, without repetitions.
 
 use super::TwoViewOptions;
 use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// Matches as the caller gave them.
+/// Matches from the caller.
 pub(super) struct Pairs<'a> {
     pub(super) pixels1: &'a [Point2<f64>],
     pub(super) pixels2: &'a [Point2<f64>],
-    /// Whether no earlier match is equal, and it can be computed with.
+    /// Whether each match is usable and no earlier one is equal.
     is_first: Vec<bool>,
-    /// Whether it, or an equal one, is among the different matches.
+    /// Whether each match, or an equal one, is among the unique matches.
     is_used: Vec<bool>,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// For each match, whether it fits a homography.
+    /// Returns whether each match fits a homography.
     pub(super) fn fit(&self, homography: &Matrix3<f64>, options: &TwoViewOptions) -> Vec<bool> {
         let pairs = self.pixels1.iter().zip(self.pixels2);
         let fits = |((p1, p2), used): ((&Point2<f64>, &Point2<f64>), &bool)| {
@@ -44,14 +44,14 @@ impl<'a> Pairs<'a> {
         pairs.zip(&self.is_used).map(fits).collect()
     }
 
-    /// The different matches, each once.
+    /// Returns the unique matches.
     pub(super) fn different(
         &self,
     ) -> impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)> + use<'a, '_> {
         self.among(&self.is_first)
     }
 
-    /// The matches of a mask.
+    /// Returns the matches of a mask.
     pub(super) fn among<'b>(
         &self,
         mask: &'b [bool],
@@ -63,7 +63,7 @@ impl<'a> Pairs<'a> {
             .map(|(pair, _)| pair)
     }
 
-    /// The different matches of a mask, each once.
+    /// Returns the unique matches of a mask.
     pub(super) fn different_among<'b>(
         &'b self,
         mask: &'b [bool],
@@ -75,7 +75,7 @@ impl<'a> Pairs<'a> {
             .map(|(pair, _)| pair)
     }
 
-    /// The share of some inliers that fit a homography.
+    /// Returns the fraction of some inliers that fit a homography.
     pub(super) fn explained_share(
         &self,
         homography: &Matrix3<f64>,
@@ -93,7 +93,7 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// Both pixels of the matches of a mask.
+/// Returns both pixels of the matches of a mask.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] if the lists differ in length.

@@ -1,4 +1,4 @@
-//! Result of the choice among models of two views.
+//! Result of the two-view model choice.
 
 use super::TwoViewOptions;
 use super::pairs::Pairs;
@@ -11,15 +11,16 @@ use nalgebra::{Matrix3, Point2};
 /// Configuration of two views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Configuration {
-    /// A moving camera and a scene with depth: F or E says all.
+    /// A moving camera and a scene with depth, described by F or E.
     General,
-    /// A moving camera and a plane: H says all; F is open, and the motion may be twofold.
+    /// A moving camera and a plane, described by H; F is undetermined, and the motion may be
+    /// ambiguous.
     Planar,
-    /// A camera that only turned, or hardly moved: H says all; depth cannot be told. Without
-    /// intrinsics this cannot be told from a plane and is reported as
+    /// A camera that only rotated, or hardly moved, described by H; depth is not observable.
+    /// Without intrinsics this looks like a plane and is reported as
     /// [`Planar`](Configuration::Planar).
     Panoramic,
-    /// No more matches agree on anything than wrong matches might by chance.
+    /// No more matches agree on a model than wrong matches might by chance.
     Degenerate,
 }
 
@@ -28,55 +29,54 @@ pub enum Configuration {
 pub enum TwoViewModel {
     /// `x2ᵀ F x1 = 0`.
     Fundamental(Matrix3<f64>),
-    /// E; the pixels' F is [`TwoViewReport::fundamental`].
+    /// E; [`TwoViewReport::fundamental`] is the F for pixels.
     Essential(Matrix3<f64>),
     /// `x2 ∝ H x1`.
     Homography(Matrix3<f64>),
 }
 
-/// Result of the choice among models of two views.
+/// Result of the two-view model choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewReport {
     /// Configuration of the views.
     pub configuration: Configuration,
-    /// The matrix chosen.
+    /// The chosen matrix.
     pub model: TwoViewModel,
-    /// Whether `model` and `homography` are of rays, not of pixels: through lenses other than
+    /// Whether `model` and `homography` apply to rays instead of pixels: for lenses other than
     /// pinholes.
     pub is_of_rays: bool,
-    /// F, where the pair has one: that of the motion for calibrated views of a plane, `None` for
-    /// uncalibrated ones and for turns.
+    /// F, if defined: for calibrated views of a plane that of the motion, `None` for uncalibrated
+    /// ones and for rotations.
     pub fundamental: Option<Matrix3<f64>>,
     /// H, if one was found.
     pub homography: Option<Matrix3<f64>>,
     /// The motion, for calibrated views; |t| = 1, or 0 for [`Configuration::Panoramic`]. `None` for
     /// [`Configuration::Degenerate`].
     pub cam2_from_cam1: Option<RigidTransform>,
-    /// Of a plane: another motion that explains the matches as well, if there is one. Which of the
-    /// two is right, a plane alone does not tell.
+    /// For a plane: another motion that explains the matches equally well, if any. A single plane
+    /// cannot resolve this ambiguity.
     pub other_cam2_from_cam1: Option<RigidTransform>,
-    /// For each match given, whether it fits `model`: within `max_error_px` of F or E, by the
-    /// Sampson error, and within 1.25 times as much of H, which has to fit in two dimensions.
+    /// For each input match, whether it fits `model`: within `max_error_px` of F or E, by the
+    /// Sampson error, and within 1.25 times that of H, whose errors have two dimensions.
     pub inliers: Vec<bool>,
     /// Number of `inliers` that are true.
     pub num_inliers: usize,
-    /// Matches that were left out: an infinite coordinate, or one beyond 10⁹ pixels.
+    /// Number of matches left out: with an infinite coordinate, or one beyond 10⁹ pixels.
     pub num_left_out: usize,
     /// The threshold of F and E, pixels.
     pub max_error_px: f64,
     /// Samples drawn, over all models tried.
     pub iterations: usize,
-    /// Number of samples that `model` asks for.
+    /// Number of samples required for `model`.
     pub required_iterations: u64,
-    /// Why the search for `model` ended.
+    /// Reason why the search for `model` ended.
     pub stop: StopReason,
-    /// The median angle at which the inliers' rays meet, radians, for a calibrated pair with
-    /// motion.
+    /// Median angle between the inliers' rays, radians, for a calibrated pair with motion.
     pub median_triangulation_angle_rad: Option<f64>,
 }
 
 impl TwoViewReport {
-    /// A degenerate pair.
+    /// Returns the report of a degenerate pair.
     pub(super) fn nothing(iterations: usize, options: &TwoViewOptions) -> Self {
         Self {
             configuration: Configuration::Degenerate,
@@ -97,7 +97,7 @@ impl TwoViewReport {
         }
     }
 
-    /// Fills in the inliers of the model; without enough of them nothing is said of the motion.
+    /// Sets the inliers of the model; the motion stays unset if they are too few.
     pub(super) fn take<M>(
         &mut self,
         inliers: Vec<bool>,
@@ -116,7 +116,7 @@ impl TwoViewReport {
         }
     }
 
-    /// Fills in the matches that fit the homography, which is the model.
+    /// Sets the matches that fit the homography as inliers of the model.
     pub(super) fn take_homography<M>(
         &mut self,
         pairs: &Pairs<'_>,
@@ -128,8 +128,8 @@ impl TwoViewReport {
         }
     }
 
-    /// The mean Sampson error of the inliers, pixels. `None` without inliers, if the pair has no F
-    /// to measure by, and for a model of rays.
+    /// Returns the mean Sampson error of the inliers, pixels. `None` without inliers, if the pair
+    /// has no F, and for a model of rays.
     pub fn mean_error_px(&self, pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Option<f64> {
         if self.is_of_rays {
             return None;

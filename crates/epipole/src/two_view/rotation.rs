@@ -1,4 +1,4 @@
-//! Pure rotations: what two views share when the camera only turned.
+//! Rotation-only motion between two views.
 
 #[cfg(doc)]
 use crate::Error;
@@ -12,22 +12,23 @@ use crate::robust::{
 };
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Rotations of a camera on the spot, from matches, for [`Ransac`](crate::robust::Ransac).
+/// Estimator of rotation-only motion from matches, for [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is two matches; the error is the distance in image 2 from the projection of the turned
+/// A sample is two matches; the error is the distance in image 2 from the projection of the rotated
 /// ray, pixels, to first order through a lens; refinement aligns the rays of the inliers. Equal
-/// matches count once, and those that meet in a pixel have few votes together, as for homographies.
+/// matches count once, and matches that share a pixel have a limited weight together, as for
+/// homographies.
 ///
 /// Source: Kabsch 1976 (aligning directions by a singular value decomposition).
 #[derive(Debug, Clone)]
 pub struct RotationEstimator {
     matches: MatchSet,
-    /// Of length 1; zero where a lens bends no ray to a pixel.
+    /// Unit rays; zero for pixels without a ray.
     rays: Vec<[Vector3<f64>; 2]>,
     geometry: Geometry,
 }
 
-/// Data that errors are measured with.
+/// Data for measuring errors.
 #[derive(Debug, Clone)]
 enum Geometry {
     /// K of both cameras.
@@ -59,7 +60,7 @@ impl RotationEstimator {
         })
     }
 
-    /// The squared error of a match, by its index.
+    /// Returns the squared error of a match, by its index.
     fn errors_sq(&self, rotation: &Matrix3<f64>) -> impl Fn(usize) -> f64 {
         let homography = match &self.geometry {
             Geometry::Pinhole([k1, k2]) => k2.matrix() * rotation * k1.inverse_matrix(),
@@ -69,7 +70,7 @@ impl RotationEstimator {
         move |index| {
             let turned = rotation * self.rays[index][0];
             match &self.geometry {
-                // A ray turned behind the camera would land on a pixel, too.
+                // A ray rotated behind the camera would also project to a pixel.
                 Geometry::Pinhole(_) if turned.z <= 0.0 => f64::INFINITY,
                 Geometry::Pinhole(_) => {
                     let (x1, x2) = self.matches.pair(index);
@@ -87,8 +88,8 @@ impl RotationEstimator {
     }
 }
 
-/// The rotation that aligns the first ray of each pair, of length 1, with the second best. `None`
-/// if they leave it open.
+/// Returns the rotation that best aligns the first unit ray of each pair with the second. `None` if
+/// they do not determine it.
 pub(crate) fn align_rays<'a>(
     pairs: impl Iterator<Item = &'a [Vector3<f64>; 2]>,
 ) -> Option<Matrix3<f64>> {
@@ -97,7 +98,7 @@ pub(crate) fn align_rays<'a>(
         sum += r2 * r1.transpose();
     }
     let svd = svd3(&sum);
-    // One direction alone leaves the turn about it open.
+    // A single direction leaves the rotation about it open.
     if svd.singular_values[1] <= 1e-12 * svd.singular_values[0] {
         return None;
     }
@@ -139,17 +140,17 @@ impl Estimator for RotationEstimator {
     }
 }
 
-/// The rotation R of `cam2_from_cam1` that most matches agree on, for a camera of any lens that did
-/// not move; of pinholes, `x2 ∝ K2 R K1⁻¹ x1`.
+/// Estimates the rotation R of `cam2_from_cam1` on which most matches agree, for a camera with any
+/// lens that did not move; for pinholes, `x2 ∝ K2 R K1⁻¹ x1`.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
 /// * `cameras`: the two cameras
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`RotationEstimator::new`] and [`ransac`].
 ///
-/// Source: Hartley & Zisserman 2004, §8.4 (what a turn does to pixels); as [`RotationEstimator`].
+/// Source: Hartley & Zisserman 2004, §8.4 (pixels under rotation); as [`RotationEstimator`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -157,7 +158,7 @@ impl Estimator for RotationEstimator {
 /// use epipole::robust::RansacOptions;
 /// use epipole::two_view::estimate_rotation;
 /// use nalgebra::{Matrix3, Point2};
-/// // Rolled by a quarter turn about the optical axis: (x, y) from the middle goes to (−y, x).
+/// // Rolled by 90° about the optical axis: (x, y) from the middle maps to (−y, x).
 /// let camera = Camera::pinhole(Intrinsics::new(600.0, 600.0, 300.0, 300.0)?, 601, 601);
 /// let p1: Vec<_> = (0..40).map(|i| Point2::new(f64::from(i * 37 % 600), f64::from(i * 71 % 600))).collect();
 /// let mut p2: Vec<_> = p1.iter().map(|p| Point2::new(600.0 - p.y, p.x)).collect();
@@ -235,7 +236,7 @@ mod tests {
             estimate_rotation(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ()).unwrap();
         assert!((report.model - truth).norm() < 1e-9);
         assert_eq!(report.num_inliers, 66);
-        // A crowd of matches that lead to one pixel counts as it does for a homography.
+        // Many matches with the same pixel have limited weight, as for a homography.
         let (mut p1, mut p2) = (p1, p2);
         for _ in 0..200 {
             p1.push(Point2::new(

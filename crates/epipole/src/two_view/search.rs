@@ -1,4 +1,4 @@
-//! The searches for the models of two views, one after the other.
+//! Consecutive searches for the models of two views.
 
 use super::TwoViewOptions;
 use crate::epipolar::FundamentalEstimator;
@@ -7,10 +7,10 @@ use crate::progress::{Monitor, Part};
 use crate::robust::{Estimator, MatchSet, RansacOptions, RansacReport, ThresholdKind, ransac};
 use crate::{Error, Result};
 
-/// Searches that share one run, at most: two for the threshold, then E, F, H and the turn.
+/// Maximum number of searches in one run: two for the threshold, then E, F, H and the rotation.
 const MOST: usize = 6;
 
-/// Runs one search after the other.
+/// Runner of consecutive searches.
 pub(super) struct Searches<'a> {
     monitor: &'a mut dyn Monitor,
     /// Number of searches so far.
@@ -30,9 +30,9 @@ impl<'a> Searches<'a> {
         }
     }
 
-    /// The options with a threshold that is given: where it is to be found, that of F, which all
-    /// pairs have, whatever the scene and the intrinsics; else that of H. Where neither is found,
-    /// that of the options.
+    /// Returns the options with a fixed threshold. If it is to be estimated, it is that of F, which
+    /// all pairs have, whatever the scene and the intrinsics; else that of H. If neither is found,
+    /// it is that of the options.
     pub(super) fn with_threshold(
         &mut self,
         options: &TwoViewOptions,
@@ -55,7 +55,7 @@ impl<'a> Searches<'a> {
         options.within(found.map_or(given_px, |report| of_f(report.max_error_px)))
     }
 
-    /// Searches by the one loop.
+    /// Searches by RANSAC.
     pub(super) fn ransac<E: Estimator>(
         &mut self,
         estimator: Result<E>,
@@ -65,7 +65,7 @@ impl<'a> Searches<'a> {
         self.run(|monitor| ransac(estimator, options, monitor))
     }
 
-    /// Searches by a function that runs the loop.
+    /// Searches by a function that runs RANSAC.
     pub(super) fn run<M>(
         &mut self,
         run: impl FnOnce(&mut dyn Monitor) -> Result<RansacReport<M>>,

@@ -17,8 +17,8 @@ use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 /// plenty.
 const MAX_SAMPLES: usize = 500;
 
-/// The homography of rays that explains nearly all inliers of a motion, if there is one: they show
-/// a plane, or the camera only turned.
+/// Finds the homography of rays that explains nearly all inliers of a motion, if any: they show a
+/// plane, or the camera only rotated.
 pub(crate) fn find_plane_through_lenses(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -35,8 +35,8 @@ pub(crate) fn find_plane_through_lenses(
     (found.num_inliers as f64 >= needed).then_some(found)
 }
 
-/// Body of [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) for cameras of any
-/// lens: E, or H of rays for a plane or a turn. Errors of H are in image 2.
+/// Body of [`estimate_two_view_calibrated`](super::estimate_two_view_calibrated) for cameras with
+/// any lens: E, or H of rays for a plane or a rotation. Errors of H are in image 2.
 ///
 /// # Errors
 /// As [`estimate_relative_pose`].
@@ -126,7 +126,7 @@ pub(super) fn estimate_through_lenses(
     Ok(found)
 }
 
-/// The different matches that fit a model.
+/// Unique matches that fit a model.
 struct Inliers {
     pixels: [Vec<Point2<f64>>; 2],
     seen: Vec<[Observation; 2]>,
@@ -150,9 +150,10 @@ impl Inliers {
     }
 }
 
-/// The motion past a plane that most matches agree with, and another one with nearly as many.
+/// Returns the motion past a plane with which most matches agree, and another one with nearly as
+/// many.
 ///
-/// * `motion`: that of E
+/// * `motion`: motion of E
 fn planar_motions(
     inliers: &[[Observation; 2]],
     motion: &RigidTransform,
@@ -161,7 +162,7 @@ fn planar_motions(
 ) -> [Option<RigidTransform>; 2] {
     let on_plane = inliers.iter().zip(&plane.inliers).filter(|(_, is)| **is);
     let rays1 = on_plane.map(|([seen1, _], _)| seen1.ray());
-    // Rays are what a camera with the identity for K sees.
+    // Rays are pixels of a camera with K = I.
     let of_rays = Intrinsics::new(1.0, 1.0, 0.0, 0.0);
     let decomposed = of_rays.and_then(|k| decompose_homography(&plane.model, &k, &k));
     let mut motions = vec![*motion];
@@ -196,7 +197,7 @@ mod tests {
     use crate::two_view::estimate_two_view_calibrated;
     use nalgebra::Point3;
 
-    /// Matches with noise of half a pixel, every tenth wrong.
+    /// Matches with half a pixel of noise, every tenth wrong.
     fn seen(
         camera: &Camera,
         motion: &RigidTransform,

@@ -1,4 +1,4 @@
-//! Cameras that only turned: E and F mean nothing then, though they fit.
+//! Detection of rotation-only motion: E and F are meaningless then, though they fit.
 
 use super::TwoViewOptions;
 use super::explaining_turn::ExplainingTurn;
@@ -11,16 +11,16 @@ use crate::robust::RansacOptions;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// Samples of two matches. Where a turn explains as much as is asked for, a tenth is plenty.
+/// Maximum number of two-match samples. Where a rotation explains enough, a tenth is plenty.
 const MAX_SAMPLES: usize = 300;
 
-/// The turn that explains the inliers of E, F or H as well, if there is one: then whether and in
-/// which direction the camera moved cannot be told, whatever the model says.
+/// Finds the rotation that explains the inliers of E, F or H equally well, if any: then the matches
+/// show neither whether nor in which direction the camera moved, whatever the model.
 ///
-/// * `pixels1`, `pixels2`: the matches that the model was found from
-/// * `cameras`: the two cameras, of any lens
+/// * `pixels1`, `pixels2`: the matches from which the model was estimated
+/// * `cameras`: the two cameras, with any lens
 /// * `inliers`: for each match, whether it is an inlier of the model
-/// * `options`: [`TwoViewOptions::max_homography_share`] says what nearly all is, and
+/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`] should be that of the model
 ///
 /// # Errors
@@ -41,7 +41,7 @@ const MAX_SAMPLES: usize = 300;
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
 /// let options = TwoViewOptions::default();
-/// // The pose fits every match, and its direction means nothing.
+/// // The pose fits every match, but its direction is meaningless.
 /// let camera = Camera::pinhole(k, 640, 480);
 /// let pose = estimate_relative_pose(&p1, &p2, [&camera; 2], &options.ransac, &mut ())?;
 /// assert_eq!(pose.num_inliers, 60);

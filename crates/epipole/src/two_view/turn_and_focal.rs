@@ -1,4 +1,4 @@
-//! Rotation-only motion with a wrong focal length: homographies that pass for those of planes.
+//! Rotation-only motion with a wrong focal length: its homographies look like those of planes.
 
 use super::TwoViewOptions;
 use super::explaining_turn::{homography_of_turn, motion_of_turn};
@@ -11,35 +11,34 @@ use crate::optim::RobustLoss;
 use crate::robust::MatchSet;
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Focal lengths are looked for from the given one over this to the given one times this.
+/// Maximum ratio between the estimated focal length and the given one, either way.
 const WIDEST: f64 = 4.0;
-/// The cosine of 50°: a lens that sees no farther off its axis is near enough to a pinhole camera.
+/// The cosine of 50°: up to this angle off the axis a lens is close enough to a pinhole camera.
 const NARROW: f64 = 0.642_787_609_686_539_3;
-/// Factors tried over that range, evenly by their logarithms. The cost has one valley, far wider
-/// than their steps of 9 %.
+/// Number of factors tried, evenly spaced by logarithm. The cost has one valley, far wider than
+/// their spacing of 9 %.
 const NUM_TRIED: usize = 33;
-/// Steps of golden sections from there: the factor is then good to six digits.
+/// Number of golden-section steps from there: the factor is then accurate to six digits.
 const NUM_NARROWED: usize = 26;
 /// A rotation and a focal length have four unknowns, so they fit any two matches. H has eight, so
 /// more than four matches are informative.
 const MIN_NUM_MATCHES: usize = 6;
-/// Maximum ratio of the RMS error to that of the best homography. Noise with four unknowns less,
-/// and the rest of a distortion, stay within a few percent, while planes miss by half as much again
-/// and more.
+/// Maximum ratio of the RMS error to that of the best homography. Noise with four parameters fewer
+/// and residual distortion stay within a few percent, while planes exceed it by half and more.
 const MAX_RMS_RATIO: f64 = 1.1;
-/// … and this part of the threshold more, for matches without noise.
+/// Slack as a fraction of the threshold, for noise-free matches.
 const RMS_SLACK: f64 = 0.02;
 
-/// A rotation of the camera, with its focal length, that explains nearly all of some matches.
+/// A rotation and a focal length that explain nearly all of some matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TurnAndFocal {
     /// The rotation, as a motion without translation.
     pub cam2_from_cam1: RigidTransform,
-    /// Factor by which both focal lengths differ from those given.
+    /// Ratio of the actual focal lengths to the given ones.
     pub focal_factor: f64,
-    /// Number of different matches that it explains.
+    /// Number of unique matches that it explains.
     pub num_explained: usize,
-    /// Number of different matches.
+    /// Number of unique matches.
     pub num_inliers: usize,
 }
 
@@ -57,33 +56,33 @@ struct Search<'a> {
     options: &'a TwoViewOptions,
 }
 
-/// Finds the rotation that explains the inliers of a homography equally well if the focal lengths
-/// given are off by a common factor, and that factor: then the matches are not of a plane, and
-/// there is no depth.
+/// Finds the rotation that explains the inliers of a homography equally well if the given focal
+/// lengths are off by a common factor, and this factor. If there is one, the matches are not on a
+/// plane and give no depth.
 ///
 /// `x2 ∝ K2 R K1⁻¹ x1`, where the focal lengths in K1 and K2 are `focal_factor` times those given.
-/// The factor is looked for from ¼ to 4; for each the rotation that aligns the rays best is taken.
+/// Factors from ¼ to 4 are searched, each with the rotation that aligns the rays best.
 ///
-/// * `pixels1`, `pixels2`: the matches that H was found from
-/// * `cameras`: the two cameras; principal points and lenses are believed, focal lengths are not
+/// * `pixels1`, `pixels2`: the matches from which H was estimated
+/// * `cameras`: the two cameras; principal points and lenses are trusted, focal lengths are not
 /// * `inliers`: for each match, whether it is an inlier of H
 /// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of
 ///   the search
 ///
-/// `None` for inliers 50° and more off the axis of a lens, where it is not near enough to a pinhole
-/// camera; if the rotation misses nearly as many matches, or misses them by more than 1.1 times the
-/// error of the best homography, as for planes. Also `None` if the longest focal length fits
-/// equally well, since a rotation then moves the image by the same everywhere, as a step aside
-/// before a wall does. A camera that looks straight at a wall, and turns a little while it steps
-/// aside, cannot be distinguished from a rotation.
+/// `None` for inliers 50° or more off the axis, where a lens is not close enough to a pinhole
+/// camera; if the rotation does not explain nearly all matches, or its error exceeds 1.1 times that
+/// of the best homography, as for planes. Also `None` if the longest focal length fits equally
+/// well, since a rotation then moves the whole image uniformly, as does a sideways step before a
+/// wall. A camera that looks straight at a wall, and rotates a little while it steps aside, cannot
+/// be distinguished from a rotation.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`](crate::Error::SizeMismatch) if the lists differ in length, and as
 /// [`TwoViewOptions::check`] and [`MatchSet::new`].
 ///
 /// Source: Hartley & Zisserman 2004, §8.4 (rotations in pixels); Szeliski 2022, §8.2 (focal lengths
-/// from the homographies of panoramas; the search replaces it, as it needs no good H).
+/// from homographies of panoramas; replaced by a search, which needs no accurate H).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -97,7 +96,7 @@ struct Search<'a> {
 ///     let x = k.matrix() * (turn * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
-/// // Whoever believes 480 px sees a plane.
+/// // With the wrong 480 px this looks like a plane.
 /// let guess = Intrinsics::centered(480.0, 640, 480)?;
 /// let options = TwoViewOptions::default();
 /// let camera = Camera::pinhole(guess, 640, 480);
@@ -135,12 +134,12 @@ pub fn find_turn_and_focal(
     if set.len() < MIN_NUM_MATCHES {
         return Ok(None);
     }
-    // Matches on a line have no homography, and too many rotations fit.
+    // Collinear matches have no homography, and too many rotations fit.
     let homography = search.homography().ok();
     Ok(homography.and_then(|homography| search.turn(search.cost(&homography))))
 }
 
-/// The pixel of a camera without distortion; `None` where the lens sees too far off its axis.
+/// Returns the undistorted pixel; `None` too far off the axis.
 fn narrow_pixel(camera: &Camera, pixel: &Point2<f64>) -> Option<Point2<f64>> {
     if camera.is_pinhole() {
         return Some(*pixel);
@@ -157,7 +156,7 @@ impl Search<'_> {
         refine_homography(&start, &pixels1, &pixels2, RobustLoss::Trivial)
     }
 
-    /// The rotation, if it is as good as a homography of some cost.
+    /// Returns the rotation, if it is as good as a homography with this cost.
     fn turn(&self, cost: f64) -> Option<TurnAndFocal> {
         let count = self.pairs.len() as f64;
         let needed = self.options.max_homography_share * count;
@@ -192,7 +191,7 @@ impl Search<'_> {
             .sum()
     }
 
-    /// The rotation that explains the matches best with this factor of the focal lengths.
+    /// Returns the rotation that explains the matches best with this factor of the focal lengths.
     fn at(&self, factor: f64) -> Option<Candidate> {
         let [k1, k2] = self.intrinsics;
         let (k1, k2) = (k1.zoomed(factor).ok()?, k2.zoomed(factor).ok()?);
@@ -208,14 +207,14 @@ impl Search<'_> {
             }
         };
         let all = candidate(align_rays(rays.iter())?);
-        // Once more without those that it does not explain: wrong matches pull.
+        // Once more without the outliers, which bias the rotation.
         let near = (rays.iter().zip(&self.pairs))
             .filter(|(_, (p1, p2))| self.options.fits_homography(&all.homography, p1, p2));
         let again = align_rays(near.map(|(rays, _)| rays)).map(candidate);
         again.filter(|again| again.cost < all.cost).or(Some(all))
     }
 
-    /// The factor of the least cost; `None` if it is at an end of the range.
+    /// Returns the factor with the lowest cost; `None` if it is at an end of the range.
     fn best_factor(&self) -> Option<f64> {
         let cost = |log: f64| {
             let found = self.at(libm::exp(log));
@@ -276,8 +275,8 @@ mod tests {
         Camera::pinhole(intrinsics(focal_px), 800, 600)
     }
 
-    /// 200 matches within photographs of 800 × 600, every fifth of them wrong. `None` if the motion
-    /// leaves none in sight.
+    /// 200 matches in images of 800 × 600, every fifth wrong. `None` if the motion leaves none in
+    /// sight.
     ///
     /// * `normal`: of the plane at distance 1; ignored for a rotation
     fn matches(
@@ -316,7 +315,7 @@ mod tests {
         None
     }
 
-    /// The result for matches of a homography with a guessed focal length.
+    /// Result for matches of a homography with a guessed focal length.
     fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<TurnAndFocal> {
         let (guess, options) = (camera(GUESS_PX), options());
         let h = estimate_homography(p1, p2, &options.in_two_dimensions(), &mut ()).unwrap();
@@ -348,7 +347,7 @@ mod tests {
             let mut num_found = 0;
             for seed in 0..40 {
                 let mut random = Random::new(seed);
-                // Up to twice as long as the guess; at the guess itself nothing is wrong.
+                // Up to twice the guess; at the guess itself nothing is wrong.
                 let focal_px = GUESS_PX
                     * match seed % 2 {
                         0 => random.uniform(1.15, 2.0),

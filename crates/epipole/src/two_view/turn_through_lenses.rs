@@ -1,4 +1,4 @@
-//! Turns of cameras of any lens.
+//! Rotations of cameras with any lens.
 
 use super::TwoViewOptions;
 use super::explaining_turn::ExplainingTurn;
@@ -6,13 +6,13 @@ use super::rotation::align_rays;
 use crate::camera::Observation;
 use nalgebra::{Matrix3, Vector3};
 
-/// Number of concentration steps on the half of the matches that fits best.
+/// Number of concentration steps on the better-fitting half of the matches.
 const ROUNDS: usize = 10;
 
-/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras of any lens; errors
+/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras with any lens; errors
 /// are in image 2.
 ///
-/// * `inliers`: observations of both cameras, of which few are wrong
+/// * `inliers`: observations of both cameras, with few outliers
 ///
 /// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets"
 /// (concentration steps).
@@ -20,7 +20,7 @@ pub(super) fn find_turn_through_lenses(
     inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
 ) -> Option<ExplainingTurn> {
-    // Two matches fit a turn always.
+    // A rotation always fits two matches.
     if inliers.len() < 3 {
         return None;
     }
