@@ -1,16 +1,16 @@
-//! Number of samples to draw.
+//! Number of RANSAC samples.
 
 use crate::{Error, Result};
 
-/// The number of samples after which one of them is free of outliers with probability
+/// Returns the number of samples so that at least one is free of outliers with probability
 /// `confidence`: the smallest k with `1 − (1 − wˢ)ᵏ ≥ p`.
 ///
-/// * `inlier_ratio`: w, the share of the data that are inliers, in [0, 1]
-/// * `sample_size`: s ≥ 1, data in one sample
+/// * `inlier_ratio`: w, in [0, 1]
+/// * `sample_size`: s ≥ 1, data points per sample
 /// * `confidence`: p, in (0, 1)
 ///
-/// Each datum of a sample is taken to be an inlier with probability w, whatever the others are.
-/// Returns at least 1, and `u64::MAX` where no number is enough.
+/// Assumes that each data point of a sample is an inlier with probability w, independently of the
+/// others. Returns at least 1, and `u64::MAX` if no number is enough.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] if an argument is outside its range or NaN.
@@ -43,20 +43,20 @@ pub fn num_trials_with_replacement(
     ))
 }
 
-/// The number of samples after which one of them is free of outliers with probability
-/// `confidence`, where a sample is drawn without putting data back: the smallest k with
-/// `1 − (1 − P)ᵏ ≥ p`, `P = Π (m − i)/(n − i)` for i = 0 … s − 1.
+/// Returns the number of samples so that at least one is free of outliers with probability
+/// `confidence`, for sampling without replacement: the smallest k with `1 − (1 − P)ᵏ ≥ p`, `P = Π
+/// (m − i)/(n − i)` for i = 0 … s − 1.
 ///
 /// * `num_inliers`: m ≤ n
 /// * `num_data`: n ≥ s
-/// * `sample_size`: s ≥ 1, data in one sample
+/// * `sample_size`: s ≥ 1, data points per sample
 /// * `confidence`: p, in (0, 1)
 ///
-/// This is what RANSAC really does; for few data it asks for many more samples than
-/// [`num_trials_with_replacement`]. Returns at least 1, and `u64::MAX` where no number is enough.
+/// This is RANSAC's actual sampling; for few data points it requires many more samples than
+/// [`num_trials_with_replacement`]. Returns at least 1, and `u64::MAX` if no number is enough.
 ///
 /// # Errors
-/// [`Error::TooFew`] if there are fewer data than a sample needs, [`Error::OutOfRange`] if
+/// [`Error::TooFew`] if there are fewer data points than a sample needs, [`Error::OutOfRange`] if
 /// another argument is outside its range.
 ///
 /// ```
@@ -92,12 +92,12 @@ pub fn num_trials_without_replacement(
     ))
 }
 
-/// wˢ by repeated multiplication, whose rounding is the same everywhere.
+/// Computes wˢ by repeated multiplication, which rounds identically on all platforms.
 pub(super) fn ratio_to_the(inlier_ratio: f64, sample_size: usize) -> f64 {
     (0..sample_size).fold(1.0, |product, _| product * inlier_ratio)
 }
 
-/// The probability that a sample drawn without putting data back has inliers only.
+/// Returns the probability that a sample drawn without replacement has only inliers.
 pub(super) fn all_inlier_probability(
     num_inliers: usize,
     num_data: usize,
@@ -112,7 +112,7 @@ pub(super) fn all_inlier_probability(
     })
 }
 
-/// The smallest k ≥ 1 with `(1 − probability)ᵏ ≤ exp(log_miss)`.
+/// Returns the smallest k ≥ 1 with `(1 − probability)ᵏ ≤ exp(log_miss)`.
 pub(super) fn trials(probability: f64, log_miss: f64) -> u64 {
     if probability >= 1.0 {
         return 1;
@@ -188,7 +188,7 @@ mod tests {
             Ok(u64::MAX)
         );
         assert_eq!(num_trials_without_replacement(100, 100, 3, 0.99), Ok(1));
-        // A share so small that 1 − wˢ rounds to 1: the budget is still right.
+        // A ratio so small that 1 − wˢ rounds to 1 still gives the right number.
         let count = num_trials_with_replacement(1e-3, 6, 0.99).unwrap() as f64;
         assert!((count / 4.605_170_186e18 - 1.0).abs() < 1e-6);
     }

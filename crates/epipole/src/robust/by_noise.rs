@@ -1,4 +1,4 @@
-//! The loop at a threshold that the data themselves give.
+//! RANSAC with a threshold estimated from the data.
 
 use super::noise::{Background, noise_scale_px};
 use super::to_end::run_to_end;
@@ -6,30 +6,30 @@ use super::{Estimator, Ransac, RansacOptions, RansacReport, log10_false_alarms};
 use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 
-/// Thresholds to begin with, pixels. Each one leads to those around it.
+/// Initial thresholds, pixels. Each leads to those nearby.
 const STARTS_PX: [f64; 3] = [2.0, 8.0, 0.5];
 
-/// From one start, the loop runs so often at most.
+/// Maximum number of runs from one initial threshold.
 const ROUNDS: usize = 4;
 
 /// Thresholds within this ratio of each other are the same.
 const SAME: f64 = 1.15;
 
-/// No threshold is smaller, pixels: nothing is seen more exactly in an image, and data that fit
-/// exactly would ask for 0.
+/// Minimum threshold, pixels: no image measurement is more accurate, and exact data would give 0.
 const LEAST_PX: f64 = 0.05;
 
-/// Nor is one so large that more than this share of wrong data would be within it.
+/// The threshold is bounded so that at most this fraction of wrong data is within it.
 const MOST_CHANCE: f64 = 0.1;
 
-/// Within so many standard deviations are 99 of 100 errors, in one dimension and in two.
+/// Multiples of the standard deviation that contain 99 % of the errors, in one dimension and in
+/// two.
 const QUANTILES: [f64; 2] = [2.576, 3.035];
 
-/// A model, and the threshold that the errors of its inliers ask for.
+/// A model, and the threshold that follows from the errors of its inliers.
 struct Suited<M> {
     report: RansacReport<M>,
     max_error_px: f64,
-    /// With that threshold: how little the model owes to chance.
+    /// Expected number of models with this support by chance, at that threshold.
     log10_false_alarms: f64,
 }
 
@@ -45,11 +45,11 @@ struct Search<'a> {
     iterations: usize,
 }
 
-/// [`ransac`](super::ransac) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
+/// Runs [`ransac`](super::ransac) for [`ThresholdKind::Noise`](super::ThresholdKind::Noise).
 ///
-/// A run at some threshold gives a model, the errors of all data from it tell the noise, and the
-/// noise another threshold, until both agree. Of what several starts lead to, the model is kept
-/// that is least likely by chance.
+/// A run at some threshold gives a model, its errors give the noise, and the noise gives the next
+/// threshold, until both agree. Of the models from several initial thresholds, the one that is
+/// least likely by chance is kept.
 pub(super) fn ransac_by_noise<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,
@@ -111,7 +111,7 @@ fn same(first_px: f64, second_px: f64) -> bool {
 }
 
 impl Search<'_> {
-    /// One run. The inner error is that of a run without a result.
+    /// Runs once. The inner error is that of a run without a result.
     ///
     /// # Errors
     /// As [`Ransac::new`]; [`Error::Canceled`] if the monitor cancels.
@@ -125,7 +125,7 @@ impl Search<'_> {
         if let Some(model) = model {
             run.start_from(model);
         }
-        // The last run is one more than those from all starts.
+        // The runs from all initial thresholds, and a last one.
         let most = (STARTS_PX.len() * ROUNDS + 1) as f32;
         let share = self.runs as f32 / most;
         self.runs += 1;
@@ -145,7 +145,7 @@ impl Search<'_> {
         }
     }
 
-    /// The threshold that suits the model of a run.
+    /// Returns the threshold that suits the model of a run.
     fn suited<M: Clone>(
         &self,
         estimator: &dyn Estimator<Model = M>,

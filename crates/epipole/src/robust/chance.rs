@@ -1,23 +1,22 @@
-//! Support of models among data without structure.
+//! Support of models by chance.
 
 use crate::math::order::at_rank;
 
-/// The chance that a datum fits a model it has nothing to do with, for an estimator that does not
-/// know.
+/// Probability that an unrelated data point fits a model, for estimators that do not provide it.
 pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 
-/// The expected number of models with at least this support among unrelated data: a bound on the
-/// number of false alarms, as its decimal logarithm.
+/// Returns the expected number of models with at least this support among unrelated data: a bound
+/// on the number of false alarms, as its decimal logarithm.
 ///
-/// * `num_inliers` of `num_data` different data fit the model
-/// * `sample_size`: data that determine a model; these fit it anyway
-/// * `max_models`: models that one sample can give
-/// * `chance`: the probability that a datum unrelated to a model fits it, in \[0, 1\]
+/// * `num_inliers`, `num_data`: number of different data points that fit the model, and in total
+/// * `sample_size`: data points that determine a model; they always fit it
+/// * `max_models`: maximum number of models per sample
+/// * `chance`: probability that a data point unrelated to a model fits it, in \[0, 1\]
 ///
-/// Every sample is one trial, `max_models · C(n, s)` in all, and each of the other data fits by
+/// Every sample is a trial, `max_models · C(n, s)` in total, and each other data point fits by
 /// chance; the tail of that binomial distribution is bounded by `exp(−m KL(k/m ‖ chance))`. Near or
-/// above 0, the support is not significant; at −10 it would come about once in 10¹⁰ data sets of
-/// this kind.
+/// above 0, the support is not significant; at −10, one in 10¹⁰ data sets of this kind would show
+/// it.
 ///
 /// Source: Moisan & Stival 2004, "A probabilistic criterion to detect rigid point matches between
 /// two images and estimate the fundamental matrix" (the number of false alarms); Hoeffding 1963
@@ -25,8 +24,8 @@ pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 ///
 /// ```
 /// use epipole::robust::log10_false_alarms;
-/// // A band of two pixels along a line covers 1/200 of an image. Of 300 unrelated matches one or two
-/// // fit, and the best of all samples easily finds a few more; 100 inliers are no accident.
+/// // A band of two pixels along a line covers 1/200 of an image. Of 300 unrelated matches one or
+/// // two fit, and the best of all samples easily finds a few more; 100 inliers are no accident.
 /// assert!(log10_false_alarms(13, 300, 7, 3, 0.005) > 0.0);
 /// assert!(log10_false_alarms(100, 300, 7, 3, 0.005) < -100.0);
 /// ```
@@ -42,7 +41,7 @@ pub fn log10_false_alarms(
     });
     let others = num_data.saturating_sub(sample_size) as f64;
     let share = num_inliers.min(num_data).saturating_sub(sample_size) as f64 / others.max(1.0);
-    // Probabilities below the smallest numbers would give infinities.
+    // Avoid infinities for probabilities that underflow.
     let chance = chance.clamp(1e-300, 1.0);
     if share <= chance {
         return log_tries / core::f64::consts::LN_10;
@@ -56,15 +55,14 @@ pub fn log10_false_alarms(
     (log_tries - others * divergence) / core::f64::consts::LN_10
 }
 
-/// Share of the data at either end that is ignored for their extent: one outlier a million pixels
-/// away would make chance fits look impossible.
+/// Fraction of the data at either end that is ignored for the extent: otherwise one outlier a
+/// million pixels away would make chance fits look impossible.
 const STRAY: f64 = 0.05;
 
-/// Minimum ratio of the shorter to the longer side of a box: points in a row of pixels come from an
-/// image, too.
+/// Minimum aspect ratio of a box: points in a row also come from an image.
 const THINNEST: f64 = 0.1;
 
-/// Range of the values without the outliers at either end.
+/// Returns the range of the values without the outliers at either end.
 fn reach(mut values: Vec<f64>) -> f64 {
     let count = values.len();
     if count < 2 {
@@ -75,7 +73,7 @@ fn reach(mut values: Vec<f64>) -> f64 {
     between * (count - 1) as f64 / (count - 1 - 2 * strays) as f64
 }
 
-/// Width and height of the box around points, from the lists of their coordinates.
+/// Returns width and height of the box around points, from the lists of their coordinates.
 fn extent([u, v]: [Vec<f64>; 2]) -> (f64, f64) {
     let (width, height) = (reach(u), reach(v));
     (width.max(THINNEST * height), height.max(THINNEST * width))
@@ -90,14 +88,14 @@ fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
     }
 }
 
-/// The probability that a point anywhere in the box around points is nearer than `radius` to a
+/// Returns the probability that a random point in the box around the points is within `radius` of a
 /// given one.
 pub(crate) fn chance_near_point(coordinates: [Vec<f64>; 2], radius: f64) -> f64 {
     share_of_box(core::f64::consts::PI * radius * radius, extent(coordinates))
 }
 
-/// The probability that a point anywhere in the box around points is nearer than `distance` to a
-/// line across it; the longest line is the diagonal.
+/// Returns the probability that a random point in the box around the points is within `distance` of
+/// a line across it; the longest line is the diagonal.
 pub(crate) fn chance_near_line(coordinates: [Vec<f64>; 2], distance: f64) -> f64 {
     let (width, height) = extent(coordinates);
     let diagonal = (width * width + height * height).sqrt();
@@ -175,7 +173,7 @@ mod tests {
         // Equal points, or none, carry no information.
         assert_eq!(chance_near_line(lists(&[corners[0]; 5]), 3.0), 1.0);
         assert_eq!(chance_near_point(lists(&[]), 3.0), 1.0);
-        // Points in a row come from an image a tenth as high as wide.
+        // Points in a row count as from an image ten times as wide as high.
         let row: Vec<_> = (0..=200).map(|u| Point2::new(f64::from(u), 7.0)).collect();
         let share = core::f64::consts::PI / (200.0 * 20.0);
         assert!((chance_near_point(lists(&row), 1.0) - share).abs() < 1e-12);

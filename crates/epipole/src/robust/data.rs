@@ -7,34 +7,34 @@ use nalgebra::Point2;
 /// Support of a model among the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Support {
-    /// `Σ min(1, e²/T²)` over the data: 0 if all fit exactly. An incomplete sum, larger than the
-    /// limit, if the scoring was broken off.
+    /// `Σ min(1, e²/T²)` over the data: 0 if all fit exactly. Incomplete, but above the limit, if
+    /// the scoring stopped early.
     pub cost: f64,
-    /// Number of data within the threshold, among those looked at.
+    /// Number of inliers among the data points scored.
     pub num_inliers: usize,
 }
 
 /// The data of a robust problem, addressed by index `0..len()`.
 ///
-/// The kind determines the loop's knowledge beyond the errors: repeated data, their weights, and
-/// the probability of a fit by chance.
+/// The kind determines additional knowledge: repeated data, weights, and the probability of a fit
+/// by chance.
 #[derive(Debug, Clone, Copy)]
 pub enum Data<'a> {
     /// Matches between two images.
     Matches(&'a MatchSet),
-    /// Pixels of one image, each different datum once.
+    /// Pixels of one image, without repetitions.
     Pixels {
-        /// The different ones, as many as `unique` has.
+        /// The unique pixels, in the order of `unique`.
         pixels: &'a [Point2<f64>],
-        /// Their places among the data that the caller gave.
+        /// Their indices in the data from the caller.
         unique: &'a Unique,
     },
-    /// Data of any other kind, given by their number.
+    /// Number of data of any other kind.
     Other(usize),
 }
 
 impl<'a> Data<'a> {
-    /// Number of different data.
+    /// Returns the number of unique data points.
     pub fn len(&self) -> usize {
         match self {
             Self::Matches(matches) => matches.len(),
@@ -43,12 +43,12 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Whether there are no data.
+    /// Returns whether there are no data.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The matches, if the data are matches.
+    /// Returns the matches, if the data are matches.
     pub fn matches(&self) -> Option<&'a MatchSet> {
         match *self {
             Self::Matches(matches) => Some(matches),
@@ -56,7 +56,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Checks that there are enough different data to find `what` in; see [`Unique::at_least`].
+    /// Checks that there are enough unique data to estimate `what`; see [`Unique::at_least`].
     pub(super) fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
         match (self.unique(), self.len()) {
             (Some(unique), _) => unique.at_least(needed, what),
@@ -65,7 +65,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The map from different data to given ones, if repetitions were left out.
+    /// Returns the map between unique and given data, if repetitions were removed.
     pub fn unique(&self) -> Option<&'a Unique> {
         match *self {
             Self::Matches(matches) => Some(matches.unique()),
@@ -74,24 +74,24 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The votes of each datum; `None` if all count alike.
+    /// Returns the weight of each data point; `None` if all are equal.
     fn votes(&self) -> Option<&'a [f64]> {
         self.matches().and_then(MatchSet::votes)
     }
 
-    /// Cost of a model that nothing fits: the votes of all data.
+    /// Returns the cost of a model without inliers: the weights of all data.
     pub(crate) fn num_votes(&self) -> f64 {
         let count = || self.len() as f64;
         self.votes().map_or_else(count, |votes| votes.iter().sum())
     }
 
-    /// Maximum number of these data that can be right at the same time.
+    /// Returns the maximum number of these data points that can be correct at the same time.
     pub(crate) fn num_distinct(&self, indices: &[usize]) -> usize {
         self.matches()
             .map_or(indices.len(), |matches| matches.num_distinct(indices))
     }
 
-    /// Probability that a datum unrelated to the model is within the threshold, if known.
+    /// Returns the probability that an unrelated data point is within the threshold, if known.
     ///
     /// * `codimension`: 1 for distances from lines, 2 for distances from points
     pub(crate) fn chance(&self, codimension: usize, max_error_px: f64) -> Option<f64> {
@@ -109,7 +109,7 @@ impl<'a> Data<'a> {
         })
     }
 
-    /// Support of a model, given its squared errors in px². Stops once the cost exceeds
+    /// Computes the support of a model from its squared errors in px². Stops once the cost exceeds
     /// `cost_limit`.
     pub(crate) fn support(
         &self,

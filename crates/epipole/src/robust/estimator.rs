@@ -1,4 +1,4 @@
-//! The interface between a robust problem and the loop.
+//! Interface between a robust problem and the RANSAC loop.
 
 use super::{Data, Support};
 use crate::math::random::Random;
@@ -6,9 +6,9 @@ use crate::math::random::Random;
 /// Description of a robust problem.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
-    /// The wanted model in words, for error messages: "a homography from matches".
+    /// Name of the model, for error messages: "a homography from matches".
     pub name: &'static str,
-    /// Number of data in a minimal sample.
+    /// Number of data points in a minimal sample.
     pub sample_size: usize,
     /// Maximum number of models a sample yields.
     pub max_models: usize,
@@ -29,8 +29,8 @@ pub enum Evidence<'a> {
 
 /// A problem that [`Ransac`](super::Ransac) can solve.
 ///
-/// Data are addressed by index, and are all different; errors are in pixels. An estimator keeps the
-/// buffers it needs, so that no call in the loop allocates.
+/// Data are addressed by index and have no repetitions; errors are in pixels. An estimator keeps
+/// its buffers, so that no call in the loop allocates.
 ///
 /// Required are the description, a minimal solver, the error and a refinement. `support` and
 /// `inliers` may be overridden for speed, `polish` and `alternative` for accuracy.
@@ -80,7 +80,7 @@ pub trait Estimator {
     /// `sample` holds [`Problem::sample_size`] different indices.
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Self::Model>);
 
-    /// Squared distance of a datum from a model, px².
+    /// Returns the squared distance of a data point from a model, px².
     fn error_sq(&self, model: &Self::Model, index: usize) -> f64;
 
     /// Improves a model from the data within the threshold; `None` if it cannot be improved.
@@ -91,10 +91,10 @@ pub trait Estimator {
         max_error_px: f64,
     ) -> Option<Self::Model>;
 
-    /// Weighted least squares from a model on, for the final refinement; `None` if
-    /// [`refine`](Estimator::refine) is all there is. May allocate.
+    /// Refines a model by weighted least squares, for the final refinement; `None` if
+    /// [`refine`](Estimator::refine) suffices. May allocate.
     ///
-    /// * `near`: indices of the data not too far from the model
+    /// * `near`: indices of the data close to the model
     /// * `weights`: weight of each of them, in [0, 1]
     fn polish(
         &mut self,
@@ -106,10 +106,10 @@ pub trait Estimator {
         None
     }
 
-    /// Degeneracy test: a model to try in place of one whose sample or inliers are degenerate. May
-    /// allocate at the end.
+    /// Degeneracy test: returns a model to try in place of one whose sample or inliers are
+    /// degenerate. May allocate at the end.
     ///
-    /// The one for a sample is taken if it is better, the one at the end as it is.
+    /// The alternative for a sample is used if it is better, the final one always.
     fn alternative(
         &mut self,
         model: &Self::Model,
@@ -121,7 +121,7 @@ pub trait Estimator {
         None
     }
 
-    /// Support of a model. May stop once the cost exceeds `cost_limit`.
+    /// Computes the support of a model. May stop once the cost exceeds `cost_limit`.
     fn support(&self, model: &Self::Model, max_error_px: f64, cost_limit: f64) -> Support {
         let error_sq = |index| self.error_sq(model, index);
         (self.problem().data).support(error_sq, max_error_px, cost_limit)
@@ -136,8 +136,7 @@ pub trait Estimator {
     }
 }
 
-/// A borrowed estimator is one, too: [`ransac`](super::ransac) compiles its loop once for each kind
-/// of model.
+/// Borrowed estimators: [`ransac`](super::ransac) compiles its loop once for each kind of model.
 impl<E: Estimator + ?Sized> Estimator for &mut E {
     type Model = E::Model;
 
@@ -186,7 +185,7 @@ mod tests {
     use super::*;
     use nalgebra::{Point2, Vector2};
 
-    /// Shifts from matches, with no more than what is required.
+    /// Shifts from matches, with only the required methods.
     struct Shifts(MatchSet);
 
     impl Estimator for Shifts {
@@ -215,7 +214,7 @@ mod tests {
 
     #[test]
     fn matches_bring_their_votes_repetitions_and_chances() {
-        // Twenty matches move by (7, 2); thirty more lead to one pixel, and one is given forty
+        // Twenty matches move by (7, 2); thirty more share one pixel, and one is repeated forty
         // times.
         let at = |i: usize| Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
         let shift = Vector2::new(7.0, 2.0);
@@ -230,7 +229,7 @@ mod tests {
         assert_eq!(data.len(), 51);
         assert!((data.num_votes() - 23.0).abs() < 1e-12);
         assert_eq!(data.num_distinct(&[20, 21, 22]), 1);
-        // A crowd is two votes, however many it has.
+        // Matches with the same pixel weigh as much as two, however many they are.
         let support = shifts.support(&shift, 1.0, f64::INFINITY);
         assert!(support.num_inliers == 20 && (support.cost - 3.0).abs() < 1e-12);
         let chance = data.chance(2, 1.0).unwrap();

@@ -1,4 +1,4 @@
-//! Least median of squares: the model whose middle error is smallest.
+//! Least median of squares: the model with the smallest median error.
 
 use super::sampler::Sampler;
 use super::{Estimator, SamplerKind};
@@ -8,16 +8,16 @@ use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
-/// Rounds of "find the inliers, fit to them" after the samples.
+/// Number of rounds of finding and fitting inliers after the sampling.
 const ROUNDS: usize = 4;
-/// The median of the absolute value of normal noise, times this, is its standard deviation.
+/// Ratio of the standard deviation of Gaussian noise to its median absolute deviation.
 const SIGMA_PER_MEDIAN: f64 = 1.4826;
-/// Data within so many standard deviations are inliers.
+/// Inlier threshold in standard deviations.
 const REACH: f64 = 2.5;
-/// Exact data have a median of 0; a threshold must be larger.
+/// Minimum threshold, pixels: the median of exact data is 0.
 const SMALLEST_REACH_PX: f64 = 1e-9;
 
-/// Choices of [`least_median`].
+/// Options of [`least_median`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -27,7 +27,7 @@ const SMALLEST_REACH_PX: f64 = 1e-9;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct LeastMedianOptions {
-    /// Samples drawn, ≥ 1. 500.
+    /// Number of samples, ≥ 1. 500.
     pub num_samples: usize,
     /// Equal seeds give equal results. 0.
     pub seed: u64,
@@ -45,30 +45,29 @@ impl Default for LeastMedianOptions {
 /// Result of [`least_median`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeastMedian<M> {
-    /// The model, fitted to its inliers.
+    /// The model, refitted to its inliers.
     pub model: M,
-    /// The middle one of the errors of the best sample's model, pixels.
+    /// Median error of the best sample's model, pixels.
     pub median_px: f64,
-    /// The standard deviation of the noise that follows from the median, pixels.
+    /// Standard deviation of the noise, from the median, pixels.
     pub sigma_px: f64,
-    /// Data within 2.5 standard deviations of the model, among those that are different.
+    /// Number of unique data points within 2.5 standard deviations of the model.
     pub num_inliers: usize,
 }
 
-/// The model with the smallest median error, of those that samples give, then fitted to the data
-/// near it.
+/// Finds the model with the smallest median error among those of random samples, then refits it to
+/// its inliers.
 ///
-/// It needs no threshold: the median itself says how large the noise is,
-/// `σ = 1.4826 (1 + 5/(n − s)) median`, and what is within 2.5 σ is an inlier. In return it breaks
-/// down once half of the data are outliers, for then the middle error belongs to one of them.
+/// Needs no threshold: the median determines the noise, `σ = 1.4826 (1 + 5/(n − s)) median`, and
+/// data within 2.5 σ are inliers. In return it fails if half of the data or more are outliers.
 ///
 /// * `estimator`: as for [`ransac`](super::ransac)
 ///
-/// The one stage is [`Stage::RobustEstimation`].
+/// The only stage is [`Stage::RobustEstimation`].
 ///
 /// # Errors
-/// [`Error::TooFew`] unless there are more data than a sample has, [`Error::OutOfRange`] for no
-/// samples, [`Error::Degenerate`] if no sample gave a model, [`Error::Canceled`].
+/// [`Error::TooFew`] unless there are more data points than in a sample, [`Error::OutOfRange`] for
+/// zero samples, [`Error::Degenerate`] if no sample gave a model, [`Error::Canceled`].
 ///
 /// Source: Rousseeuw 1984, "Least median of squares regression"; Rousseeuw & Leroy 1987, "Robust
 /// regression and outlier detection", ch. 5 (the scale).
@@ -77,7 +76,7 @@ pub struct LeastMedian<M> {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::robust::{LeastMedianOptions, LineEstimator, least_median};
 /// use nalgebra::Point2;
-/// // Nine points of the row v = 2, and six that are elsewhere; nobody says how far is far.
+/// // Nine points of the row v = 2, and six outliers; no threshold is given.
 /// let mut points: Vec<_> = (0..9).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
 /// points.extend((0..6).map(|i| Point2::new(f64::from(i) * 3.0, 40.0 + f64::from(i * i))));
 /// let options = LeastMedianOptions::default();
@@ -153,14 +152,13 @@ pub fn least_median<E: Estimator>(
     })
 }
 
-/// The error in the middle, a little beyond it so that the data of the sample, whose error is 0, do
-/// not count.
+/// Returns the median error, at a rank shifted by the data of the sample, whose error is 0.
 fn middle(errors_sq: &mut [f64], sample_size: usize) -> f64 {
     let rank = (errors_sq.len() + sample_size)
         .div_ceil(2)
         .min(errors_sq.len())
         - 1;
-    // A NaN is the largest of all.
+    // NaN sorts last.
     at_rank(errors_sq, rank)
 }
 
@@ -175,7 +173,7 @@ mod tests {
         seed: 1,
     };
 
-    /// Points within noise of v = 0.5 u + 20, the first ones moved anywhere.
+    /// Points with noise around v = 0.5 u + 20, the first ones moved anywhere.
     fn cloud(seed: u64, num_outliers: usize, noise_px: f64) -> Vec<Point2<f64>> {
         let mut random = Random::new(seed);
         (0..60)

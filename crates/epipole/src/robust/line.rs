@@ -1,16 +1,16 @@
-//! Straight lines: least squares, and the estimator for the loop.
+//! Straight lines: least squares, and the estimator for RANSAC.
 
 use super::{Data, Estimator, Problem, Unique};
 use crate::math::Line2;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// The line with the smallest sum of squared distances to the points.
+/// Fits the line with the smallest sum of squared distances to the points.
 ///
-/// It passes through the centroid along the direction in which the points spread most: the
-/// normal (a, b) belongs to the smaller eigenvalue of the scatter matrix `Σ (p − p̄)(p − p̄)ᵀ`.
-/// Distances are measured across the line, not along v, so vertical lines are nothing special. One
-/// point far off pulls the line towards it; see [`LineEstimator`] for data with outliers.
+/// It passes through the centroid along the direction of the largest spread: the normal (a, b)
+/// belongs to the smaller eigenvalue of the scatter matrix `Σ (p − p̄)(p − p̄)ᵀ`. Distances are
+/// perpendicular to the line, not along v, so vertical lines are no special case. A single outlier
+/// biases the line; see [`LineEstimator`] for data with outliers.
 ///
 /// * `points`: at least two, pixels
 ///
@@ -72,7 +72,7 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
         mean_u += p.x * share;
         mean_v += p.y * share;
     }
-    // Deviations relative to the largest one: squares of huge or tiny coordinates stay finite.
+    // Deviations relative to the largest: squares of huge or tiny coordinates stay finite.
     let reach = (0..num_points).fold(0.0_f64, |reach, i| {
         let p = point(i);
         reach.max((p.x - mean_u).abs()).max((p.y - mean_v).abs())
@@ -115,7 +115,7 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
     })
 }
 
-/// Lines through points of which some are wrong, for [`Ransac`](super::Ransac).
+/// Estimator of lines from points with outliers, for [`Ransac`](super::Ransac).
 ///
 /// A sample is two points; refinement is total least squares over the inliers. Equal points
 /// count once.
@@ -132,7 +132,7 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
 /// ```
 #[derive(Debug, Clone)]
 pub struct LineEstimator {
-    /// Different points.
+    /// Unique points.
     points: Vec<Point2<f64>>,
     unique: Unique,
 }
@@ -141,8 +141,8 @@ impl LineEstimator {
     /// Prepares the estimation from points, pixels.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for fewer than two points that are not at infinity, which are left out;
-    /// [`Error::NotFinite`] for NaN, [`Error::Degenerate`] if all points are equal.
+    /// [`Error::TooFew`] for fewer than two points, not counting points at infinity, which are
+    /// ignored; [`Error::NotFinite`] for NaN, [`Error::Degenerate`] if all points are equal.
     pub fn new(points: &[Point2<f64>]) -> Result<Self> {
         if points.iter().any(|p| p.x.is_nan() || p.y.is_nan()) {
             return Err(NOT_FINITE);
@@ -303,7 +303,7 @@ mod tests {
         }
     }
 
-    /// The same source: 30 % of the points moved far off; the exact number of inliers comes back.
+    /// The same source: 30 % of the points moved far off; the number of inliers is exact.
     #[test]
     fn thirty_percent_outliers_are_counted_exactly() {
         for seed in 0..20 {

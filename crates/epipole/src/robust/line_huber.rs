@@ -1,4 +1,4 @@
-//! A line by Huber's loss: outliers pull, but with no more than a constant force.
+//! Line fit with Huber's loss, which bounds the pull of outliers.
 
 use super::fit_line_total_least_squares;
 use crate::Result;
@@ -6,21 +6,20 @@ use crate::math::Line2;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use nalgebra::{Point2, SVector, Vector2};
 
-/// The line that minimizes `½ Σ ρ(e²)` over the points, where e is the distance in pixels and ρ is
-/// [`RobustLoss::Huber`].
+/// Fits the line that minimizes `½ Σ ρ(e²)` over the points, where e is the distance in pixels and
+/// ρ is [`RobustLoss::Huber`].
 ///
-/// The minimum is the one that Levenberg–Marquardt reaches from the least-squares line. A point
-/// farther off than `width_px` pulls with a constant force, so that one point can no longer take
-/// the line anywhere; many that agree still can, and so can one that is far along the line, where
-/// its lever is long.
+/// The minimum is that of Levenberg–Marquardt from the least-squares line. A point farther off than
+/// `width_px` pulls with a constant force, so a single outlier has limited effect; many consistent
+/// outliers, or one with a long lever far along the line, can still spoil the fit.
 ///
 /// * `points`: at least two, pixels
-/// * `width_px`: distances up to this one count as in least squares; 1.345 times the standard
-///   deviation of the noise loses 5 % of its efficiency
+/// * `width_px`: distances up to this count as in least squares; 1.345 times the standard deviation
+///   of the noise loses 5 % of its efficiency
 ///
 /// # Errors
 /// As [`fit_line_total_least_squares`], and [`Error::OutOfRange`](crate::Error::OutOfRange) for a
-/// width that [`RobustLoss::check`] refuses.
+/// width that [`RobustLoss::check`] rejects.
 ///
 /// Source: Huber 1964, "Robust estimation of a location parameter"; Zhang 1997, "Parameter
 /// estimation techniques: a tutorial with application to conic fitting", §9.
@@ -34,7 +33,7 @@ use nalgebra::{Point2, SVector, Vector2};
 /// points.push(Point2::new(0.0, 12.0));
 /// let offset = |line: epipole::math::Line2| (-line.c / line.b).abs();
 /// assert!((offset(fit_line_total_least_squares(&points)?) - 1.0).abs() < 1e-9);
-/// // The force of the outlier, 0.5, is shared by eleven points.
+/// // The force of the outlier, 0.5, is spread over eleven points.
 /// assert!((offset(fit_line_huber(&points, 0.5)?) - 0.5 / 11.0).abs() < 1e-6);
 /// # Ok(()) }
 /// ```
@@ -59,8 +58,8 @@ pub fn fit_line_huber(points: &[Point2<f64>], width_px: f64) -> Result<Line2> {
 
 struct HuberLine<'a> {
     points: &'a [Point2<f64>],
-    /// The line turns about the place of it that is nearest to here, so that turning and shifting
-    /// hardly depend on each other.
+    /// The line rotates about its point nearest to this one, so that rotation and shift are nearly
+    /// independent.
     middle: Vector2<f64>,
     loss: RobustLoss,
 }

@@ -1,12 +1,12 @@
-//! Matches between two images, laid out for speed.
+//! Matches between two images, in a layout for fast scoring.
 
 use super::{Unique, chance_near_line, chance_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// Different, finite matches: pixel `(u1[i], v1[i])` of image 1 and `(u2[i], v2[i])` of image 2.
+/// Unique, finite matches: pixel `(u1[i], v1[i])` of image 1 and `(u2[i], v2[i])` of image 2.
 ///
-/// One array for each coordinate lets the scoring loops run on several matches at once.
+/// One array per coordinate lets the scoring loops process several matches at once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchSet {
     u1: Vec<f64>,
@@ -17,21 +17,21 @@ pub struct MatchSet {
     crowds: Option<Crowds>,
 }
 
-/// Votes of all the matches that meet in a pixel. Two, and not one: pairs are common, do no harm,
-/// and half a vote for the right one of them would.
+/// Total weight of all matches that share a pixel. Two rather than one: pairs are common and
+/// harmless, and half the weight would hurt the correct one of them.
 const VOTES_OF_PIXEL: f64 = 2.0;
 
-/// Which matches meet in one pixel of an image.
+/// Matches that share a pixel of an image.
 #[derive(Debug, Clone, PartialEq)]
 struct Crowds {
     /// For each match, the number of its pixel in images 1 and 2.
     pixels: [Vec<usize>; 2],
-    /// For each match, its part of the pixel's votes, at most 1.
+    /// For each match, its part of the pixel's weight, at most 1.
     votes: Vec<f64>,
 }
 
-/// Matches with coordinates farther from 0, pixels, are left out of robust estimation: their fourth
-/// power no longer fits the arithmetic of the solvers.
+/// Maximum absolute coordinate for robust estimation, pixels: the fourth power of larger ones
+/// exceeds the arithmetic of the solvers.
 ///
 /// ```
 /// assert_eq!(epipole::robust::FARTHEST_PX, 1e9);
@@ -39,12 +39,12 @@ struct Crowds {
 pub const FARTHEST_PX: f64 = 1e9;
 
 impl MatchSet {
-    /// Copies the matches, each different one once.
+    /// Copies the matches without repetitions.
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
-    /// A match with a coordinate that is infinite or beyond 10⁹ pixels, whose fourth power no
-    /// longer fits the arithmetic of the solvers, is wrong in any case and left out; see
+    /// A match with a coordinate that is infinite or beyond 10⁹ pixels, whose fourth power exceeds
+    /// the arithmetic of the solvers, is an outlier and left out; see
     /// [`RansacReport::num_left_out`](super::RansacReport::num_left_out).
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl MatchSet {
         Self::of_usable(pixels1, pixels2, |_| true)
     }
 
-    /// As [`new`](Self::new), without the matches that are not usable.
+    /// As [`new`](Self::new), but keeps only usable matches.
     pub(crate) fn of_usable(
         pixels1: &[Point2<f64>],
         pixels2: &[Point2<f64>],
@@ -105,7 +105,7 @@ impl MatchSet {
         })
     }
 
-    /// As [`new`](Self::new), for who counts on every match.
+    /// As [`new`](Self::new), for callers that need every match.
     ///
     /// # Errors
     /// As [`new`](Self::new); [`Error::NotFinite`] for infinities and [`Error::OutOfRange`] for
@@ -138,7 +138,7 @@ impl MatchSet {
         self.u1.is_empty()
     }
 
-    /// The pixels of a match in images 1 and 2.
+    /// Returns the pixels of a match in images 1 and 2.
     pub fn pair(&self, index: usize) -> (Point2<f64>, Point2<f64>) {
         (
             Point2::new(self.u1[index], self.v1[index]),
@@ -146,12 +146,12 @@ impl MatchSet {
         )
     }
 
-    /// The coordinates `[u1, v1, u2, v2]`, one slice each.
+    /// Returns the coordinates `[u1, v1, u2, v2]`, one slice each.
     pub fn coordinates(&self) -> [&[f64]; 4] {
         [&self.u1, &self.v1, &self.u2, &self.v2]
     }
 
-    /// Checks that there are enough matches to find `what` in.
+    /// Checks that there are enough matches to estimate `what`.
     ///
     /// # Errors
     /// As [`Unique::at_least`].
@@ -159,14 +159,15 @@ impl MatchSet {
         self.unique.at_least(needed, what)
     }
 
-    /// The probability that a pixel anywhere in image 2 is nearer than so much to a given one.
+    /// Returns the probability that a random pixel of image 2 is within `radius_px` of a given one.
     pub(crate) fn chance_near_point2(&self, radius_px: f64) -> f64 {
         chance_near_point([self.u2.clone(), self.v2.clone()], radius_px)
     }
 
-    /// The probability that pixels anywhere in both images have a smaller Sampson error than this.
+    /// Returns the probability that random pixels of both images have a smaller Sampson error than
+    /// this.
     ///
-    /// With lines that move alike in both images, the error is the distance from a line by √2.
+    /// If lines move equally in both images, the error is the distance from a line divided by √2.
     pub(crate) fn chance_near_lines(&self, max_error_px: f64) -> f64 {
         let distance_px = core::f64::consts::SQRT_2 * max_error_px;
         [[&self.u1, &self.v1], [&self.u2, &self.v2]]
@@ -175,16 +176,16 @@ impl MatchSet {
             .fold(0.0, f64::max)
     }
 
-    /// Weight of each match where models are scored; `None` if all are equal.
+    /// Returns the weight of each match for scoring; `None` if all are equal.
     ///
-    /// At most one of the matches that meet in a pixel can be right, so together they have few
-    /// votes. Counted one by one, those of a pixel that half of all matches lead to would outvote
-    /// everything: each F with its epipole there fits them all.
+    /// At most one of the matches that share a pixel can be correct, so their total weight is
+    /// limited. Otherwise a pixel shared by half of all matches would outvote everything: each F
+    /// with its epipole there fits them all.
     pub(crate) fn votes(&self) -> Option<&[f64]> {
         self.crowds.as_ref().map(|crowds| &*crowds.votes)
     }
 
-    /// Whether two of these matches have a pixel in common: no more than one of them can be right.
+    /// Returns whether two of these matches share a pixel, so that at most one can be correct.
     pub(crate) fn have_shared_pixel(&self, indices: &[usize]) -> bool {
         let Some(Crowds { pixels, .. }) = &self.crowds else {
             return false;
@@ -197,8 +198,8 @@ impl MatchSet {
         })
     }
 
-    /// Upper bound on the number of right matches: their different pixels, of the image with
-    /// fewer.
+    /// Returns an upper bound on the number of correct matches: the number of their unique pixels,
+    /// in the image with fewer.
     ///
     /// Source: Schönberger & Frahm 2016, COLMAP's support by unique inliers.
     pub(crate) fn num_distinct(&self, indices: &[usize]) -> usize {
@@ -213,7 +214,7 @@ impl MatchSet {
         pixels.iter().map(count).min().unwrap_or(0)
     }
 
-    /// Relation of these matches to the given ones.
+    /// Returns the map between these matches and the given ones.
     pub fn unique(&self) -> &Unique {
         &self.unique
     }

@@ -1,11 +1,11 @@
-//! Fitting a model to data of which many are wrong.
+//! Robust estimation from data with many outliers.
 //!
-//! There is one loop, [`Ransac`], and it knows nothing of cameras: an [`Estimator`] tells it how
-//! to fit a model to a few data, how far a datum is from a model, and how to improve a model from
-//! many data. Estimators live beside their solvers; the two for the plane, [`LineEstimator`] and
-//! [`SimilarityEstimator`], live here.
+//! [`Ransac`] is the only loop, and it knows nothing about cameras: an [`Estimator`] fits a model
+//! to a minimal sample, measures the error of a data point, and refines a model from many data
+//! points. Estimators are next to their solvers; those for the plane, [`LineEstimator`] and
+//! [`SimilarityEstimator`], are here.
 //!
-//! [`least_median`] judges by the middle error instead of votes, and needs no threshold.
+//! [`least_median`] minimizes the median error instead and needs no threshold.
 //!
 //! Source: Fischler & Bolles 1981 (the loop); Torr & Zisserman 2000 (the MSAC score); Chum, Matas
 //! & Kittler 2003 (local optimization).

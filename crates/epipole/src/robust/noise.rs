@@ -1,23 +1,23 @@
-//! Scale of the errors of inliers that are not known.
+//! Noise scale of unknown inliers.
 
 use super::Estimator;
 use super::chance::UNKNOWN_CHANCE;
 
-/// Distribution of the errors of data unrelated to a model.
+/// Distribution of the errors of unrelated data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Background {
     codimension: usize,
-    /// Probability that an unrelated datum is within one pixel, extrapolated from small errors. It
-    /// grows with the error to the power of `codimension`.
+    /// Probability that an unrelated data point is within one pixel, extrapolated from small
+    /// errors. It grows with the error to the power of `codimension`.
     chance_of_one_px: f64,
 }
 
 impl Background {
-    /// Takes the chance of a fit from an estimator.
+    /// Takes the probability of a chance fit from an estimator.
     ///
-    /// * `little_px`: an error that hardly any unrelated data are within
+    /// * `little_px`: an error that few unrelated data points are within
     /// * `unknown_px`: the error that [`UNKNOWN_CHANCE`] of them are within, for an estimator that
-    ///   does not know
+    ///   does not provide a probability
     pub(super) fn new<E: Estimator + ?Sized>(
         estimator: &E,
         little_px: f64,
@@ -33,17 +33,17 @@ impl Background {
         }
     }
 
-    /// In how many dimensions a datum can miss the model: 1 or 2.
+    /// Returns the dimension of an error: 1 or 2.
     pub(super) fn codimension(&self) -> usize {
         self.codimension
     }
 
-    /// The probability that an unrelated datum is within this error.
+    /// Returns the probability that an unrelated data point is within this error.
     pub(super) fn chance(&self, error_px: f64) -> f64 {
         (self.chance_of_one_px * to_the(self.codimension, error_px)).min(1.0)
     }
 
-    /// The error that this share of unrelated data is within.
+    /// Returns the error that this fraction of unrelated data points is within.
     pub(super) fn reach_px(&self, share: f64) -> f64 {
         let power = share / self.chance_of_one_px;
         if self.codimension == 1 {
@@ -53,9 +53,9 @@ impl Background {
         }
     }
 
-    /// Ratio of the densities of good and unrelated data at error 0.
+    /// Returns the ratio of the densities of good and unrelated data at error 0.
     fn contrast(&self, scale_px: f64) -> f64 {
-        // Half of a Gaussian over a constant, or Rayleigh's density over a straight line.
+        // Half-Gaussian over a constant, or Rayleigh density over a linear one.
         let per_scale = match self.codimension {
             1 => (2.0 / core::f64::consts::PI).sqrt(),
             _ => 0.5,
@@ -68,27 +68,26 @@ fn to_the(codimension: usize, x: f64) -> f64 {
     if codimension == 1 { x } else { x * x }
 }
 
-/// Expectation and maximization end when the scale moves by less than this share, or after `ROUNDS`
-/// rounds.
+/// Relative change of the scale at which expectation–maximization ends, unless `ROUNDS` are over.
 const STEADY: f64 = 1e-3;
 const ROUNDS: usize = 100;
 
 /// Initial values of the search for the scale, as multiples of the expected one.
 const STARTS: [f64; 3] = [1.0, 4.0, 0.25];
 
-/// The standard deviation of the errors that good data have in each dimension, pixels. `None` if no
-/// data are distinct from the background.
+/// Estimates the standard deviation of the errors of good data in each dimension, pixels. `None` if
+/// no data stand out from the background.
 ///
-/// Errors are a mixture: those of good data Gaussian, those of the others as in `background`. The
-/// deviation of the data within a threshold would instead confirm the threshold: one too small cuts
-/// off the larger errors, one too large lets in wrong data. A model is also closer to the data that
-/// it was fitted to than the truth is: they have as many errors fewer as it has parameters.
+/// Errors are a mixture: Gaussian for good data, and as in `background` for the others. The plain
+/// deviation of the data within a threshold would confirm the threshold: too small a threshold cuts
+/// off the larger errors, too large a one admits outliers. Also, a model is closer to the data it
+/// was fitted to than the truth is; dividing by the degrees of freedom corrects this.
 ///
-/// * `errors_sq`: of the data nearest to the model, px², all others being wrong
+/// * `errors_sq`: squared errors of the data nearest to the model, px²; all others are outliers
 /// * `num_data`: total number of data
-/// * `expected_px`: initial value; others are tried, too
-/// * `least_px`: no deviation is smaller
-/// * `num_parameters`: of the model
+/// * `expected_px`: initial value; others are tried in addition
+/// * `least_px`: lower bound of the deviation
+/// * `num_parameters`: number of parameters of the model
 ///
 /// Source: Torr & Zisserman 2000, "MLESAC" (the mixture); Edstedt 2025, "Less biased noise scale
 /// estimation for threshold-robust RANSAC" (the two biases).
@@ -119,7 +118,7 @@ pub(super) fn noise_scale_px(
     (left >= 1.0).then(|| best.scale_px * (num_errors / left).sqrt())
 }
 
-/// Good data and others.
+/// Mixture of good and unrelated data.
 #[derive(Debug, Clone, Copy)]
 struct Mixture {
     scale_px: f64,
@@ -128,7 +127,7 @@ struct Mixture {
 }
 
 impl Mixture {
-    /// By expectation and maximization.
+    /// Fits the mixture by expectation–maximization.
     fn fit(
         errors_sq: &[f64],
         num_data: usize,
@@ -158,7 +157,7 @@ impl Mixture {
             found.num_good = sum;
             let before = found.scale_px;
             let variance = sum_sq / (background.codimension as f64 * sum);
-            // Data that fit exactly have no scale, and none at all have NaN.
+            // Exact data have no scale, and no data give NaN.
             found.scale_px = variance.sqrt().max(least_px);
             if (found.scale_px - before).abs() < STEADY * before {
                 break;

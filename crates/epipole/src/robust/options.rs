@@ -1,4 +1,4 @@
-//! Options and report of the loop.
+//! Options and report of RANSAC.
 
 use crate::{Error, Result};
 use derive_setters::Setters;
@@ -13,15 +13,15 @@ use derive_setters::Setters;
 pub enum SamplerKind {
     /// Every subset of the data is equally likely.
     Uniform,
-    /// Good data first: the data are ordered by quality, best first, and samples come from a
-    /// growing share of the front. The run ends once a front of the data has more inliers than
-    /// chance would give and was sampled often enough.
+    /// Good data first: the data are sorted by quality, best first, and samples come from a growing
+    /// prefix. The run ends once a prefix has more inliers than expected by chance and was sampled
+    /// often enough.
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC".
     Prosac,
 }
 
-/// Scoring function. Scores count from 0 (nothing fits) to the number of data.
+/// Scoring function. Scores range from 0 (nothing fits) to the number of data points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -29,11 +29,11 @@ pub enum SamplerKind {
     serde(rename_all = "snake_case")
 )]
 pub enum ScoreKind {
-    /// `Σ max(0, 1 − e²/T²)`: a datum on the model counts 1, one at the threshold 0.
+    /// `Σ max(0, 1 − e²/T²)`: a data point on the model counts 1, one at the threshold 0.
     ///
     /// Source: Torr & Zisserman 2000, MSAC.
     Msac,
-    /// The number of data within the threshold.
+    /// Number of data points within the threshold.
     ///
     /// Source: Fischler & Bolles 1981.
     InlierCount,
@@ -47,7 +47,8 @@ pub enum ScoreKind {
     serde(rename_all = "snake_case")
 )]
 pub enum Budget {
-    /// [`num_trials_with_replacement`](super::num_trials_with_replacement): the textbook's `wˢ`.
+    /// [`num_trials_with_replacement`](super::num_trials_with_replacement): the textbook formula,
+    /// `wˢ`.
     WithReplacement,
     /// [`num_trials_without_replacement`](super::num_trials_without_replacement): exact.
     WithoutReplacement,
@@ -61,15 +62,15 @@ pub enum Budget {
     serde(rename_all = "snake_case")
 )]
 pub enum ThresholdKind {
-    /// It is [`RansacOptions::max_error_px`].
+    /// Given by [`RansacOptions::max_error_px`].
     Given,
-    /// Estimated along with the model from the noise of the inliers: 99 of 100 of them are within
-    /// it. [`RansacOptions::max_error_px`] is ignored, and the outcome does not depend on any
-    /// guess; [`RansacReport::max_error_px`] is the estimated threshold, at least a twentieth of a
-    /// pixel. The loop runs some five times, with [`RansacOptions::max_iterations`] for each run.
+    /// Estimated along with the model from the noise of the inliers: it contains 99 % of them.
+    /// [`RansacOptions::max_error_px`] is ignored, so the result does not depend on a guess;
+    /// [`RansacReport::max_error_px`] is the estimated threshold, at least a twentieth of a pixel.
+    /// The loop runs about five times, each with up to [`RansacOptions::max_iterations`].
     ///
-    /// This is for [`ransac`](super::ransac) and all that call it; [`Ransac`](super::Ransac) by
-    /// itself is one run, with the threshold given.
+    /// Applies to [`ransac`](super::ransac) and its callers; [`Ransac`](super::Ransac) itself is a
+    /// single run with the given threshold.
     ///
     /// Source: Edstedt 2025, "Less biased noise scale estimation for threshold-robust RANSAC".
     Noise,
@@ -91,16 +92,16 @@ pub enum ThresholdKind {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct RansacOptions {
-    /// The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an
-    /// estimator of one's own, the unit of its errors. 1.
+    /// Threshold T: a data point closer to a model is an inlier. Pixels, > 0; for a custom
+    /// estimator, the unit of its errors. 1.
     pub max_error_px: f64,
     /// Source of the threshold. Given.
     pub threshold: ThresholdKind,
-    /// The probability that at least one sample is free of outliers, in (0, 1). 0.999.
+    /// Probability that at least one sample is free of outliers, in (0, 1). 0.999.
     pub confidence: f64,
-    /// Minimum number of samples, unless [`max_iterations`](Self::max_iterations) is lower. 200:
-    /// the number required by the inlier ratio takes every sample without outliers for a good
-    /// start, but with noise only some of them lead to the best model.
+    /// Minimum number of samples, unless [`max_iterations`](Self::max_iterations) is lower. 200,
+    /// since the number required by the inlier ratio assumes that any outlier-free sample leads to
+    /// the best model, but with noise only some do.
     pub min_iterations: usize,
     /// Maximum number of samples, ≥ 1. 10 000.
     pub max_iterations: usize,
@@ -110,15 +111,15 @@ pub struct RansacOptions {
     pub sampler: SamplerKind,
     /// Scoring function. MSAC.
     pub score: ScoreKind,
-    /// Whether a promising model is improved from its inliers at once, and the best one at the
+    /// Whether promising models are improved from their inliers at once, and the best one at the
     /// end. True.
     pub local_optimization: bool,
-    /// Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4.
+    /// Number of rounds of finding and fitting inliers per local optimization; 0 acts like 1. 4.
     pub inner_iterations: usize,
     /// Formula for the sufficient number of samples. Without replacement.
     pub budget: Budget,
-    /// Whether every model is compared with every datum, so that a figure can show its score.
-    /// Otherwise a model is dropped as soon as it cannot win. False.
+    /// Whether every model is scored on all data, so that a figure can show its score. Otherwise
+    /// scoring stops as soon as a model cannot win. False.
     pub score_every_trial: bool,
 }
 
@@ -142,8 +143,8 @@ impl Default for RansacOptions {
 }
 
 impl RansacOptions {
-    /// The same with a given threshold, such as that of a report, for steps that build on its
-    /// inliers.
+    /// Returns the same options with a given threshold, such as that of a report, for steps that
+    /// use its inliers.
     ///
     /// ```
     /// use epipole::robust::{RansacOptions, ThresholdKind};
@@ -159,10 +160,10 @@ impl RansacOptions {
         }
     }
 
-    /// Whether every field is in its range.
+    /// Checks that every field is in its range.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] naming the first field that is not.
+    /// [`Error::OutOfRange`] with the name of the first invalid field.
     pub fn check(&self) -> Result<()> {
         let refuse = |what, requirement, value| {
             Err(Error::OutOfRange {
@@ -193,7 +194,7 @@ impl RansacOptions {
     }
 }
 
-/// Why the loop ended.
+/// Reason why the loop ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StopReason {
     /// Enough samples for the required confidence.
@@ -207,46 +208,44 @@ pub enum StopReason {
 /// Result of [`Ransac`](super::Ransac).
 #[derive(Debug, Clone, PartialEq)]
 pub struct RansacReport<M> {
-    /// The best model. With [`ScoreKind::Msac`] its last refinement weighs errors by how large
-    /// those of the inliers are, so that it may have up to one in twenty inliers fewer than the
-    /// best one seen.
+    /// The best model. With [`ScoreKind::Msac`] its final refinement weights errors relative to
+    /// those of the inliers, so it may have up to 5 % fewer inliers than the best model found.
     pub model: M,
-    /// For each datum given, whether it is within the threshold of `model`.
+    /// For each input data point, whether it is within the threshold of `model`.
     pub inliers: Vec<bool>,
     /// Number of `inliers` that are true.
     pub num_inliers: usize,
-    /// The same, with equal data counted once, and for F, E and H also matches that meet in a pixel
-    /// of an image. This number, not `num_inliers`, measures the support of the model.
+    /// Number of inliers that counts equal data once, and for F, E and H also matches that share a
+    /// pixel. This number, not `num_inliers`, measures the support of the model.
     pub num_unique_inliers: usize,
-    /// Data that were left out, and so are no inliers: an infinite coordinate, or one beyond 10⁹
-    /// pixels.
+    /// Number of data points left out, which are no inliers: with an infinite coordinate, or one
+    /// beyond 10⁹ pixels.
     pub num_left_out: usize,
-    /// Samples drawn.
+    /// Number of samples drawn.
     pub iterations: usize,
-    /// Number of samples required by the final inlier ratio, with [`SamplerKind::Prosac`] that
+    /// Number of samples required by the final inlier ratio, for [`SamplerKind::Prosac`] by that
     /// among the best data; `u64::MAX` if no number is enough.
     pub required_iterations: u64,
-    /// The threshold T within which a datum is an inlier, pixels.
+    /// Inlier threshold T, pixels.
     pub max_error_px: f64,
-    /// The model's score over different data, as [`ScoreKind`] defines it.
+    /// Score of the model over unique data, as defined by [`ScoreKind`].
     pub score: f64,
-    /// Expected number of models with this support in data without any structure, as a decimal
+    /// Expected number of models with this support in data without structure, as a decimal
     /// logarithm ([`log10_false_alarms`](super::log10_false_alarms)): the support is significant
-    /// only below 0. `None` if the estimator does not know the chance of a datum.
+    /// only below 0. `None` if the estimator does not know the probability of a chance fit.
     pub log10_false_alarms: Option<f64>,
     /// Number of times a model was improved from its inliers.
     pub refinements: usize,
-    /// Why the loop ended.
+    /// Reason why the loop ended.
     pub stop: StopReason,
 }
 
-/// Support that unrelated data would show less often than this, as a decimal logarithm, is no
-/// chance.
+/// Decimal logarithm of the expected number of chance models below which support is significant.
 pub(super) const HARDLY_CHANCE: f64 = -2.0;
 
 impl<M> RansacReport<M> {
-    /// Whether data that have nothing to do with one another might have shown as much support: then
-    /// the model means nothing. False if the estimator does not know the chance of a datum.
+    /// Returns whether unrelated data might show as much support by chance, so that the model is
+    /// meaningless. False if the estimator does not know the probability of a chance fit.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -258,7 +257,7 @@ impl<M> RansacReport<M> {
     /// let mut anywhere = || -> Vec<_> {
     ///     (0..100).map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0))).collect()
     /// };
-    /// // Matches without any rhyme or reason; some of them agree nevertheless.
+    /// // Random matches; some of them agree nevertheless.
     /// let report = estimate_fundamental(&anywhere(), &anywhere(), &RansacOptions::default(), &mut ())?;
     /// assert!(report.num_inliers > 7 && report.could_be_chance());
     /// # Ok(()) }
@@ -268,7 +267,7 @@ impl<M> RansacReport<M> {
             .is_some_and(|log| log > HARDLY_CHANCE)
     }
 
-    /// The same report with another form of the model.
+    /// Converts the model of the report.
     pub fn map<N>(self, into: impl FnOnce(M) -> N) -> RansacReport<N> {
         RansacReport {
             model: into(self.model),

@@ -1,4 +1,4 @@
-//! The loop from start to end.
+//! RANSAC from start to end.
 
 use super::by_noise::ransac_by_noise;
 use super::to_end::run_to_end;
@@ -10,10 +10,10 @@ use crate::progress::Monitor;
 #[cfg(doc)]
 use crate::progress::Stage;
 
-/// Runs [`Ransac`] to its end.
+/// Runs [`Ransac`] to the end.
 ///
-/// The stage is [`Stage::RobustEstimation`]. [`Ransac::step`] shows every sample, and can end a run
-/// with the best model so far.
+/// The stage is [`Stage::RobustEstimation`]. [`Ransac::step`] exposes every sample, and can end a
+/// run early with the best model so far.
 ///
 /// # Errors
 /// As [`Ransac::new`] and [`Ransac::finish`]; [`Error::Canceled`] if the monitor cancels.
@@ -24,7 +24,7 @@ use crate::progress::Stage;
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::robust::{LineEstimator, RansacOptions, ransac};
 /// use nalgebra::Point2;
-/// // Twenty points of the row v = 2, and four that are elsewhere.
+/// // Twenty points of the row v = 2, and four outliers.
 /// let mut points: Vec<_> = (0..20).map(|i| Point2::new(f64::from(i) * 5.0, 2.0)).collect();
 /// points.extend([(3.0, 40.0), (17.0, 90.0), (50.0, 33.0), (81.0, 70.0)].map(|(u, v)| Point2::new(u, v)));
 /// let report = ransac(LineEstimator::new(&points)?, &RansacOptions::default(), &mut ())?;
@@ -40,8 +40,8 @@ pub fn ransac<E: Estimator>(
     run(&mut estimator, options, monitor)
 }
 
-/// Body of [`ransac`], compiled once for each kind of model: a copy of the loop for every estimator
-/// is 10 KB.
+/// Body of [`ransac`], compiled once per kind of model: a copy of the loop for every estimator
+/// would take 10 KB.
 fn run<M: Clone>(
     estimator: &mut dyn Estimator<Model = M>,
     options: &RansacOptions,

@@ -1,19 +1,19 @@
-//! Drawing samples of different data.
+//! Samplers of unique data.
 
 use super::SamplerKind;
 use crate::math::random::Random;
 
-/// Draws samples of `size` different indices below `num_data`.
+/// Sampler of `size` different indices below `num_data`.
 #[derive(Debug, Clone)]
 pub(super) struct Sampler {
     num_data: usize,
     size: usize,
     growth: Option<Growth>,
-    /// PROSAC's pool grows no further than to so many data.
+    /// Maximum size of PROSAC's pool.
     limit: usize,
 }
 
-/// The state of PROSAC: samples come from the `pool` best data, which grows.
+/// State of PROSAC: samples come from the `pool` best data, which grows.
 #[derive(Debug, Clone)]
 struct Growth {
     pool: usize,
@@ -24,9 +24,9 @@ struct Growth {
     until: f64,
 }
 
-/// T_N: after this many samples PROSAC has become uniform sampling. The paper's value; ours is
-/// half the samples there will be, if that is less, so that an order that puts wrong data first
-/// costs time but not the result.
+/// T_N: number of samples after which PROSAC becomes uniform sampling. The paper's value; the code
+/// uses half the maximum number of samples, if that is less, so that a misleading order costs time
+/// but does not change the result.
 const TOTAL: f64 = 200_000.0;
 
 impl Sampler {
@@ -58,12 +58,12 @@ impl Sampler {
         }
     }
 
-    /// Whether samples come from the best data first.
+    /// Returns whether samples come from the best data first.
     pub(super) fn is_ordered(&self) -> bool {
         self.growth.is_some()
     }
 
-    /// Draws from the best `limit` data from now on, or from as many as the pool already has.
+    /// Draws from the best `limit` data from now on, or from the current pool if it is larger.
     pub(super) fn keep_to(&mut self, limit: usize) {
         self.limit = limit.max(self.size);
     }
@@ -85,10 +85,10 @@ impl Sampler {
             growth.pool += 1;
         }
         if growth.drawn > growth.until || growth.pool == size {
-            // The whole set has had its turn, or the pool is one sample.
+            // The whole set was sampled enough, or the pool is one sample.
             fill(random, growth.pool, size, sample);
         } else {
-            // The newest datum of the pool and others better than it.
+            // The newest data point of the pool and better ones.
             fill(random, growth.pool - 1, size - 1, sample);
             sample.push(growth.pool - 1);
         }

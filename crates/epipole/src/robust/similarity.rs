@@ -1,4 +1,4 @@
-//! Similarities of the plane: turn, scale, shift.
+//! Similarities of the plane: rotation, scale, translation.
 
 use super::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use crate::progress::Monitor;
@@ -8,18 +8,18 @@ use nalgebra::{Matrix3, Point2};
 /// The map `u' = a u − b v + tu`, `v' = b u + a v + tv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneSimilarity {
-    /// Scale times the cosine of the turn.
+    /// Scale times the cosine of the angle.
     pub a: f64,
-    /// Scale times the sine of the turn.
+    /// Scale times the sine of the angle.
     pub b: f64,
-    /// Shift along u.
+    /// Translation along u.
     pub tu: f64,
-    /// Shift along v.
+    /// Translation along v.
     pub tv: f64,
 }
 
 impl PlaneSimilarity {
-    /// Image of a point.
+    /// Maps a point.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::new(
             self.a * p.x - self.b * p.y + self.tu,
@@ -27,17 +27,17 @@ impl PlaneSimilarity {
         )
     }
 
-    /// Scale factor of lengths.
+    /// Returns the scale factor.
     pub fn scale(&self) -> f64 {
         libm::hypot(self.a, self.b)
     }
 
-    /// The turn from u towards v, in (−π, π].
+    /// Returns the rotation from u towards v, in (−π, π].
     pub fn angle_rad(&self) -> f64 {
         libm::atan2(self.b, self.a)
     }
 
-    /// The map as a 3×3 matrix on homogeneous points.
+    /// Returns the map as a 3×3 matrix on homogeneous points.
     #[rustfmt::skip]
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::new(
@@ -48,7 +48,7 @@ impl PlaneSimilarity {
     }
 }
 
-/// The similarity with the smallest sum of squared errors in image 2, `Σ ‖p2 − S p1‖²`.
+/// Fits the similarity with the smallest sum of squared errors in image 2, `Σ ‖p2 − S p1‖²`.
 ///
 /// With points as complex numbers measured from their centroids,
 /// `a + i b = Σ conj(z1) z2 / Σ |z1|²`.
@@ -115,10 +115,10 @@ fn fit(
         .then_some(similarity)
 }
 
-/// Similarities from matches of which some are wrong, for [`Ransac`](super::Ransac).
+/// Estimator of similarities from matches with outliers, for [`Ransac`](super::Ransac).
 ///
 /// A sample is two matches; the error is the distance in image 2. Equal matches count once, and
-/// those that meet in a pixel have few votes together.
+/// matches that share a pixel have a limited weight together.
 #[derive(Debug, Clone)]
 pub struct SimilarityEstimator {
     matches: MatchSet,
@@ -169,9 +169,9 @@ impl Estimator for SimilarityEstimator {
     }
 }
 
-/// The similarity that most matches agree on.
+/// Estimates the similarity on which most matches agree.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
 ///
 /// # Errors
 /// As [`MatchSet::new`] and [`ransac`].
@@ -207,8 +207,8 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// As in COLMAP's src/colmap/optim/ransac_test.cc, in the plane: 1000 matches, the first 400 of
-    /// them wrong.
+    /// As in COLMAP's src/colmap/optim/ransac_test.cc, in the plane: 1000 matches, the first 400
+    /// wrong.
     fn problem(seed: u64) -> (PlaneSimilarity, Vec<Point2<f64>>, Vec<Point2<f64>>) {
         let mut random = Random::new(seed);
         let truth = PlaneSimilarity {
@@ -226,7 +226,7 @@ mod tests {
             .enumerate()
             .map(|(i, p)| {
                 if i < 400 {
-                    // At least 20 pixels off, so that the mask is certain.
+                    // At least 20 pixels off, so that the mask is unambiguous.
                     let off = point(&mut random).coords + nalgebra::Vector2::new(20.0, 20.0);
                     truth.apply(p) + off
                 } else {

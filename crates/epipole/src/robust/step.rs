@@ -1,35 +1,35 @@
-//! Description of a step of the loop.
+//! A step of the RANSAC loop.
 
 use super::StopReason;
 
-/// A step of the loop.
+/// Result of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step<'a, M> {
     /// A sample was drawn.
     Trial(Trial<'a, M>),
-    /// Enough samples were drawn; nothing more will happen.
+    /// Enough samples were drawn; further steps do nothing.
     Finished(StopReason),
 }
 
 /// One sample and its outcome.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial<'a, M> {
-    /// Counts from 1.
+    /// Number of the sample, from 1.
     pub iteration: usize,
-    /// The data drawn, as indices into the data given.
+    /// The sample, as indices into the input data.
     pub sample: &'a [usize],
     /// Number of models of the sample.
     pub num_models: usize,
-    /// The best of them, if any.
+    /// The best of these models, if any.
     pub model: Option<M>,
     /// Its score. An upper bound if the model could not win, unless
     /// [`RansacOptions::score_every_trial`](super::RansacOptions::score_every_trial) is set.
     pub score: f64,
-    /// Its inliers. A lower bound in the same case.
+    /// Number of its inliers; a lower bound in the same case.
     pub num_inliers: usize,
     /// Number of samples required by the best model so far; `u64::MAX` before there is one.
     pub required_iterations: u64,
-    /// Whether the best model so far came out of this step.
+    /// Whether this step found the best model so far.
     pub is_best: bool,
     /// The best model so far after local optimization, if that improved it further.
     pub refined: Option<M>,

@@ -1,4 +1,4 @@
-//! A run to its end, with reports to a monitor.
+//! Run to the end, with progress reports.
 
 use super::{Estimator, Ransac, RansacReport, Step};
 #[cfg(doc)]
@@ -20,7 +20,8 @@ pub(super) fn run_to_end<E: Estimator>(
     let mut share = 0.0_f32;
     while let Step::Trial(trial) = run.step() {
         if trial.iteration % SAMPLES_PER_REPORT == 1 {
-            // A better model can ask for more samples than the one before: shares never fall.
+            // A better model can require more samples than the previous one: progress never
+            // decreases.
             share = share.max(run.iterations() as f32 / run.expected_iterations() as f32);
             report(monitor, Stage::RobustEstimation, share)?;
         }

@@ -1,4 +1,4 @@
-//! Equal data, found once and counted once.
+//! Unique data: repetitions are found once and not counted.
 
 use crate::{Error, Result};
 use std::collections::HashMap;
@@ -6,32 +6,32 @@ use std::collections::HashMap;
 /// Maximum number of values of a datum: a point and its pixel.
 const MAX_COORDINATES: usize = 5;
 
-/// Which data are repetitions of others.
+/// Repetitions in the data.
 ///
-/// A match that occurs ten times is one observation, not ten: counted ten times it outvotes
-/// honest ones. Estimators work on the different data alone, and this maps back and forth.
+/// Ten equal matches are one observation; counted ten times they would outvote correct ones.
+/// Estimators work on the unique data alone, and this maps between unique and given data.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unique {
-    /// For each different datum, where it first occurs.
+    /// For each unique data point, the index of its first occurrence.
     first: Vec<usize>,
-    /// For each given datum, its place among the different ones; `None` for one that is left out.
+    /// For each given data point, its index among the unique ones; `None` if left out.
     place: Vec<Option<usize>>,
 }
 
 impl Unique {
-    /// Finds the repetitions among `num_data` data whose coordinates are `datum(i)`.
+    /// Finds the repetitions among `num_data` data points with coordinates `datum(i)`.
     ///
-    /// Different data keep the order in which they first occur.
+    /// Unique data keep the order of their first occurrence.
     pub fn new<const D: usize>(num_data: usize, datum: impl Fn(usize) -> [f64; D]) -> Self {
         Self::of_usable(num_data, |i| Some(datum(i)))
     }
 
-    /// As [`new`](Self::new), without the data that are `None`, which cannot be computed with.
+    /// As [`new`](Self::new), but leaves out unusable data, given as `None`.
     pub fn of_usable<const D: usize>(
         num_data: usize,
         datum: impl Fn(usize) -> Option<[f64; D]>,
     ) -> Self {
-        // Adding zero makes −0 and 0 the same bits.
+        // Adding zero gives −0 and 0 the same bits.
         let key = |i: usize| {
             let mut key = [0; MAX_COORDINATES];
             for (bits, x) in key.iter_mut().zip(datum(i)?) {
@@ -44,7 +44,8 @@ impl Unique {
         Self::of_keys(num_data, &keys)
     }
 
-    /// Apart from [`new`](Self::new), so that there is one search for data of every kind.
+    /// Separate from [`new`](Self::new), so that the search is compiled once for data of every
+    /// kind.
     fn of_keys(num_data: usize, keys: &[([u64; MAX_COORDINATES], usize)]) -> Self {
         let mut places = HashMap::with_capacity(keys.len());
         let mut first = Vec::with_capacity(keys.len());
@@ -63,16 +64,16 @@ impl Unique {
         self.first.len()
     }
 
-    /// Whether there are no data at all.
+    /// Returns whether there are no data.
     pub fn is_empty(&self) -> bool {
         self.first.is_empty()
     }
 
-    /// Checks that there are enough different data to find `what` in.
+    /// Checks that there are enough unique data to estimate `what`.
     ///
     /// # Errors
     /// [`Error::TooFew`] for fewer usable data than `needed`, [`Error::TooFewDistinct`] if only
-    /// repetitions make them enough.
+    /// repetitions reach that number.
     pub fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
         let given = self.place.len() - self.num_left_out();
         match self.len() {
@@ -91,17 +92,17 @@ impl Unique {
         }
     }
 
-    /// For each different datum, the index of its first occurrence among the given data.
+    /// Returns the index of the first occurrence of each unique data point.
     pub fn first_occurrences(&self) -> &[usize] {
         &self.first
     }
 
-    /// For each given datum, its place among the different ones; `None` for one that is left out.
+    /// Returns the index of each given data point among the unique ones; `None` if left out.
     pub fn places(&self) -> &[Option<usize>] {
         &self.place
     }
 
-    /// Number of the given data that are left out.
+    /// Returns the number of data points left out.
     pub fn num_left_out(&self) -> usize {
         self.place.iter().filter(|place| place.is_none()).count()
     }

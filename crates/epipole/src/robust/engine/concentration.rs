@@ -1,24 +1,24 @@
-//! Rejection of models that a single image region supports.
+//! Rejection of models supported by a single image region.
 //!
-//! Many wrong matches may lead to nearly one pixel. A map that takes the whole image there, or an F
-//! with its epipole there, fits all of them. Scale alone does not tell: a map from pixels to meters
-//! has a small one, too.
+//! Many wrong matches may share nearly one pixel. A map that sends the whole image there, or an F
+//! with its epipole there, fits all of them. A small scale is no sufficient criterion, since a map
+//! from pixels to meters has one as well.
 
 use super::Ransac;
 use crate::math::order::at_rank;
 use crate::robust::Estimator;
 
-/// Constants of the test.
+/// Constants of the rejection test.
 struct Tuning {
     /// Minimum distance of the inliers from their center, in units of their errors (medians).
     /// Concentrated matches have about 1, and somewhat more for F, whose errors have one dimension;
-    /// honest models about 100.
+    /// correct models about 100.
     min_spread: f64,
-    /// Number of matches, evenly chosen, in the first and cheap test.
+    /// Number of evenly chosen matches in a first, cheap test.
     subset_size: usize,
-    /// A subset with more inliers than this is representative
+    /// A subset with more inliers than this is representative if it passes `subset_spread`.
     subset_inliers: usize,
-    /// if they are this many thresholds from their center.
+    /// Minimum distance of a subset's inliers from their center, in thresholds.
     subset_spread: f64,
 }
 
@@ -30,12 +30,11 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Whether the inliers of a model lie in one region, which explains them as well as the model
-    /// does.
+    /// Returns whether the inliers of a model lie in one region, which explains them as well as the
+    /// model does.
     ///
-    /// The spread is that in the image where errors are measured, in the same unit, so maps to
-    /// meters are judged as those to pixels are. Errors of one dimension are measured in both
-    /// images.
+    /// The spread is measured in the image of the errors and in the same unit, so maps to meters
+    /// are judged like maps to pixels. Errors of one dimension are measured in both images.
     pub(super) fn is_concentrated(&mut self, model: &E::Model) -> bool {
         let problem = self.estimator.problem();
         let Some(matches) = problem.data.matches() else {
@@ -73,8 +72,8 @@ impl<E: Estimator> Ransac<E> {
     }
 }
 
-/// The median square of the inliers' distances from their middle: in image 2, or in the image where
-/// it is less.
+/// Returns the median squared distance of the inliers from their center: in image 2, or in the
+/// image where it is smaller.
 fn spread_sq(
     inliers: &[usize],
     [u1, v1, u2, v2]: [&[f64]; 4],

@@ -1,4 +1,4 @@
-//! Degeneracy: the estimator's alternative to the final model.
+//! Degenerate models: the estimator's alternative to the final model.
 
 use super::{Candidate, Ransac};
 use crate::robust::{Estimator, Evidence};

@@ -1,22 +1,22 @@
-//! Local optimization of a sample's model that beats those before it.
+//! Local optimization of a sample's model that beats the previous ones.
 
 use super::{Candidate, Ransac};
 use crate::robust::{Estimator, Evidence};
 
 /// Constants of local optimization.
 struct Tuning {
-    /// A model whose first fits bring it to the cost of the best one, up to this share, is not
-    /// improved further where there are several ways to do so: most samples without outliers lead
+    /// A model whose first fits reach the cost of the best one, up to this relative difference, is
+    /// not improved further if there are several ways to do so: most outlier-free samples lead
     /// there.
     ///
-    /// On photographs with known cameras, ten orders of the matches each: F takes 1 to 6 % less
-    /// time, E the same; AUC@10° changes by +.21 to −.23 for F, by .01 at most for E.
+    /// On photos with known cameras, with ten orders of the matches each: F takes 1 to 6 % less
+    /// time, E the same; AUC@10° changes by +.21 to −.23 for F, by at most .01 for E.
     known: f64,
-    /// Reaches of the first fits in thresholds, way by way, for errors of one dimension and of two.
-    /// Errors of two are small by chance so seldom that nearly all within four thresholds belong to
-    /// a model that is right in a part of the image.
+    /// Thresholds of the first fits, relative to the given one, for each way, for errors of one
+    /// dimension and of two. Errors of two dimensions are so rarely small by chance that nearly all
+    /// data within four thresholds belong to a model that is right in a part of the image.
     first_reaches: [&'static [&'static [f64]]; 2],
-    /// An improvement below this cost is not worth another round.
+    /// Minimum improvement of the cost for another round.
     least_gain: f64,
 }
 
@@ -27,8 +27,8 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Takes the best model of a sample through recovery and local optimization, and keeps the
-    /// outcome if nothing better is known. Returns whether it is kept, and as what.
+    /// Recovers the best model of a sample from degeneracy, optimizes it locally, and keeps it if
+    /// it is the best so far. Returns whether it is kept, and the improved model.
     pub(super) fn consider(
         &mut self,
         mut candidate: Candidate<E::Model>,
@@ -59,10 +59,10 @@ impl<E: Estimator> Ransac<E> {
         (true, refined)
     }
 
-    /// Alternates between finding the inliers and fitting to them while that helps.
+    /// Alternates between finding inliers and refitting while this helps.
     ///
-    /// A model straight from a sample is rough: the first fit looks further, and counts only
-    /// together with those that lead back to the right distance.
+    /// A model from a sample is rough: the first fit uses a wider threshold, and counts only after
+    /// the fits that return to the actual one.
     pub(super) fn improve(&mut self, candidate: &mut Candidate<E::Model>) -> bool {
         let max_error_px = self.judge_px;
         let rough = candidate.model.clone();
@@ -94,8 +94,8 @@ impl<E: Estimator> Ransac<E> {
         changed
     }
 
-    /// Whether a model costs nearly what the best one does: then it leads to the same optimum,
-    /// around which the end of the run looks anyway.
+    /// Returns whether a model costs nearly as much as the best one: it then leads to the same
+    /// optimum, whose neighborhood is searched at the end anyway.
     fn is_known(&self, candidate: &Candidate<E::Model>) -> bool {
         self.best.as_ref().is_some_and(|best| {
             let known = best.support.cost;
@@ -103,7 +103,7 @@ impl<E: Estimator> Ransac<E> {
         })
     }
 
-    /// A model refined from its inliers, if there are enough.
+    /// Returns a model refined from its inliers, if there are enough.
     pub(super) fn fitted(&mut self, model: &E::Model, max_error_px: f64) -> Option<E::Model> {
         self.estimator
             .inliers(model, max_error_px, &mut self.inliers);

@@ -1,9 +1,9 @@
-//! The one loop: draw, fit, score, improve, until enough samples were drawn.
+//! The RANSAC loop: draw, fit, score and improve until enough samples are drawn.
 //!
 //! Its stages are files: `local_optimization` improves a sample's model, `concentration` rejects
-//! models of one image region, `stopping` says when enough samples were drawn; at the end
-//! `neighborhood` looks for a better optimum nearby, `degeneracy` asks for an alternative, `polish`
-//! fits all inliers once more, `report` sums up. Each keeps its constants in a `Tuning`.
+//! models of one image region, `stopping` computes the required number of samples; at the end
+//! `neighborhood` searches for a better optimum nearby, `degeneracy` requests an alternative,
+//! `polish` refits all inliers, `report` builds the report. Each keeps its constants in a `Tuning`.
 
 mod concentration;
 mod degeneracy;
@@ -19,22 +19,21 @@ use super::{Estimator, Problem, RansacOptions, RansacReport, ScoreKind, StopReas
 use crate::Result;
 use crate::math::random::Random;
 
-/// A sample's model is improved if it beats those of this block of so many samples and of the block
-/// before: a sample that is better than all others may still lead to an optimum that is worse than
-/// a later one's.
+/// Block size. A sample's model is improved if it beats those of the current block and the previous
+/// one: the best sample may lead to a worse optimum than a later one.
 const BLOCK: usize = 100;
 
 /// RANSAC, one sample at a time.
 ///
-/// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) yourself to show what
-/// happens.
+/// [`ransac`](super::ransac) runs it to the end. Call [`step`](Ransac::step) directly to visualize
+/// each sample.
 ///
-/// Each step draws a sample, fits up to a few models to it and scores them against all data. A
-/// model that beats those of the last hundred samples or more is improved from its inliers (local
-/// optimization). Of matches, a model whose inliers are gathered at one place of an image, and fit
-/// the place as well as the model, is left off: many wrong matches may lead there. The loop ends
-/// once enough samples were drawn for the share of inliers that the best model has. Nothing is
-/// allocated between [`new`](Ransac::new) and [`finish`](Ransac::finish).
+/// Each step draws a sample, fits up to a few models and scores them against all data. A model that
+/// beats those of the last hundred samples or more is improved from its inliers (local
+/// optimization). For matches, a model is rejected if its inliers are concentrated in one image
+/// region, which explains them as well as the model: wrong matches often cluster. The loop ends
+/// once enough samples are drawn for the inlier ratio of the best model. Nothing is allocated
+/// between [`new`](Ransac::new) and [`finish`](Ransac::finish).
 ///
 /// Source: Fischler & Bolles 1981; Chum, Matas & Kittler 2003, "Locally optimized RANSAC".
 ///
@@ -62,21 +61,20 @@ pub struct Ransac<E: Estimator> {
     sample_as_given: Vec<usize>,
     models: Vec<E::Model>,
     inliers: Vec<usize>,
-    /// Room for one number a datum.
+    /// Buffer for one number per data point.
     values: Vec<f64>,
     best: Option<Candidate<E::Model>>,
-    /// The lowest cost of a model straight from a sample, in this block of samples and in the one
-    /// before.
+    /// Lowest cost of a model straight from a sample, in the current block and the previous one.
     block_costs: [f64; 2],
     iterations: usize,
     refinements: usize,
     required: u64,
     log_miss: f64,
     stop: Option<StopReason>,
-    /// The probability that a datum fits a model it has nothing to do with, if that is known.
+    /// Probability that an unrelated data point fits a model, if known.
     chance: Option<f64>,
-    /// The threshold within which models are compared and improved: the caller's while samples are
-    /// drawn, the inliers' own at the end.
+    /// Threshold for comparing and improving models: the caller's during sampling, the inliers' own
+    /// at the end.
     judge_px: f64,
 }
 
@@ -87,10 +85,10 @@ struct Candidate<M> {
 }
 
 impl<E: Estimator> Ransac<E> {
-    /// Prepares a run; all memory is taken here.
+    /// Prepares a run and allocates all memory.
     ///
     /// # Errors
-    /// [`Error::TooFew`] or [`Error::TooFewDistinct`] for fewer data than one sample has,
+    /// [`Error::TooFew`] or [`Error::TooFewDistinct`] for fewer data points than a sample has,
     /// [`Error::OutOfRange`] for options outside their range.
     pub fn new(estimator: E, options: RansacOptions) -> Result<Self> {
         options.check()?;
@@ -130,7 +128,7 @@ impl<E: Estimator> Ransac<E> {
     /// use nalgebra::Point2;
     /// let points: Vec<_> = (0..10).map(|i| Point2::new(f64::from(i), 2.0)).collect();
     /// let mut run = Ransac::new(LineEstimator::new(&points)?, RansacOptions::default())?;
-    /// // From a frame before, say: half a pixel off.
+    /// // From the previous frame, say: half a pixel off.
     /// run.start_from(Line2 { a: 0.0, b: 1.0, c: -1.5 });
     /// assert_eq!(run.required_iterations(), 1);
     /// assert!((run.finish()?.model.c.abs() - 2.0).abs() < 1e-12);
@@ -208,19 +206,20 @@ impl<E: Estimator> Ransac<E> {
         })
     }
 
-    /// The best model so far and its score.
+    /// Returns the best model so far and its score.
     pub fn best(&self) -> Option<(&E::Model, f64)> {
         self.best
             .as_ref()
             .map(|best| (&best.model, self.score(&best.support)))
     }
 
-    /// Samples drawn so far.
+    /// Returns the number of samples drawn so far.
     pub fn iterations(&self) -> usize {
         self.iterations
     }
 
-    /// Samples that the best model's share of inliers asks for; `u64::MAX` before there is one.
+    /// Returns the number of samples required by the best model's inlier ratio; `u64::MAX` without
+    /// a model.
     ///
     /// The run ends there, but not before [`RansacOptions::min_iterations`] and not after
     /// [`RansacOptions::max_iterations`].
@@ -228,26 +227,26 @@ impl<E: Estimator> Ransac<E> {
         self.required
     }
 
-    /// Number of samples after which the run ends if no better model is found.
+    /// Returns the number of samples after which the run ends if no better model is found.
     pub fn expected_iterations(&self) -> usize {
         let (least, most) = (self.options.min_iterations, self.options.max_iterations);
         let required = usize::try_from(self.required).unwrap_or(most);
         required.max(least).min(most)
     }
 
-    /// The problem that is being solved.
+    /// Returns the problem to solve.
     pub fn estimator(&self) -> &E {
         &self.estimator
     }
 
-    /// Improves the best model one last time and reports.
+    /// Improves the best model a last time and returns the report.
     ///
-    /// Before the run has ended, the report is about the best model so far, and
+    /// Before the run has ended, this is the report of the best model so far, with
     /// [`StopReason::Interrupted`].
     ///
     /// # Errors
-    /// [`Error::NoConsensus`] if no sample gave a model that at least the data of one sample
-    /// support.
+    /// [`Error::NoConsensus`] if no model is supported by at least as many data points as a sample
+    /// has.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
         self.conclude()
     }
@@ -256,7 +255,7 @@ impl<E: Estimator> Ransac<E> {
         self.estimator.problem()
     }
 
-    /// Score of a support, as [`ScoreKind`] defines it.
+    /// Returns the score of a support, as defined by [`ScoreKind`].
     fn score(&self, support: &Support) -> f64 {
         match self.options.score {
             ScoreKind::InlierCount => support.num_inliers as f64,
@@ -266,7 +265,7 @@ impl<E: Estimator> Ransac<E> {
 
     fn support(&self, model: &E::Model, cost_limit: f64) -> Support {
         let by_count = self.options.score == ScoreKind::InlierCount;
-        // The limit is about squared errors, which say nothing about a count of inliers.
+        // The limit applies to squared errors, not to inlier counts.
         let limit = if by_count { f64::INFINITY } else { cost_limit };
         let max_error_px = self.judge_px;
         let mut support = self.estimator.support(model, max_error_px, limit);

@@ -1,4 +1,4 @@
-//! The search for a better optimum near the best model.
+//! Search for a better optimum near the best model.
 
 use super::{Candidate, Ransac};
 use crate::robust::{Estimator, ScoreKind};
@@ -7,27 +7,28 @@ use crate::robust::{Estimator, ScoreKind};
 struct Tuning {
     /// Maximum number of restarts around the best model.
     restarts: usize,
-    /// Number of restarts without success in a row that ends the search, if errors fill the
-    /// threshold and a wider look follows. On photographs and drawn planes 10 do as well as all, 6
+    /// Number of consecutive unsuccessful restarts that ends the search, if errors fill the
+    /// threshold and a wider search follows. On photos and synthetic planes 10 do as well as all, 6
     /// do worse.
     patience: usize,
-    /// Restarts fit data within this many thresholds of the best model: those outside of one could
-    /// be inliers of another model.
+    /// Restarts fit data within this many thresholds of the best model, as data outside one
+    /// threshold could be inliers of another model.
     reach: f64,
-    /// Minimum number of restarts that lead back before the search ends early,
+    /// Minimum number of restarts that return to the model before the search ends early.
     returns: usize,
-    /// and the number of inliers in all of them: few data leave room for several optima.
+    /// Minimum number of inliers in all of them: few data points leave room for several optima.
     returned_inliers: usize,
     /// Restarts whose first fit costs this much more than the best model (relative) are abandoned.
     far_off: f64,
-    /// Costs equal up to this share, or this much of one datum, mean the same optimum.
+    /// Costs within this relative difference, or this fraction of one data point, mean the same
+    /// optimum.
     same: f64,
     /// Models are compared within this many medians of the inliers' errors: two standard
-    /// deviations, if errors of one dimension are Gaussian.
+    /// deviations, for Gaussian errors of one dimension.
     sharp_medians: f64,
-    /// Upper bounds of `sharp_medians`, in thresholds, look by look, for errors of one dimension
-    /// and of two. Two homographies whose errors fill the threshold differ only beyond it, but a
-    /// wide look alone would leave a sharp optimum.
+    /// Upper bounds of `sharp_medians`, in thresholds, for each search in turn, for errors of one
+    /// dimension and of two. Two homographies whose errors fill the threshold differ only beyond
+    /// it, but a wide search alone would leave a sharp optimum.
     sharp_thresholds: [&'static [f64]; 2],
 }
 
@@ -44,8 +45,8 @@ const TUNING: Tuning = Tuning {
 };
 
 impl<E: Estimator> Ransac<E> {
-    /// Looks for a better optimum nearby, within the actual errors of the inliers: a threshold far
-    /// above them admits wrong data and cannot separate models by their fit to the right ones.
+    /// Searches for a better optimum nearby, within the actual errors of the inliers: a threshold
+    /// far above them admits outliers and cannot separate models by their fit to the correct data.
     pub(super) fn search_neighborhood(&mut self, best: &mut Candidate<E::Model>) {
         let max_error_px = self.options.max_error_px;
         let mut explored = true;
@@ -58,7 +59,7 @@ impl<E: Estimator> Ransac<E> {
                 break;
             }
             let mut patience = TUNING.restarts;
-            // A count of inliers is about the threshold that the caller gave.
+            // An inlier count refers to the threshold of the caller.
             if self.options.score == ScoreKind::Msac {
                 let most_px = most * max_error_px;
                 self.errors_sq(&best.model, &mut errors_sq);

@@ -1,4 +1,4 @@
-//! The report of a run.
+//! Report of a run.
 
 use super::Ransac;
 use crate::robust::chance::log10_false_alarms;

@@ -1,4 +1,4 @@
-//! The number of samples that are enough.
+//! Required number of samples.
 
 use super::{Candidate, Ransac};
 use crate::robust::budget::{all_inlier_probability, ratio_to_the, trials};
@@ -7,12 +7,12 @@ use crate::robust::options::HARDLY_CHANCE;
 use crate::robust::{Budget, Estimator, StopReason};
 
 impl<E: Estimator> Ransac<E> {
-    /// Number of samples that the new best model requires.
+    /// Updates the number of samples that the new best model requires.
     ///
-    /// For data in order of quality, the samples of the best of them are enough as soon as an
-    /// all-inlier sample among these is as likely as required. Any prefix of the data will do in
-    /// which the model has more inliers than expected by chance; samples need not come from beyond
-    /// the prefix that needs the fewest.
+    /// For data sorted by quality, the best data suffice as soon as an all-inlier sample from them
+    /// is as likely as required. This holds for any prefix of the data in which the model has more
+    /// inliers than expected by chance; samples are then drawn only from the prefix that needs the
+    /// fewest.
     ///
     /// Source: Chum & Matas 2005, "Matching with PROSAC", §2.2 (maximality and non-randomness).
     pub(super) fn require(&mut self, best: &Candidate<E::Model>) {
