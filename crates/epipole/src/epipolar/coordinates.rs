@@ -1,7 +1,7 @@
-//! Coordinates of many matches, laid out for loops over lanes.
+//! Coordinates of many matches, in a layout for vector instructions.
 //!
-//! Loops run over eight matches at a time, which compilers turn into vector instructions;
-//! sums are kept per lane, so the order of additions is fixed.
+//! Loops process eight matches at a time, which compilers vectorize; sums are kept per lane, so the
+//! order of additions is fixed.
 
 use super::from_cameras::unit_norm;
 use crate::Result;
@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 pub(crate) const LANES: usize = 8;
 pub(crate) type Lanes = [f64; LANES];
 
-/// Four coordinates of many matches, for eight matches after eight; beyond the last match zeros.
+/// Four coordinates of many matches, in groups of eight; zeros beyond the last match.
 #[derive(Debug, Clone)]
 pub(crate) struct Coordinates {
     groups: Vec<[Lanes; 4]>,
@@ -21,7 +21,7 @@ pub(crate) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Some matches of four lists, in this order.
+    /// Collects some matches of four lists, in this order.
     fn gathered(
         indices: impl ExactSizeIterator<Item = usize>,
         at: impl Fn(usize) -> [f64; 4],
@@ -46,7 +46,7 @@ impl Coordinates {
         Self::gathered(0..matches.len(), |i| lists.map(|list| list[i]))
     }
 
-    /// As [`pixels`](Self::pixels), where matches that meet in a pixel share its votes.
+    /// As [`pixels`](Self::pixels), but matches that share a pixel also share its weight.
     pub(crate) fn voting(matches: &MatchSet) -> Self {
         Self {
             weights: matches.votes().unwrap_or_default().to_vec(),
@@ -54,7 +54,7 @@ impl Coordinates {
         }
     }
 
-    /// The same after moving each image's origin and scaling both alike.
+    /// Moves each image's origin and scales both images alike.
     pub(crate) fn mapped(&self, frame: &CommonFrame) -> Self {
         let [c1, c2] = frame.centers;
         let offsets = [c1[0], c1[1], c2[0], c2[1]];
@@ -71,7 +71,7 @@ impl Coordinates {
         }
     }
 
-    /// A subset of the matches, with its weights multiplied by `weights`.
+    /// Returns a subset of the matches, with its weights multiplied by `weights`.
     pub(crate) fn weighted(&self, indices: &[usize], weights: &[f64]) -> Self {
         Self {
             weights: match self.weights(0) {
@@ -100,7 +100,7 @@ impl Coordinates {
         }
     }
 
-    /// The weights of matches `start..`, if they have any.
+    /// Returns the weights of matches `start..`, if there are any.
     #[inline(always)]
     pub(crate) fn weights(&self, start: usize) -> Option<&[f64]> {
         self.weights.get(start..).filter(|w| !w.is_empty())
@@ -116,15 +116,15 @@ impl Coordinates {
         [0, 1, 2, 3].map(|k: usize| group[k][index % LANES])
     }
 
-    /// Matches `start..start + 8`, where `start` is a multiple of 8; beyond the end zeros, and the
-    /// number of real ones.
+    /// Returns matches `start..start + 8`, where `start` is a multiple of 8, and the number of
+    /// actual matches; zeros beyond the end.
     #[inline(always)]
     pub(crate) fn lanes(&self, start: usize) -> (&[Lanes; 4], usize) {
         (&self.groups[start / LANES], (self.len - start).min(LANES))
     }
 }
 
-/// A frame for both images: origins at the centroids, one scale for both, so that a distance d
+/// Common frame of both images: origins at the centroids and one scale, so that a distance d
 /// becomes `scale · d` in either.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CommonFrame {
@@ -144,7 +144,7 @@ impl CommonFrame {
                 spread += (x - mean) * (x - mean) * share;
             }
         }
-        // Four coordinates with mean square 1 each.
+        // Each of the four coordinates gets mean square 1.
         let scale = (4.0 / spread).sqrt();
         Self {
             centers: [[means[0], means[1]], [means[2], means[3]]],
@@ -152,26 +152,26 @@ impl CommonFrame {
         }
     }
 
-    /// T⁻¹ of an image: from the frame back to pixels.
+    /// Returns T⁻¹ of an image: from the frame to pixels.
     pub(crate) fn frame_to_pixels(self, image: usize) -> Matrix3<f64> {
         let [cu, cv] = self.centers[image];
         let size = 1.0 / self.scale;
         Matrix3::new(size, 0.0, cu, 0.0, size, cv, 0.0, 0.0, 1.0)
     }
 
-    /// T of an image.
+    /// Returns T of an image: from pixels to the frame.
     pub(crate) fn pixels_to_frame(self, image: usize) -> Matrix3<f64> {
         let [cu, cv] = self.centers[image];
         let s = self.scale;
         Matrix3::new(s, 0.0, -s * cu, 0.0, s, -s * cv, 0.0, 0.0, 1.0)
     }
 
-    /// F of pixels as one of the frame.
+    /// Converts F from pixels to the frame.
     pub(crate) fn fundamental_to_frame(self, f: &Matrix3<f64>) -> Matrix3<f64> {
         self.frame_to_pixels(1).transpose() * f * self.frame_to_pixels(0)
     }
 
-    /// F of the frame as one of pixels, of unit Frobenius norm.
+    /// Converts F from the frame to pixels, with unit Frobenius norm.
     ///
     /// # Errors
     /// As [`unit_norm`].
@@ -179,8 +179,7 @@ impl CommonFrame {
         unit_norm(&(self.pixels_to_frame(1).transpose() * f * self.pixels_to_frame(0)))
     }
 
-    /// Applies `work` to an F of pixels in the frame's coordinates, and returns the result as an F
-    /// of pixels.
+    /// Applies `work` to F in the frame, and converts the result back to pixels.
     pub(crate) fn fundamental_within(
         self,
         f: &Matrix3<f64>,
@@ -191,7 +190,7 @@ impl CommonFrame {
     }
 }
 
-/// Entries of F, row by row.
+/// Returns the entries of F, row by row.
 #[inline(always)]
 pub(crate) fn entries(f: &Matrix3<f64>) -> [f64; 9] {
     [

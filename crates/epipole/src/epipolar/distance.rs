@@ -1,9 +1,9 @@
-//! Distances of a match from an epipolar geometry.
+//! Distances of matches from an epipolar geometry.
 
 use crate::math::scaling::power_of_two;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
-/// The algebraic error `x2ᵀ F x1` and the parts of both epipolar lines that have a direction.
+/// The algebraic error `x2ᵀ F x1` and the normals of both epipolar lines.
 #[derive(Clone, Copy)]
 struct Parts {
     error: f64,
@@ -24,7 +24,7 @@ impl Parts {
         }
     }
 
-    /// |F x1|² and |Fᵀ x2|², both without the third entry.
+    /// Returns |F x1|² and |Fᵀ x2|², both without the third entry.
     fn along_sq(&self) -> (f64, f64) {
         (self.line2.norm_squared(), self.line1.norm_squared())
     }
@@ -36,8 +36,8 @@ impl Parts {
 
     fn symmetric_sq(&self) -> f64 {
         let (along2, along1) = self.along_sq();
-        // A pixel at the epipole satisfies the constraint with any other pixel, so 0/0 is 0 for one
-        // of the lines. For both lines it is not, as such a match is no evidence.
+        // A pixel at the epipole satisfies the constraint with any other pixel, so a single 0/0
+        // counts as 0. With both lines 0/0 it does not, as the match is no evidence.
         let distance_sq = |along_sq: f64| {
             if self.error == 0.0 && along2 + along1 > 0.0 {
                 0.0
@@ -49,7 +49,7 @@ impl Parts {
     }
 }
 
-/// A distance as a root and a factor, so that its square may be beyond the range of numbers.
+/// A distance as root and factor, so that its square may exceed the range of numbers.
 #[derive(Clone, Copy)]
 struct Distance {
     root_sq: f64,
@@ -57,7 +57,7 @@ struct Distance {
 }
 
 impl Distance {
-    /// The distance by `distance_sq` of the parts of the constraint.
+    /// Computes a distance by applying `distance_sq` to the parts of the constraint.
     #[inline]
     fn new(
         fundamental: &Matrix3<f64>,
@@ -75,8 +75,8 @@ impl Distance {
                 factor: 1.0,
             };
         }
-        // Squares may have overflowed or vanished, so sizes are taken out first. The scale of F
-        // does not matter; the distance of pixels is in units of their size.
+        // Squares may overflow or underflow, so sizes are factored out first. The scale of F does
+        // not matter; the distance of pixels is in units of their size.
         let size = power_of_two(x1.amax().max(x2.amax()));
         let parts = Parts::new(
             &(fundamental / power_of_two(fundamental.amax())),
@@ -112,7 +112,7 @@ fn infinite_if_undefined(distance: f64) -> f64 {
     }
 }
 
-/// The square of [`sampson_px`], px².
+/// Returns the square of [`sampson_px`], px².
 pub(crate) fn sampson_sq(
     fundamental: &Matrix3<f64>,
     pixel1: &Point2<f64>,
@@ -121,17 +121,18 @@ pub(crate) fn sampson_sq(
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).sq()
 }
 
-/// Sampson distance: the first-order length of the correction, in both images together, that makes
-/// a match satisfy the constraint, `|x2ᵀ F x1| / √(|F x1|²₁₂ + |Fᵀ x2|²₁₂)`, pixels.
+/// Computes the Sampson distance: the first-order length of the correction, in both images
+/// together, that makes a match satisfy the constraint, `|x2ᵀ F x1| / √(|F x1|²₁₂ + |Fᵀ x2|²₁₂)`,
+/// pixels.
 ///
 /// `|·|₁₂` is the length of the first two entries. The scale of F does not matter.
 ///
-/// Infinite for a match that no small correction can mend, and for NaN and infinities. Also
+/// Infinite for a match that no small correction makes consistent, and for NaN and infinities. Also
 /// infinite for a match of the two epipoles: it satisfies the constraint for any F with these
-/// epipoles, so it must support no model. There the expression is 0/0.
+/// epipoles, so it must not support a model. There the expression is 0/0.
 ///
-/// Source: Sampson 1982; Hartley & Zisserman 2004, equation 11.9, which is not defined where both
-/// points are epipoles.
+/// Source: Sampson 1982; Hartley & Zisserman 2004, equation 11.9, which is undefined if both points
+/// are epipoles.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -150,21 +151,21 @@ pub fn sampson_px(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).px()
 }
 
-/// The distances of both points from their epipolar lines, as a root mean square:
-/// `√(½ (d(x2, F x1)² + d(x1, Fᵀ x2)²))`, pixels.
+/// Computes the root mean square distance of both points from their epipolar lines: `√(½ (d(x2, F
+/// x1)² + d(x1, Fᵀ x2)²))`, pixels.
 ///
-/// Easier to picture than [`sampson_px`], but not suited for minimization. Infinite where that is;
-/// if only one pixel is an epipole, the match fits and the distance is 0.
+/// More intuitive than [`sampson_px`], but not suited for minimization. Infinite where that is; if
+/// only one pixel is an epipole, the match fits and the distance is 0.
 ///
-/// Source: Hartley & Zisserman 2004, §11.4.3; the root mean square is ours, for a result in pixels.
+/// Source: Hartley & Zisserman 2004, §11.4.3; we take the root mean square, for a result in pixels.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::RigidTransform;
 /// use epipole::epipolar::{essential_from_motion, symmetric_epipolar_px};
 /// use nalgebra::Point2;
-/// // Straight ahead: lines are those through the middle. (3, 4) is on one with slope 4/3, and the
-/// // line of (1, 0) is the row 0: distances 0.8 and 4.
+/// // Straight ahead: lines pass through the middle. (3, 4) is on one with slope 4/3, and the line
+/// // of (1, 0) is the row 0: distances 0.8 and 4.
 /// let f = essential_from_motion(&RigidTransform::translation(0.0, 0.0, -1.0))?;
 /// let distance_px = symmetric_epipolar_px(&f, &Point2::new(1.0, 0.0), &Point2::new(3.0, 4.0));
 /// assert!((distance_px - ((0.8 * 0.8 + 4.0 * 4.0) / 2.0_f64).sqrt()).abs() < 1e-12);
@@ -217,7 +218,7 @@ mod tests {
         }
     }
 
-    /// The Sampson error is the length of the smallest movement that mends a small error.
+    /// The Sampson error is the length of the smallest correction of a small error.
     #[test]
     fn sampson_is_the_smallest_movement() {
         let mut random = Random::new(2);
@@ -226,7 +227,7 @@ mod tests {
         for _ in 0..50 {
             let point = random_point(&mut random);
             let (x1, x2) = (cam1.project(&point).unwrap(), cam2.project(&point).unwrap());
-            // Moving along the gradient of the constraint is the direct way off the geometry.
+            // The gradient of the constraint is the shortest way off the geometry.
             let g2 = (f * x1.to_homogeneous()).xy();
             let g1 = (f.transpose() * x2.to_homogeneous()).xy();
             let length = (g1.norm_squared() + g2.norm_squared()).sqrt();
@@ -235,7 +236,7 @@ mod tests {
         }
     }
 
-    /// A public distance and the kernel that scores models must judge a match alike.
+    /// The public distance and the scoring kernel must agree on a match.
     #[test]
     fn a_match_of_both_epipoles_supports_nothing() {
         let ahead = essential_from_motion(&RigidTransform::translation(0.0, 0.0, 1.0)).unwrap();
@@ -260,7 +261,7 @@ mod tests {
         assert_eq!(symmetric_epipolar_px(&ahead, &off, &nan), f64::INFINITY);
     }
 
-    /// The images of the doctest, enlarged and shrunk as far as numbers go.
+    /// The images of the doctest, scaled to the limits of floating point.
     #[test]
     fn sizes_beyond_the_range_of_squares() {
         let right = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0)).unwrap();
@@ -269,7 +270,7 @@ mod tests {
             let x2 = Point2::new(1.0, 5.0) * size;
             for scale in [1e-300, 1.0, 1e300] {
                 let f = right * scale;
-                // The square may be beyond the range, but is never not a number.
+                // The square may overflow, but is never NaN.
                 assert!(sampson_sq(&f, &x1, &x2) >= 0.0);
                 let sampson = sampson_px(&f, &x1, &x2) / (2.0_f64.sqrt() * size);
                 assert!((sampson - 1.0).abs() < 1e-9, "{size} {scale}: {sampson}");

@@ -13,27 +13,28 @@ use nalgebra::{Matrix3, Point2};
 pub struct EightPoint {
     /// F with rank 2 and unit Frobenius norm.
     pub fundamental: Matrix3<f64>,
-    /// The least-squares solution before its rank was lowered to 2, unit norm.
+    /// The least-squares solution before the rank constraint, unit norm.
     pub full_rank: Matrix3<f64>,
     /// The singular values of the n × 9 system, largest first.
     pub singular_values: [f64; 9],
-    /// `σ₁ / σ₈`: by how much errors of the data may be amplified. σ₉ belongs to the solution.
+    /// `σ₁ / σ₈`: maximum amplification of data errors. σ₉ belongs to the solution.
     pub condition_number: f64,
 }
 
-/// The fundamental matrix that minimizes `Σ (x2ᵀ F x1)²`, by the normalized eight-point algorithm.
+/// Estimates the fundamental matrix that minimizes `Σ (x2ᵀ F x1)²`, by the normalized eight-point
+/// algorithm.
 ///
-/// Points of each image are moved and scaled so that their root-mean-square distance from the
+/// Points of each image are translated and scaled so that their root-mean-square distance from the
 /// origin is √2; then the system of [`epipolar_row`](super::epipolar_row)s is solved by a singular
-/// value decomposition, the smallest singular value of the solution is set to 0, and the scaling
-/// undone.
+/// value decomposition, the smallest singular value of the solution is set to 0, and the
+/// normalization is undone.
 ///
 /// * `pixels1`, `pixels2`: at least 8 matching pixels
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 8 matches, [`Error::SizeMismatch`] for lists of different
-/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the matches leave
-/// F open: all on a plane or on a line, equal, or the camera only turned.
+/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the matches do not
+/// determine F: all on a plane or on a line, equal, or from a camera that only rotated.
 ///
 /// Source: Hartley 1997, "In defense of the eight-point algorithm".
 ///
@@ -64,7 +65,7 @@ pub fn fundamental_8point(
     Ok(solve(pixels1, pixels2, &n1, &n2)?.fundamental)
 }
 
-/// [`fundamental_8point`] with everything it saw on its way.
+/// Runs [`fundamental_8point`] and returns its intermediate results.
 ///
 /// # Errors
 /// As [`fundamental_8point`].
@@ -81,7 +82,7 @@ pub fn fundamental_8point(
 /// let shifts = [7.0, 3.0, 9.0, 4.0, 11.0, 2.0, 6.0, 13.0];
 /// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
 /// let explained = fundamental_8point_explained(&p1, &p2)?;
-/// // Exact matches: the ninth singular value is 0, and the solution has rank 2 by itself.
+/// // Exact matches: the ninth singular value is 0, and the solution already has rank 2.
 /// assert!(explained.singular_values[8] < 1e-12 && explained.singular_values[7] > 1e-3);
 /// assert!(explained.full_rank.determinant().abs() < 1e-12);
 /// let f = fundamental_8point(&p1, &p2)?;
@@ -97,8 +98,8 @@ pub fn fundamental_8point_explained(
     solve(pixels1, pixels2, &n1, &n2)
 }
 
-/// The eight-point algorithm without normalization, for comparison: with pixels around 1000 the
-/// columns of the system differ by 10⁶ in size, and noise is amplified accordingly.
+/// Runs the eight-point algorithm without normalization, for comparison: with pixels around 1000
+/// the columns of the system differ by 10⁶ in size, which amplifies noise accordingly.
 ///
 /// # Errors
 /// As [`fundamental_8point`].
@@ -115,7 +116,7 @@ pub fn fundamental_8point_explained(
 /// let p2: [Point2<f64>; 8] = core::array::from_fn(|i| Point2::new(p1[i].x - shifts[i], p1[i].y));
 /// let (raw, normalized) =
 ///     (fundamental_8point_unnormalized(&p1, &p2)?, fundamental_8point_explained(&p1, &p2)?);
-/// // Even with pixels below 100, errors may be amplified a hundred times as much.
+/// // Even with pixels below 100, errors may be amplified a hundred times more.
 /// assert!(raw.condition_number > 100.0 * normalized.condition_number);
 /// # Ok(()) }
 /// ```
@@ -128,11 +129,11 @@ pub fn fundamental_8point_unnormalized(
     solve(pixels1, pixels2, &identity, &identity)
 }
 
-/// The nearest matrix of rank 2, in Frobenius norm: the smallest singular value becomes 0.
+/// Returns the nearest matrix of rank 2, in Frobenius norm: the smallest singular value becomes 0.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for NaN and infinities, and for entries at the very end of the range of
-/// numbers if those of the result are beyond it.
+/// [`Error::NotFinite`] for NaN and infinities, and for entries so large that those of the result
+/// overflow.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.1.
 ///
@@ -187,9 +188,9 @@ fn check<'a>(pixels1: &'a [Point2<f64>], pixels2: &'a [Point2<f64>]) -> Result<P
     Ok((pixels1, pixels2))
 }
 
-/// F from exactly eight matches: the vector orthogonal to the rows, in a tenth of the time of an
-/// SVD. `None` for more matches, and for a row so close to a combination of the previous ones that
-/// only singular values show whether the matches determine F.
+/// Computes F from exactly eight matches as the vector orthogonal to the rows, in a tenth of the
+/// time of an SVD. `None` for more matches, and for a row so close to a combination of the previous
+/// ones that only singular values show whether the matches determine F.
 fn exact(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -254,8 +255,8 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from
-    /// Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, originally
+    /// from Matlab.
     #[test]
     fn published_reference() {
         let points = |flat: &[f64]| -> Vec<Point2<f64>> {
@@ -280,7 +281,7 @@ mod tests {
         assert!((f.norm() - 1.0).abs() < 1e-14);
     }
 
-    /// A problem as that test draws it: coordinates scaled by `scale`, noise on image 2.
+    /// A random problem as in that test: coordinates scaled by `scale`, noise on image 2.
     fn problem(
         random: &mut Random,
         num_points: usize,
@@ -315,7 +316,7 @@ mod tests {
         (fundamental_from_essential(&e, &k, &k).unwrap(), p1, p2)
     }
 
-    /// Both up to scale, as COLMAP compares them: divided by the last entry, relative norm.
+    /// Difference up to scale, as in COLMAP: divided by the last entry, relative norm.
     fn difference(f: &Matrix3<f64>, truth: &Matrix3<f64>) -> f64 {
         let (f, truth) = (f / f[(2, 2)], truth / truth[(2, 2)]);
         (f - truth).norm() / truth.norm().min(f.norm())
@@ -347,7 +348,7 @@ mod tests {
         }
     }
 
-    /// Problems as PoseLib's generator draws them. With K = I, rays are pixels and F is E.
+    /// Problems as from PoseLib's generator. With K = I, rays are pixels and F is E.
     #[test]
     fn ten_thousand_problems() {
         let mut random = Random::new(1);
@@ -434,7 +435,7 @@ mod tests {
         let p1: Vec<_> = (0..20)
             .map(|_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)))
             .collect();
-        // A plane: any homography. No motion is one, too.
+        // A plane: any homography. The identity, no motion, is one as well.
         let h = Matrix3::new(1.1, 0.02, 5.0, -0.01, 0.95, -3.0, 1e-4, -2e-4, 1.0);
         let plane: Vec<_> = p1
             .iter()

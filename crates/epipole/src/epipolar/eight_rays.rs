@@ -1,4 +1,4 @@
-//! E from eight or more pairs of rays, linearly.
+//! Linear estimation of E from eight or more pairs of rays.
 
 use super::essential::{bearing_row, project_to_essential};
 use crate::math::null_space::right_singular_vectors;
@@ -6,17 +6,16 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
-/// The essential matrix that minimizes `Σ (x2ᵀ E x1)²` over eight or more pairs of rays, projected
-/// to singular values (1, 1, 0)/√2.
+/// Estimates the essential matrix that minimizes `Σ (x2ᵀ E x1)²` over eight or more pairs of rays,
+/// projected to singular values (1, 1, 0)/√2.
 ///
-/// Each camera's rays are normalized first: a linear map makes them spread alike in all directions,
-/// which matters where the field of view is narrow.
+/// The rays of each camera are normalized first: a linear map equalizes their spread in all
+/// directions, which matters for narrow fields of view.
 ///
 /// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
 ///
-/// # Errors
 /// [`Error::TooFew`] for fewer than 8 pairs, [`Error::SizeMismatch`], [`Error::NotFinite`] for NaN,
-/// infinities and zero rays, [`Error::Degenerate`] if the rays leave E open.
+/// infinities and zero rays, [`Error::Degenerate`] if the rays do not determine E.
 ///
 /// Source: Hartley & Zisserman 2004, §11.7.3.
 ///
@@ -75,11 +74,11 @@ const LEFT_OPEN: Error = Error::Degenerate {
     why: "the rays fit many: they lie in a plane or a line, or the camera only turned",
 };
 
-/// Hartley's normalization for rays of any field of view: the symmetric matrix after which the
-/// rays, taken to length 1 before, spread alike in all directions. `None` if they lie in a plane.
+/// Hartley's normalization for rays of any field of view: returns the symmetric matrix that
+/// equalizes the spread of the unit rays in all directions. `None` if they lie in a plane.
 ///
-/// Source: Hartley 1997, "In defense of the eight-point algorithm", §5.3 (moments made equal), in
-/// three dimensions.
+/// Source: Hartley 1997, "In defense of the eight-point algorithm", §5.3 (equal moments), in three
+/// dimensions.
 fn evenly_spread(rays: &[Vector3<f64>]) -> Option<Matrix3<f64>> {
     let mut moments = Matrix3::zeros();
     for ray in rays {
@@ -101,8 +100,8 @@ mod tests {
     use crate::camera::RigidTransform;
     use crate::math::random::Random;
 
-    /// Through a long lens rays hardly differ, and without normalization noise decides: the median
-    /// was .039, now .026.
+    /// Rays of a long lens hardly differ, and without normalization noise dominates: the median was
+    /// .039, now .026.
     #[test]
     fn eight_rays_of_a_narrow_view_are_normalized() {
         let mut random = Random::new(8);

@@ -1,22 +1,22 @@
-//! Epipoles: where each camera sees the other.
+//! Epipoles: the image of each camera in the other.
 
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
-/// The image of the other camera's center.
+/// Image of the other camera's center.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Epipole {
-    /// It is at a pixel, perhaps far outside the photograph.
+    /// Pixel, perhaps far outside the image.
     Finite(Point2<f64>),
-    /// It is infinitely far away (beyond 10⁹ pixels) in this unit direction, whose sign means
-    /// nothing: all epipolar lines are parallel to it.
+    /// Unit direction of an epipole beyond 10⁹ pixels, with arbitrary sign: all epipolar lines are
+    /// parallel to it.
     AtInfinity(Vector2<f64>),
 }
 
-/// The epipoles of image 1 and image 2: `F e1 = 0` and `Fᵀ e2 = 0`.
+/// Computes the epipoles of images 1 and 2: `F e1 = 0` and `Fᵀ e2 = 0`.
 ///
-/// For a matrix that is not exactly of rank 2 they are the directions that come nearest.
+/// If the rank is not exactly 2, these are the singular vectors of the smallest singular value.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if F has rank 1 or 0, [`Error::NotFinite`] for NaN and infinities.
@@ -85,7 +85,7 @@ mod tests {
             let (Epipole::Finite(e1), Epipole::Finite(e2)) = epipoles(&f).unwrap() else {
                 continue;
             };
-            // project refuses centers behind the camera, where the epipole is the same pixel.
+            // project rejects centers behind the camera, whose epipole is the same pixel.
             if let Ok(seen) = cam1.project(&cam2.center_in_world()) {
                 assert!((e1 - seen).norm() < 1e-6 * (1.0 + seen.coords.norm()));
                 compared += 1;

@@ -6,8 +6,8 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 
-/// The essential matrix nearest to a matrix, in Frobenius norm up to scale: singular values
-/// become (1, 1, 0)/√2.
+/// Returns the nearest essential matrix, in Frobenius norm up to scale: singular values become (1,
+/// 1, 0)/√2.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] for a matrix of rank 1 or 0.
@@ -38,7 +38,7 @@ pub fn project_to_essential(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     Ok(svd.u * Matrix3::from_diagonal(&Vector3::new(half, half, 0.0)) * svd.v.transpose())
 }
 
-/// The row of the linear system for E that one pair of rays gives.
+/// Returns the row of the linear system for E of one pair of rays.
 #[inline]
 pub(crate) fn bearing_row(x1: &Vector3<f64>, x2: &Vector3<f64>) -> [f64; 9] {
     [
@@ -54,7 +54,7 @@ pub(crate) fn bearing_row(x1: &Vector3<f64>, x2: &Vector3<f64>) -> [f64; 9] {
     ]
 }
 
-/// The four motions that an essential matrix allows: (R₁, t), (R₁, −t), (R₂, t), (R₂, −t), with
+/// Decomposes an essential matrix into its four motions: (R₁, t), (R₁, −t), (R₂, t), (R₂, −t), with
 /// |t| = 1. Only one puts points in front of both cameras; see [`select_pose`].
 ///
 /// `R₁ = U W Vᵀ`, `R₂ = U Wᵀ Vᵀ` and t is the last column of U.
@@ -101,7 +101,7 @@ pub fn decompose_essential(essential: &Matrix3<f64>) -> Result<[RigidTransform; 
     ])
 }
 
-/// The two rotations of an exact essential matrix scaled to Frobenius norm √2, and t.
+/// Returns the two rotations of an exact essential matrix scaled to Frobenius norm √2, and t.
 ///
 /// Source: Horn 1990, "Recovering baseline and orientation from essential matrix".
 #[inline]
@@ -133,23 +133,21 @@ pub(crate) fn rotations_and_direction(
     Some(([cofactors - turned, cofactors + turned], direction))
 }
 
-/// Which motions of [`decompose_essential`] put how many points in front of both cameras, and the
-/// best of them.
+/// The best motion of [`decompose_essential`] by the number of points in front of both cameras.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelectedPose {
     /// The motion with the most points in front; |t| = 1.
     pub cam2_from_cam1: RigidTransform,
     /// Number of points in front of both cameras.
     pub num_in_front: usize,
-    /// Number of points that the second best motion puts in front of both cameras.
+    /// The same number for the second-best motion.
     pub second_num_in_front: usize,
 }
 
-/// The motion, among candidates, that puts the most of the matched points in front of both
-/// cameras (cheirality).
+/// Selects the motion that puts the most matched points in front of both cameras (cheirality).
 ///
-/// * `motions`: for instance the four of [`decompose_essential`]
-/// * `pixels1`, `pixels2`: matches, all of which count: leave outliers out
+/// * `motions`: candidates, such as the four of [`decompose_essential`]
+/// * `pixels1`, `pixels2`: matches without outliers: all of them count
 ///
 /// # Errors
 /// [`Error::TooFew`] without motions or matches, [`Error::SizeMismatch`] for lists of different
@@ -244,8 +242,8 @@ pub(super) fn most_in_front(
     }
 }
 
-/// Numbers with the signs of the depths, along both rays, of the point where the rays pass each
-/// other nearest: `d1 x1` in camera 1, `d2 x2` in camera 2.
+/// Returns numbers with the signs of the depths, along both rays, of the point where the rays are
+/// closest: `d1 x1` in camera 1, `d2 x2` in camera 2.
 #[inline(always)]
 pub(crate) fn signed_depths(
     rotation: &Matrix3<f64>,
@@ -350,12 +348,12 @@ mod tests {
             let result = select_pose(&[motion], &[p1], &[p2], &k, &k);
             assert!(matches!(result, Err(Error::NotFinite { .. })), "{result:?}");
         }
-        // A camera for which F is beyond the range of numbers.
+        // A camera for which F overflows.
         let absurd = Intrinsics::new(1e-300, 1e-300, 1e300, 0.0).unwrap();
         let pose = RelativePose::from((Matrix3::identity(), Vector3::x()));
         let refused = pose.fundamental(&absurd, &k);
         assert!(matches!(refused, Err(Error::NotFinite { .. })));
-        // A pure rotation leaves the direction open.
+        // A pure rotation does not determine the direction.
         let mut random = Random::new(3);
         let rays: Vec<_> = (0..20)
             .map(|_| Vector3::new(random.normal(), random.normal(), 3.0))

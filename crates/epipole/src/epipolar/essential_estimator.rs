@@ -1,4 +1,4 @@
-//! The relative pose of calibrated cameras, as RANSAC asks for it.
+//! RANSAC estimator of the relative pose of calibrated cameras.
 
 use super::RelativePose;
 use super::estimate_fundamental::refuse_collinear;
@@ -17,15 +17,16 @@ use crate::math::random::Random;
 use crate::robust::{Data, Estimator, Evidence, MatchSet, Problem, Support};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Relative poses of calibrated cameras from matches, for [`Ransac`](crate::robust::Ransac).
+/// Estimator of relative poses of calibrated cameras from matches, for
+/// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is five matches, and of its solutions only those that put the five points in front of
-/// both cameras are looked at. The error is the Sampson error in pixels, through other lenses than
-/// pinholes the [tangent Sampson error](super::tangent_sampson_px); refinement minimizes it,
-/// truncated, over rotation and direction. A match that is behind a camera supports no pose,
-/// however near to its line; one that could be infinitely far away, up to an error within the
-/// threshold, is not behind. Where a plane holds most of the inliers of pinhole cameras, the other
-/// motion that it allows is tried, too. Equal matches count once.
+/// A sample is five matches, and only solutions with the five points in front of both cameras are
+/// scored. The error is the Sampson error in pixels, for lenses other than pinholes the [tangent
+/// Sampson error](super::tangent_sampson_px); refinement minimizes it, truncated, over rotation and
+/// direction. A match behind a camera supports no pose, however close it is to its epipolar line,
+/// unless it could be infinitely far away within the threshold. If a plane holds most of the
+/// inliers of pinhole cameras, the second motion that it allows is tried as well. Equal matches
+/// count once.
 ///
 /// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem";
 /// Longuet-Higgins 1986, "The reconstruction of a plane surface from two perspective projections".
@@ -40,14 +41,14 @@ pub struct EssentialEstimator {
 const NAME: &str = "an essential matrix from matches";
 
 impl EssentialEstimator {
-    /// Prepares the estimation; a match with a pixel that its lens bends no ray to is left out.
+    /// Prepares the estimation; a match with a pixel that has no ray is left out.
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
     ///
     /// # Errors
     /// As [`MatchSet::new`]; [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches,
-    /// [`Error::Degenerate`] if all pixels of an image of a pinhole camera lie on one line, or are
-    /// equal.
+    /// [`Error::Degenerate`] if all pixels of an image of a pinhole camera are equal or on one
+    /// line.
     pub fn new(
         pixels1: &[Point2<f64>],
         pixels2: &[Point2<f64>],
@@ -86,7 +87,7 @@ impl EssentialEstimator {
         }
     }
 
-    /// The same for cameras that know where gravity points, which refinement keeps.
+    /// Restricts refinement to motions that keep the known direction of gravity.
     ///
     /// * `gravity2`: a unit vector in the frame of camera 2
     pub(super) fn upright(self, gravity2: Vector3<f64>) -> Self {
@@ -110,9 +111,9 @@ impl EssentialEstimator {
         self.sight.candidate(pose)
     }
 
-    /// The rays of some of the matches given.
+    /// Returns the rays of a subset of the given matches.
     ///
-    /// * `mask`: for each match given, whether it is one of them
+    /// * `mask`: for each given match, whether it is in the subset
     pub(super) fn rays_among<'a>(
         &'a self,
         mask: &'a [bool],
@@ -124,8 +125,8 @@ impl EssentialEstimator {
 }
 
 impl Estimator for EssentialEstimator {
-    /// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of
-    /// the rays of others.
+    /// A pose, and the matrix for its errors: F of the pixels of pinhole cameras, E of the rays of
+    /// other lenses.
     type Model = (RelativePose, Matrix3<f64>);
 
     fn problem(&self) -> Problem<'_> {

@@ -1,4 +1,4 @@
-//! E and the relative pose from matches of which many are wrong.
+//! Robust estimation of E and the relative pose.
 
 use super::essential::most_in_front;
 use super::essential_estimator::EssentialEstimator;
@@ -9,19 +9,19 @@ use crate::progress::Monitor;
 use crate::robust::{RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2};
 
-/// The relative pose of two calibrated cameras that most matches agree on.
+/// Estimates the relative pose of two calibrated cameras on which most matches agree.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `cameras`: the two cameras, of any lens
-/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels; an
-///   inlier is in front of both cameras as well, or so far away that this cannot be told
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
+/// * `cameras`: the two cameras, with any lens
+/// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels;
+///   inliers are also in front of both cameras, or so far away that noise hides it
 ///
-/// Through other lenses than pinholes, rays may point to the side and backwards, and the error is
-/// the [tangent Sampson error](super::tangent_sampson_px), in the pixels of the distorted images.
+/// For lenses other than pinholes, rays may point sideways and backwards, and the error is the
+/// [tangent Sampson error](super::tangent_sampson_px), in the pixels of the distorted images.
 ///
-/// Of the four motions that the essential matrix allows, the one that puts the most inliers in
-/// front of both cameras is returned. If the camera hardly moved, the direction means nothing;
-/// [`find_explaining_turn`](crate::two_view::find_explaining_turn) tells whether this may be so.
+/// Of the four motions that the essential matrix allows, returns the one with the most inliers in
+/// front of both cameras. If the camera hardly moved, the direction is meaningless;
+/// [`find_explaining_turn`](crate::two_view::find_explaining_turn) detects this.
 ///
 /// # Errors
 /// As [`EssentialEstimator::new`] and [`ransac`].
@@ -48,7 +48,7 @@ use nalgebra::{Matrix3, Point2};
 /// }
 /// let report = estimate_relative_pose(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 32);
-/// // The direction of t is found; its length is not to be seen.
+/// // This yields the direction of t; its length is not observable.
 /// let found = report.model.cam2_from_cam1();
 /// assert!(found.rotation.angle_to(&cam2_from_cam1.rotation) < 1e-5);
 /// assert!((found.translation.vector - cam2_from_cam1.translation.vector.normalize()).norm() < 1e-5);
@@ -72,7 +72,7 @@ pub fn estimate_relative_pose(
     }))
 }
 
-/// The essential matrix that most matches agree on, unit Frobenius norm; as
+/// Estimates the essential matrix on which most matches agree, unit Frobenius norm; as
 /// [`estimate_relative_pose`].
 ///
 /// # Errors

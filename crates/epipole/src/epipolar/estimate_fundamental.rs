@@ -1,4 +1,4 @@
-//! F from matches of which many are wrong.
+//! Robust estimation of F.
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::epipolar_row;
@@ -15,13 +15,13 @@ use crate::robust::{
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Fundamental matrices from matches, for [`Ransac`](crate::robust::Ransac).
+/// Estimator of fundamental matrices from matches, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is seven matches; the error is [`sampson_px`](super::sampson_px); refinement minimizes
-/// the truncated Sampson error. A sample of which five or more matches lie on one plane does not
-/// determine F: then the plane's homography and two matches off the plane give another one. Samples
-/// whose points cannot all be in front of both cameras are left out, unless the matches are so few
-/// that there are no others. Equal matches count once.
+/// the truncated Sampson error. A sample with five or more matches on one plane does not determine
+/// F: then the plane's homography and two matches off the plane give another F. Samples whose
+/// points cannot all be in front of both cameras are rejected, unless the matches are so few that
+/// there are no others. Equal matches count once.
 ///
 /// Source: Hartley & Zisserman 2004, §11.6; Chum, Werner & Matas 2004, "Epipolar geometry
 /// estimation via RANSAC benefits from the oriented epipolar constraint"; Chum, Werner & Matas
@@ -37,8 +37,8 @@ pub struct FundamentalEstimator {
     is_oriented: bool,
 }
 
-/// Up to so many matches, all samples are tried in advance: whether one can have its points in
-/// front of the cameras.
+/// Maximum number of matches for which all samples are tried in advance, to find whether one can
+/// have its points in front of the cameras.
 const FEW: usize = 10;
 
 impl FundamentalEstimator {
@@ -46,7 +46,7 @@ impl FundamentalEstimator {
     ///
     /// # Errors
     /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 7 matches, [`Error::Degenerate`]
-    /// if all pixels of an image lie on one line, or are equal.
+    /// if all pixels of an image are equal or on one line.
     pub fn new(matches: MatchSet) -> Result<Self> {
         matches.at_least(7, "a fundamental matrix from matches")?;
         refuse_collinear(&matches, "a fundamental matrix from matches")?;
@@ -76,14 +76,14 @@ impl FundamentalEstimator {
         })
     }
 
-    /// F of the frame, refined there by a few steps.
+    /// Refines F of the frame by a few steps.
     fn refined_in_frame(&self, f: &Matrix3<f64>, max_error: f64) -> Option<Matrix3<f64>> {
         let loss = RobustLoss::Truncated { width: max_error };
         refine_in_frame(&self.in_frame, f, loss, &LmOptions::few_steps(2))
     }
 }
 
-/// Refuses matches whose pixels lie on one line in either image.
+/// Rejects matches whose pixels lie on one line in either image.
 pub(crate) fn refuse_collinear(matches: &MatchSet, what: &'static str) -> Result<()> {
     let [u1, v1, u2, v2] = matches.coordinates();
     for (u, v) in [(u1, v1), (u2, v2)] {
@@ -100,8 +100,8 @@ pub(crate) fn refuse_collinear(matches: &MatchSet, what: &'static str) -> Result
             vv += dv * dv;
         }
         let total = uu + vv;
-        // The product of the eigenvalues of the scatter matrix against their squared sum: an
-        // image a million times as long as wide.
+        // Product of the scatter matrix's eigenvalues against their squared sum: an extent a
+        // million times as long as wide.
         if uu * vv - uv * uv <= 1e-12 * total * total {
             return Err(Error::Degenerate {
                 what,
@@ -118,7 +118,8 @@ fn seven_point(points: &[[f64; 4]; 7]) -> ([Matrix3<f64>; 3], usize) {
     seven_point_rows(&rows)
 }
 
-/// Whether all rays of the sample can point forward: `(e2 × x2)·(F x1)` has the same sign for all.
+/// Returns whether all rays of the sample can point forward: `(e2 × x2)·(F x1)` has the same sign
+/// for all.
 fn is_oriented(f: &Matrix3<f64>, sample: &[[f64; 4]; 7]) -> bool {
     let columns = [0, 1, 2].map(|i| f.column(i).into_owned());
     let mut epipole2 = columns[0].cross(&columns[1]);
@@ -240,14 +241,14 @@ impl Estimator for FundamentalEstimator {
     }
 }
 
-/// The fundamental matrix that most matches agree on, unit Frobenius norm, rank 2.
+/// Estimates the fundamental matrix on which most matches agree, unit Frobenius norm, rank 2.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier
 ///
-/// F stays right when nearly all matches lie on one plane, as long as a few lie off it. If
-/// all do, or the camera only turned, many matrices fit equally well and this is one of
-/// them; [`estimate_two_view`](crate::two_view::estimate_two_view) tells the cases apart.
+/// F is correct even if nearly all matches lie on one plane, as long as a few lie off it. If all
+/// do, or the camera only rotated, many matrices fit equally well and the result is one of them;
+/// [`estimate_two_view`](crate::two_view::estimate_two_view) distinguishes the cases.
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`FundamentalEstimator::new`] and [`ransac`].
@@ -259,8 +260,8 @@ impl Estimator for FundamentalEstimator {
 /// use epipole::epipolar::estimate_fundamental;
 /// use epipole::robust::RansacOptions;
 /// use nalgebra::Point2;
-/// // A step to the right: each point keeps its row and moves by its own disparity. Every fourth
-/// // match is wrong.
+/// // A step to the right: each point keeps its row and moves by its disparity. Every fourth match
+/// // is wrong.
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let p2: Vec<_> = p1.iter().enumerate().map(|(i, p)| {
 ///     let wrong = if i % 4 == 0 { 40.0 + i as f64 } else { 0.0 };
@@ -286,7 +287,7 @@ pub fn estimate_fundamental(
 mod tests {
     use super::*;
 
-    /// Eight to ten matches anywhere: a sample of seven fits exactly, whatever the signs of its
+    /// Eight to ten random matches: a sample of seven fits exactly, whatever the signs of its
     /// depths.
     #[test]
     fn few_matches_have_a_matrix_whatever_is_behind_a_camera() {

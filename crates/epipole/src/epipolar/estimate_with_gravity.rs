@@ -1,4 +1,4 @@
-//! The relative pose of cameras that know where down is, from matches of which many are wrong.
+//! Robust estimation of the relative pose with known gravity.
 
 use super::RelativePose;
 use super::essential_estimator::EssentialEstimator;
@@ -9,13 +9,13 @@ use crate::robust::{Estimator, Problem, RansacOptions, RansacReport, Support, ra
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Relative poses of calibrated cameras that know the direction of gravity from matches, for
+/// Estimator of relative poses of calibrated cameras with known directions of gravity, for
 /// [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is three matches, and of its solutions only those that put the three points in front of
-/// both cameras are looked at. Errors and inliers are those of [`EssentialEstimator`]; refinement
-/// leaves gravity where it is and finds the turn about it and the direction of the translation.
-/// Equal matches count once.
+/// A sample is three matches, and only solutions with the three points in front of both cameras are
+/// scored. Errors and inliers are those of [`EssentialEstimator`]; refinement keeps gravity fixed
+/// and optimizes the rotation about it and the direction of the translation. Equal matches count
+/// once.
 ///
 /// Source: as [`relative_pose_3point`](super::relative_pose_3point).
 #[derive(Debug)]
@@ -29,13 +29,13 @@ impl GravityEstimator {
     /// Prepares the estimation.
     ///
     /// * `pixels1`, `pixels2`: matching pixels of the two images, in the same order
-    /// * `cameras`: the two cameras, of any lens
-    /// * `gravity1`, `gravity2`: the same direction of the world, down or up, in the frames of both
-    ///   cameras, of any length
+    /// * `cameras`: the two cameras, with any lens
+    /// * `gravity1`, `gravity2`: the same world direction, down or up, in the frames of both
+    ///   cameras, with any length
     ///
     /// # Errors
     /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches, as fewer fit many
-    /// motions well, [`Error::Degenerate`] for a gravity without direction, and as
+    /// motions well, [`Error::Degenerate`] for zero gravity vectors, and as
     /// [`EssentialEstimator::new`].
     pub fn new(
         pixels1: &[Point2<f64>],
@@ -56,7 +56,7 @@ impl GravityEstimator {
 }
 
 impl Estimator for GravityEstimator {
-    /// As of [`EssentialEstimator`].
+    /// As in [`EssentialEstimator`].
     type Model = (RelativePose, Matrix3<f64>);
 
     fn problem(&self) -> Problem<'_> {
@@ -108,22 +108,22 @@ impl Estimator for GravityEstimator {
     }
 }
 
-/// The relative pose of two calibrated cameras that know the direction of gravity, as most matches
-/// have it.
+/// Estimates the relative pose of two calibrated cameras with known directions of gravity on which
+/// most matches agree.
 ///
-/// Three matches are a sample in place of five, so that many more wrong ones are borne: with one
-/// right match in four, 440 samples find three right ones with 99.9 %, and 7000 five.
+/// Samples have three matches instead of five, so many more outliers are tolerated: at an inlier
+/// ratio of one in four, 99.9 % confidence takes 440 samples of three, but 7000 of five.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `cameras`: the two cameras, of any lens
-/// * `gravity`: the same direction of the world, down or up, in the frames of both cameras, of any
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
+/// * `cameras`: the two cameras, with any lens
+/// * `gravity`: the same world direction, down or up, in the frames of both cameras, with any
 ///   length: from accelerometers, or from vanishing points of verticals
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier, pixels
 ///
-/// Gravity is taken for exact. Where it is off by half a degree, as a phone's is, the threshold
-/// should let pass what that does to pixels, and
-/// [`refine_relative_pose`](super::refine_relative_pose) with the inliers then frees the pose from
-/// it. If the camera hardly moved, the direction means nothing.
+/// Gravity is assumed exact. If it is off by half a degree, as for phones, the threshold should be
+/// large enough for the effect on pixels, and [`refine_relative_pose`](super::refine_relative_pose)
+/// on the inliers then removes this error. If the camera hardly moved, the direction is
+/// meaningless.
 ///
 /// # Errors
 /// As [`GravityEstimator::new`] and [`ransac`].

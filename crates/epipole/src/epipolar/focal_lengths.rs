@@ -1,28 +1,28 @@
-//! The focal lengths of two cameras from F alone.
+//! Focal lengths of two cameras from F alone.
 
 use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector2};
 
-/// The sine, of the parallelepiped of baseline and both optical axes, below which the axes meet but
-/// for rounding.
+/// Minimum sine of the parallelepiped of baseline and optical axes; below it the axes meet up to
+/// rounding.
 const LEAST_VOLUME: f64 = 1e-9;
 
-/// The focal lengths in pixels, of camera 1 and camera 2, of square pixels without skew.
+/// Computes the focal lengths, pixels, of camera 1 and camera 2, for square pixels without skew.
 ///
 /// With the principal points as origins of the images, and `F = [A b; cᵀ d]`, an essential matrix
 /// requires `f1² = −(e2 × b) d / (e2 × A c)`, with `e2` the epipole in image 2 and `×` the third
 /// component of the product; f2 is that of Fᵀ.
 ///
-/// * `fundamental`: F, of any scale, rank 2
-/// * `principal1`, `principal2`: the principal points, pixels; the closer the axes come to each
-///   other, the more their errors affect the focal lengths
+/// * `fundamental`: F of rank 2 at any scale
+/// * `principal1`, `principal2`: principal points, pixels; their errors affect the focal lengths
+///   more the closer the axes come to each other
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the optical axes meet or are parallel, and thus for cameras that look
-/// at one point: then a whole family of focal lengths fits. From noisy matches the F of these
-/// cameras gives nonsense, or a negative square, which is the same error. [`Error::NotFinite`] for
-/// NaN and infinities.
+/// [`Error::Degenerate`] if the optical axes meet or are parallel, hence for cameras that look at
+/// one point: then a whole family of focal lengths fits. With noise the F of these cameras gives
+/// nonsense, or a negative square, with the same error. [`Error::NotFinite`] for NaN and
+/// infinities.
 ///
 /// Source: Bougnoux 1998, "From projective to Euclidean space under any practical situation, a
 /// criticism of self-calibration".
@@ -72,7 +72,7 @@ pub fn focal_lengths_from_fundamental(
         return Err(open);
     }
     let [f1, f2] = squares.map(f64::sqrt);
-    // With rays for pixels the last entry is the volume that baseline and axes span.
+    // With rays for pixels the last entry is the volume spanned by baseline and axes.
     let scale = |f: f64| Matrix3::from_diagonal(&nalgebra::Vector3::new(f, f, 1.0));
     let essential = scale(f2) * about * scale(f1);
     let volume = essential[(2, 2)].abs() / essential.norm();
@@ -83,7 +83,7 @@ pub fn focal_lengths_from_fundamental(
     }
 }
 
-/// f1² of an F whose origins are the principal points.
+/// Returns f1² for an F whose origins are the principal points.
 fn first_focal_sq(f: &Matrix3<f64>) -> f64 {
     let epipole = svd3(f).u.column(2).into_owned();
     let cross = |x: Vector2<f64>| epipole.x * x.y - epipole.y * x.x;
@@ -174,7 +174,7 @@ mod tests {
         assert!(focal_lengths_from_fundamental(&Matrix3::zeros(), &principal, &principal).is_err());
     }
 
-    /// Two views of points with the noise of good features, and wrong matches among them.
+    /// Two views of points with the noise of good features, with outliers.
     #[test]
     fn noisy_matches_give_focal_lengths_within_a_few_percent() {
         let mut random = Random::new(3);

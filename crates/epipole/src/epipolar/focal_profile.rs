@@ -1,4 +1,4 @@
-//! The best motion for each of many focal lengths: whether another focal length explains the
+//! Profile of the cost over focal lengths, to find whether another focal length explains the
 //! matches better.
 
 use super::coordinates::Coordinates;
@@ -17,29 +17,30 @@ use crate::optim::{LmOptions, RobustLoss};
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Cow;
 
-/// Ratio of neighboring focal lengths that are tried, unless there were too many: valleys of the
-/// cost are wider.
+/// Ratio of neighboring focal lengths, if the maximum number permits: valleys of the cost are
+/// wider.
 const STEP: f64 = 1.2;
 
-/// Maximum number of focal lengths that are tried.
+/// Maximum number of focal lengths to try.
 const MAX_TRIED: usize = 40;
 
-/// Maximum number of matches that motions are fitted to: more only tell the noise better.
+/// Maximum number of matches for fitting motions: more only improve the noise estimate.
 const MAX_MATCHES: usize = 2000;
 
-/// Samples of five matches for each focal length.
+/// Number of five-match samples for each focal length.
 const NUM_SAMPLES: usize = 12;
 
-/// Errors count up to this many medians: three standard deviations of Gaussian errors.
+/// Truncation of errors in medians: three standard deviations of Gaussian errors.
 const WIDTH_MEDIANS: f64 = 4.5;
 
-/// Focal lengths whose cost is within this many standard deviations of the minimum are possible.
+/// Focal lengths within this many standard deviations of the minimum cost are possible.
 const POSSIBLE: f64 = 3.0;
 
-/// Focal lengths that differ by less, relative, are in one valley.
+/// Relative difference below which focal lengths are in one valley.
 const SAME: f64 = 0.02;
 
-/// A motion, a focal length, and the sum of squared errors, each clipped at the squared width, px².
+/// A motion, a focal length, and the sum of squared errors, each truncated at the squared width,
+/// px².
 #[derive(Debug, Clone)]
 struct Fit {
     pose: Pose,
@@ -51,10 +52,10 @@ struct Fit {
 pub(super) struct FocalProfile<'a> {
     /// The problem, with at most [`MAX_MATCHES`].
     of: Cow<'a, FocalEstimator>,
-    /// Number of matches that each of these stands for.
+    /// Number of matches that each of these represents.
     num_each: f64,
     max_error_px: f64,
-    /// Largest error that counts, pixels.
+    /// Truncation of errors, pixels.
     width_px: f64,
     /// Variance of the errors about the best F of any kind, px².
     variance: f64,
@@ -64,14 +65,14 @@ pub(super) struct FocalProfile<'a> {
 impl<'a> FocalProfile<'a> {
     /// Computes the profile; `None` if there are too few inliers for a fundamental matrix.
     ///
-    /// * `model`: the motion and focal length found so far
+    /// * `model`: motion and focal length found so far
     pub(super) fn new(
         of: &'a FocalEstimator,
         model: &PoseWithFocal,
         max_error_px: f64,
         random: &mut Random,
     ) -> Option<Self> {
-        // The noise is that about F, which takes no part in the choice of a focal length.
+        // The noise is measured about F, which is independent of the focal length.
         let loss = RobustLoss::Truncated {
             width: max_error_px * of.frame.scale,
         };
@@ -151,7 +152,7 @@ impl<'a> FocalProfile<'a> {
         }
     }
 
-    /// The model of another valley that explains the matches better than `model`, if there is one.
+    /// Returns the model of another valley that explains the matches better than `model`, if any.
     pub(super) fn better_than(&self, model: &PoseWithFocal) -> Option<PoseWithFocal> {
         let start = (model.pose.rotation, model.pose.direction);
         let known = self.refined(start, model.focal_px)?;
@@ -172,7 +173,7 @@ impl<'a> FocalProfile<'a> {
         PoseWithFocal::new(best.pose, best.focal_px, &self.of.centers)
     }
 
-    /// The standard deviation of the logarithm of the focal length, from the profile.
+    /// Returns the standard deviation of the logarithm of the focal length, from the profile.
     ///
     /// Each profiled focal length gives a ratio: its distance, in logarithms, over the number of
     /// standard deviations by which its cost exceeds the minimum. For a parabolic cost all ratios
@@ -203,8 +204,8 @@ impl<'a> FocalProfile<'a> {
         Some([k1, k2])
     }
 
-    /// A motion judged by the matches in front of both cameras, as that of the four motions of its
-    /// essential matrix which has the most.
+    /// Scores a motion by the matches in front of both cameras, using the best of the four motions
+    /// of its essential matrix.
     fn fit(&self, (rotation, direction): Pose, focal_px: f64) -> Option<Fit> {
         let [k1, k2] = self.intrinsics(focal_px)?;
         let lenses = Lenses::new(&k1, &k2);
@@ -230,7 +231,7 @@ impl<'a> FocalProfile<'a> {
             .min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
-    /// The best motion for a focal length from some starts.
+    /// Returns the best motion for a focal length from some initial motions.
     fn best_at(&self, focal_px: f64, starts: &[Pose]) -> Option<Fit> {
         let [k1, k2] = self.intrinsics(focal_px)?;
         let rays = RaysInFrame::new(&self.of.frame, &k1, &k2);
@@ -251,7 +252,7 @@ impl<'a> FocalProfile<'a> {
         fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
     }
 
-    /// The motion and the focal length near to a start.
+    /// Refines motion and focal length from initial values.
     fn refined(&self, start: Pose, focal_px: f64) -> Option<Fit> {
         let start = RelativePose::from(start);
         let width = self.width_px * self.of.frame.scale;
@@ -266,7 +267,7 @@ impl<'a> FocalProfile<'a> {
         is_plausible.then(|| self.fit(pose, focal_px))?
     }
 
-    /// The two best of the motions that samples of five inliers have.
+    /// Returns the two best motions of samples of five inliers.
     fn five_point_starts(
         &self,
         focal_px: f64,
@@ -292,8 +293,8 @@ impl<'a> FocalProfile<'a> {
     }
 }
 
-/// Chooses at most [`MAX_MATCHES`] of the inliers at random; returns them, and how many each
-/// stands for.
+/// Chooses at most [`MAX_MATCHES`] of the inliers at random; returns them, and the number that each
+/// represents.
 fn chosen(mut inliers: Vec<usize>, random: &mut Random) -> (Vec<usize>, f64) {
     let (all, few) = (inliers.len(), inliers.len().min(MAX_MATCHES));
     for place in 0..few {

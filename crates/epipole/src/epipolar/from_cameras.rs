@@ -1,11 +1,11 @@
-//! F and E of cameras that are known.
+//! F and E of known cameras.
 
 use crate::camera::{Intrinsics, PosedCamera, RigidTransform, cross_matrix, relative_motion};
 use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
 use nalgebra::Matrix3;
 
-/// The essential matrix of a motion, `E = [t]ₓ R`, with unit Frobenius norm.
+/// Computes the essential matrix of a motion, `E = [t]ₓ R`, with unit Frobenius norm.
 ///
 /// * `cam2_from_cam1`: R and t; only the direction of t matters
 ///
@@ -38,9 +38,9 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
     unit_norm(&(cross_matrix(&direction) * rotation.matrix()))
 }
 
-/// The fundamental matrix of two cameras, `F = K2⁻ᵀ [t]ₓ R K1⁻¹` with R and t of
-/// `cam2_from_cam1`, with unit Frobenius norm. It relates pixels without distortion, such as those
-/// of [`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel).
+/// Computes the fundamental matrix of two cameras, `F = K2⁻ᵀ [t]ₓ R K1⁻¹` with R and t of
+/// `cam2_from_cam1`, with unit Frobenius norm. It relates undistorted pixels, such as those of
+/// [`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel).
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras' centers coincide, [`Error::NotFinite`] for NaN and
@@ -74,8 +74,8 @@ pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Resul
     )
 }
 
-/// Whether two cameras stand at the same place, as far as rounding lets one tell: centers that
-/// differ by rounding alone would give a baseline in a random direction.
+/// Returns whether two cameras have the same center up to rounding, which would give a baseline in
+/// a random direction.
 pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
     let (c1, c2) = (cam1.center_in_world().coords, cam2.center_in_world().coords);
     let (c1, c2) = {
@@ -85,7 +85,7 @@ pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
     (c1 - c2).norm() <= 1e-13 * (c1.norm() + c2.norm())
 }
 
-/// `F = K2⁻ᵀ E K1⁻¹`, with unit Frobenius norm.
+/// Computes `F = K2⁻ᵀ E K1⁻¹`, with unit Frobenius norm.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if E is zero, [`Error::NotFinite`] for NaN and infinities.
@@ -100,7 +100,8 @@ pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
 /// let (k1, k2) = (Intrinsics::new(700.0, 700.0, 320.0, 240.0)?, Intrinsics::new(350.0, 350.0, 160.0, 120.0)?);
 /// let e = essential_from_motion(&RigidTransform::translation(-1.0, 0.0, 0.0))?;
 /// let f = fundamental_from_essential(&e, &k1, &k2)?;
-/// // Rays keep their row, so pixels keep its place relative to the principal point: image 2 is half the size.
+/// // Rays keep their row, so pixels keep theirs relative to the principal point: image 2 is half
+/// // the size.
 /// let line2 = epipolar_line2(&f, &Point2::new(0.0, 340.0))?;
 /// assert!(line2.signed_distance(&Point2::new(77.0, 170.0)).abs() < 1e-9);
 /// # Ok(()) }
@@ -117,9 +118,9 @@ pub fn fundamental_from_essential(
     )
 }
 
-/// `E = K2ᵀ F K1`, with unit Frobenius norm.
+/// Computes `E = K2ᵀ F K1`, with unit Frobenius norm.
 ///
-/// If the intrinsics are not exactly right, E has unequal singular values.
+/// With inexact intrinsics, E has unequal singular values.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if F is zero, [`Error::NotFinite`] for NaN and infinities.
@@ -145,8 +146,8 @@ pub fn essential_from_fundamental(
     product(&k2.matrix().transpose(), fundamental, &k1.matrix())
 }
 
-/// `A B C` with unit Frobenius norm. Its scale means nothing, so it is taken out of each factor
-/// before their product could overflow or vanish.
+/// Computes `A B C` with unit Frobenius norm. Scale is arbitrary, so it is removed from each factor
+/// to avoid overflow and underflow.
 fn product(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     let [a, b, c] = [a, b, c].map(|m| m / power_of_two(m.amax()));
     unit_norm(&(a * b * c))
@@ -157,7 +158,7 @@ pub(super) const NO_BASELINE: Error = Error::Degenerate {
     why: "the two cameras stand at the same place",
 };
 
-/// A matrix scaled to unit Frobenius norm, with its sign kept.
+/// Scales a matrix to unit Frobenius norm and keeps its sign.
 pub(crate) fn unit_norm(matrix: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     let largest = matrix.amax();
     if !matrix.iter().all(|x| x.is_finite()) {
@@ -262,7 +263,7 @@ pub(crate) mod tests {
         let mut random = Random::new(3);
         for _ in 0..50 {
             let (cam1, other) = random_cameras(&mut random);
-            // The same center, turned differently; computed, so equal only up to rounding.
+            // The same center, rotated differently; computed, so equal only up to rounding.
             let center = cam1.center_in_world();
             let mut cam2 = other;
             cam2.cam_from_world.translation.vector =

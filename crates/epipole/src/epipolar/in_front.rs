@@ -1,4 +1,4 @@
-//! Matches judged by a relative pose: near to their epipolar lines, and in front of both cameras.
+//! Scoring of relative poses: matches near their epipolar lines and in front of both cameras.
 
 use super::coordinates::{Coordinates, LANES, Lanes, entries};
 use super::judge::{self, LaneErrors};
@@ -14,7 +14,7 @@ use nalgebra::Matrix3;
 pub(crate) struct Lenses {
     inverse1: Matrix3<f64>,
     inverse2: Matrix3<f64>,
-    /// Root of the sum of squares over both images, radians a pixel, in the middle of the image.
+    /// Root of the sum of squares over both images, radians per pixel, in the middle of the image.
     pixel_rad: f64,
 }
 
@@ -28,7 +28,7 @@ impl Lenses {
         }
     }
 
-    /// A pose and its F, ready to judge matches by a threshold.
+    /// Prepares a pose and its F for scoring matches with a threshold.
     pub(crate) fn judge(&self, (pose, fundamental): &Candidate, max_error_px: f64) -> PoseJudge {
         let margin_rad = max_error_px * self.pixel_rad;
         PoseJudge {
@@ -45,7 +45,7 @@ impl Lenses {
 ///
 /// With a = R K₁⁻¹ x₁ and b = K₂⁻¹ x₂, both in the frame of camera 2, the rays meet in front of
 /// both cameras if b lies between a and t: rotated from a towards t, but not beyond. Far away a and
-/// b are the same up to noise, so b may be outside by the angle of the threshold.
+/// b are equal up to noise, so b may be outside by the angle of the threshold.
 pub(crate) struct PoseJudge {
     sampson: Sampson,
     turned1: [f64; 9],
@@ -55,7 +55,7 @@ pub(crate) struct PoseJudge {
 }
 
 impl PoseJudge {
-    /// For each of eight matches, whether the rays may meet in front of both cameras.
+    /// Returns, for each of eight matches, whether the rays may meet in front of both cameras.
     #[inline(always)]
     fn in_front(&self, [u1, v1, u2, v2]: &[Lanes; 4]) -> [bool; LANES] {
         let (m, k, t) = (&self.turned1, &self.ray2, &self.direction);

@@ -1,15 +1,15 @@
-//! Judging a model by its errors over many matches, eight at a time.
+//! Scoring of a model by its errors over many matches, eight at a time.
 //!
-//! The loops are the same whatever the error is; they are inlined into kernels that are compiled
-//! for several processors, next to each [`LaneErrors`].
+//! The loops do not depend on the error function; they are inlined into kernels compiled for
+//! several processors, next to each [`LaneErrors`].
 
 use super::coordinates::{Coordinates, LANES, Lanes, sum};
 use crate::optim::RobustLoss;
 use crate::robust::Support;
 
-/// A model that can tell its errors for eight matches at once.
+/// A model that computes its errors for eight matches at once.
 pub(crate) trait LaneErrors {
-    /// `e²/T²` of eight matches, where `1/T²` is given; not a number counts as an outlier.
+    /// Computes `e²/T²` of eight matches for a given `1/T²`; NaN counts as an outlier.
     fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes;
 }
 
@@ -25,7 +25,7 @@ pub(crate) fn support(
     let (mut cost, mut inliers) = ([0.0; LANES], [0.0; LANES]);
     let mut start = 0;
     while start < coordinates.len() {
-        // The limit is looked at every 32 matches.
+        // The limit is checked every 32 matches.
         for _ in 0..4 {
             if start >= coordinates.len() {
                 break;
@@ -40,7 +40,7 @@ pub(crate) fn support(
                 }
             } else if count == LANES {
                 for l in 0..LANES {
-                    // Not a number counts as an outlier.
+                    // NaN counts as an outlier.
                     let fits = errors[l] < 1.0;
                     cost[l] += if fits { errors[l] } else { 1.0 };
                     inliers[l] += if fits { 1.0 } else { 0.0 };
@@ -73,8 +73,7 @@ pub(crate) fn inliers(
     inliers: &mut Vec<usize>,
 ) {
     let per_threshold_sq = 1.0 / (max_error * max_error);
-    // Every index is written, and the next one over it unless it fits: no branch that cannot be
-    // foreseen.
+    // Branch-free: every index is written, and overwritten by the next unless it fits.
     let mut num_inliers = 0;
     inliers.resize(coordinates.len(), 0);
     for start in (0..coordinates.len()).step_by(LANES) {
@@ -100,7 +99,7 @@ pub(crate) fn cost(model: &impl LaneErrors, coordinates: &Coordinates, loss: &Ro
     0.5 * sum(&total)
 }
 
-/// Adds `w ρ(e²)` of eight matches to the totals and returns `w ρ'(e²)`; beyond `count` zeros.
+/// Adds `w ρ(e²)` of eight matches to the totals and returns `w ρ'(e²)`; zeros beyond `count`.
 #[inline(always)]
 pub(crate) fn weigh(
     coordinates: &Coordinates,
@@ -112,7 +111,7 @@ pub(crate) fn weigh(
 ) -> Lanes {
     let mut weight = [0.0; LANES];
     match (*loss, coordinates.weights(start)) {
-        // The loss of the loop, without a branch a match.
+        // The loss of RANSAC, without a branch per match.
         (RobustLoss::Truncated { width }, None) if count == LANES => {
             let width_sq = width * width;
             for l in 0..LANES {

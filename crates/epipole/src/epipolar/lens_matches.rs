@@ -1,4 +1,4 @@
-//! Matches between two cameras of any lens, judged and refined by their rays.
+//! Matches between two cameras with any lens, scored and refined by their rays.
 
 use super::RelativePose;
 use super::essential::signed_depths;
@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 /// Maximum distance of rays that may be parallel, pixels.
 const PARALLEL_PX: f64 = 2.0;
 
-/// A match: two rays of length 1, and how they move with their pixels.
+/// A match: two unit rays and their derivatives by the pixels.
 #[derive(Debug, Clone, Copy)]
 struct RayPair {
     rays: [Vector3<f64>; 2],
@@ -47,7 +47,8 @@ impl RayPair {
         )
     }
 
-    /// The squared Sampson error, px²; infinite for a ray through both centers, which says nothing.
+    /// Returns the squared Sampson error, px²; infinite for a ray through both centers, which is no
+    /// evidence.
     fn sampson_sq(&self, essential: &Matrix3<f64>) -> f64 {
         let (algebraic, [by1, by2]) = self.algebraic(essential);
         let slope_sq = by1.norm_squared() + by2.norm_squared();
@@ -57,7 +58,7 @@ impl RayPair {
         }
     }
 
-    /// The Sampson error with its sign, px, and its derivatives by the entries of E, row by row:
+    /// Returns the signed Sampson error, px, and its derivatives by the entries of E, row by row:
     /// `r = C/√D`, `∂r/∂E = (∂C/∂E − (C/D) ½ ∂D/∂E)/√D`. `None` for a ray through both centers.
     fn linearized(&self, essential: &Matrix3<f64>) -> Option<(f64, SVector<f64, 9>)> {
         let (algebraic, [by1, by2]) = self.algebraic(essential);
@@ -79,14 +80,14 @@ impl RayPair {
         if d1 > 0.0 && d2 > 0.0 {
             return true;
         }
-        // Far away both rays have one direction, up to noise.
+        // Far away both rays are parallel, up to noise.
         let turned = pose.rotation * x1;
         turned.dot(x2) > 0.0 && turned.cross(x2).norm_squared() <= self.noise_sq
     }
 }
 
-/// Matches between two cameras of any lens. Errors are tangent Sampson errors: in the pixels of the
-/// distorted images.
+/// Matches between two cameras with any lens. Errors are tangent Sampson errors, in the pixels of
+/// the distorted images.
 #[derive(Debug, Clone)]
 pub(super) struct LensMatches {
     matches: MatchSet,
@@ -174,7 +175,7 @@ impl Sight for LensMatches {
         Some(self.candidate(pose))
     }
 
-    /// Not looked for.
+    /// Not implemented for these lenses.
     fn dominant_plane(
         &mut self,
         _: &Candidate,
@@ -232,11 +233,11 @@ impl SampsonErrors for RayErrors<'_> {
     }
 }
 
-/// The tangent Sampson error of a match between cameras of any lens, pixels of both images;
-/// infinite where the rays cannot meet in front of both cameras.
+/// Computes the tangent Sampson error of a match between cameras with any lens, pixels of both
+/// images; infinite if the rays cannot meet in front of both cameras.
 ///
 /// * `cam2_from_cam1`: the length of its translation does not matter
-/// * `seen1`, `seen2`: the observations of both cameras
+/// * `seen1`, `seen2`: observations of both cameras
 ///
 /// Between pinhole cameras it is [`sampson_px`](super::sampson_px) up to terms of second order.
 ///
@@ -251,7 +252,7 @@ impl SampsonErrors for RayErrors<'_> {
 /// let camera = Camera::pinhole(Intrinsics::new(100.0, 100.0, 0.0, 0.0)?, 640, 480);
 /// let right = RigidTransform::translation(-1.0, 0.0, 0.0);
 /// let seen1 = camera.observe(&Point2::new(0.0, 0.0))?;
-/// // A pixel that is too low by 2: each image is off by half of it.
+/// // A pixel that is too low by 2: each image is off by half of that.
 /// let seen2 = camera.observe(&Point2::new(-5.0, 2.0))?;
 /// assert!((tangent_sampson_px(&right, &seen1, &seen2) - 2.0_f64.sqrt()).abs() < 0.01);
 /// // A point moves to the left when its camera moves to the right.

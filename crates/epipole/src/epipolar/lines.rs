@@ -4,13 +4,13 @@ use crate::math::Line2;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// The line of image 2 on which the match of a pixel of image 1 must lie, `l2 = F x1`.
+/// Computes the line of image 2 that contains the match of a pixel of image 1, `l2 = F x1`.
 ///
 /// The line's sign is that of `F x1`.
 ///
 /// # Errors
-/// [`Error::Degenerate`] if `pixel1` is the epipole of image 1, whose match can be anywhere, or
-/// if the line is infinitely far away; [`Error::NotFinite`] for NaN and infinities.
+/// [`Error::Degenerate`] if `pixel1` is the epipole of image 1, whose match can be anywhere, or if
+/// the line is at infinity; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Hartley & Zisserman 2004, §9.2.2.
 ///
@@ -44,7 +44,7 @@ pub fn epipolar_line2(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>) -> Resul
     Line2::from_homogeneous(&line)
 }
 
-/// The line of image 1 on which the match of a pixel of image 2 must lie, `l1 = Fᵀ x2`.
+/// Computes the line of image 1 that contains the match of a pixel of image 2, `l1 = Fᵀ x2`.
 ///
 /// # Errors
 /// As [`epipolar_line2`], with the images exchanged.

@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// The map `x' = s (x − c)` that moves points to the origin and scales them.
+/// The map `x' = s (x − c)`, which moves points to the origin and scales them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Normalization {
     /// c, pixels.
@@ -13,9 +13,9 @@ pub struct Normalization {
 }
 
 impl Normalization {
-    /// Centroid to the origin, **root-mean-square** distance from it √2.
+    /// Moves the centroid to the origin and scales the **root-mean-square** distance from it to √2.
     ///
-    /// Some texts make the mean distance √2 instead; the results differ a little.
+    /// Some texts scale the mean distance instead; the results differ a little.
     ///
     /// # Errors
     /// [`Error::TooFew`] without points, [`Error::NotFinite`] for NaN and infinities,
@@ -68,7 +68,7 @@ impl Normalization {
         })
     }
 
-    /// The map that changes nothing.
+    /// Returns the identity map.
     pub fn identity() -> Self {
         Self {
             centroid: Point2::origin(),
@@ -76,7 +76,7 @@ impl Normalization {
         }
     }
 
-    /// Image of a point.
+    /// Maps a point.
     pub fn apply(&self, p: &Point2<f64>) -> Point2<f64> {
         Point2::from((p - self.centroid) * self.scale)
     }
@@ -91,7 +91,7 @@ impl Normalization {
         )
     }
 
-    /// T⁻¹.
+    /// Returns T⁻¹.
     #[rustfmt::skip]
     pub fn inverse_matrix(&self) -> Matrix3<f64> {
         let size = 1.0 / self.scale;

@@ -5,8 +5,8 @@ use crate::camera::{Camera, Observation};
 use crate::robust::MatchSet;
 use nalgebra::Point2;
 
-/// Different matches that both lenses see, and their observations in images 1 and 2, in the order
-/// of the set.
+/// Unique matches that both lenses see, and their observations in images 1 and 2, in the order of
+/// the set.
 #[derive(Debug, Clone)]
 pub(crate) struct ObservedMatches {
     pub(crate) matches: MatchSet,
@@ -14,7 +14,7 @@ pub(crate) struct ObservedMatches {
 }
 
 impl ObservedMatches {
-    /// Matches with a pixel that its lens bends no ray to are left out, as those that
+    /// Creates the matches; those with a pixel without a ray are left out, as are those that
     /// [`MatchSet::new`] leaves out.
     ///
     /// # Errors

@@ -1,18 +1,18 @@
-//! The second motion that a plane allows.
+//! The second motion past a plane.
 
 use crate::math::nearest_orthogonal;
 use nalgebra::{Matrix3, Vector3};
 
-/// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ; this gives the other
-/// one.
+/// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ. Computes one from the
+/// other.
 ///
-/// * `rotation`, `direction`: one of them, the direction of unit length
-/// * `homography`: of the plane, rays of camera 1 to rays of camera 2, at any scale
+/// * `rotation`, `direction`: one motion, its direction of unit length
+/// * `homography`: homography of the plane, from rays of camera 1 to rays of camera 2, at any scale
 ///
-/// Returns R' and t' of unit length; `None` if the camera does not move with regard to the plane,
-/// or the two are the same.
+/// Returns R' and t' of unit length; `None` if the camera does not move relative to the plane, or
+/// the two motions are the same.
 ///
-/// With u = Rᵀt, HᵀH = I + n wᵀ + w nᵀ for w = u + ½|u|² n: the normal and w may change places.
+/// With u = Rᵀt, HᵀH = I + n wᵀ + w nᵀ for w = u + ½|u|² n: the normal and w are interchangeable.
 ///
 /// Source: Longuet-Higgins 1986, "The reconstruction of a plane surface from two perspective
 /// projections".
@@ -21,11 +21,11 @@ pub(super) fn other_motion_of_plane(
     direction: &Vector3<f64>,
     homography: &Matrix3<f64>,
 ) -> Option<(Matrix3<f64>, Vector3<f64>)> {
-    // Across t, the homography is R at some scale.
+    // Perpendicular to t, the homography is R at some scale.
     let across = Matrix3::identity() - direction * direction.transpose();
     let (of_h, of_r) = (across * homography, across * rotation);
     let homography = homography * (of_h.dot(&of_r) / of_h.norm_squared());
-    // t nᵀ with |t| = 1; now the length goes to t.
+    // t nᵀ with |t| = 1; its length is that of the normal here.
     let scaled_normal = (homography - rotation).transpose() * direction;
     let length = scaled_normal.norm();
     let normal = scaled_normal.try_normalize(1e-9)?;
@@ -65,11 +65,11 @@ mod tests {
             let (other_r, other_t) =
                 other_motion_of_plane(&rotation, &direction, &(h * -2.5)).unwrap();
             assert!((other_r.transpose() * other_r - Matrix3::identity()).norm() < 1e-9);
-            // Another motion, for which H − R' is t' times a row.
+            // Another motion, for which H − R' has rank 1 with column t'.
             assert!((other_r - rotation).norm() > 1e-6);
             let rest = h - other_r;
             assert!((rest - other_t * (other_t.transpose() * rest)).norm() < 1e-9);
-            // And there and back.
+            // Applied twice, it returns to the first motion.
             let (r, t) = other_motion_of_plane(&other_r, &other_t, &h).unwrap();
             assert!((r - rotation).norm() < 1e-8 && t.cross(&direction).norm() < 1e-8);
         }
@@ -79,7 +79,7 @@ mod tests {
     fn a_turn_has_no_other_motion() {
         let turn = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3)).into_inner();
         assert_eq!(other_motion_of_plane(&turn, &Vector3::x(), &turn), None);
-        // Straight towards a plane: the normal and w are one.
+        // Straight towards a plane: the normal and w are parallel.
         let h = Matrix3::identity() + Vector3::z() * Vector3::z().transpose() * 0.2;
         let (r, t) = other_motion_of_plane(&Matrix3::identity(), &Vector3::z(), &h).unwrap();
         assert!((r - Matrix3::identity()).norm() < 1e-12 && t.cross(&Vector3::z()).norm() < 1e-12);

@@ -1,4 +1,4 @@
-//! Matches between two pinhole cameras, judged and refined eight at a time.
+//! Matches between two pinhole cameras, scored and refined eight at a time.
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::in_front::{self, Lenses};
@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Point2};
 pub(super) struct PinholeMatches {
     pixels: Coordinates,
     in_frame: Coordinates,
-    /// As `in_frame`, without what is behind a camera of the pose in hand.
+    /// As `in_frame`, without the matches behind a camera of the current pose.
     in_front: Coordinates,
     factors: Vec<f64>,
     frame: CommonFrame,
@@ -28,8 +28,8 @@ pub(super) struct PinholeMatches {
     k2: Intrinsics,
 }
 
-/// If a smaller share of the matches near their lines is in front of both cameras, the pose is
-/// wrong, not the matches, and refinement uses them all.
+/// Minimum fraction of the matches near their lines that are in front of both cameras. Below it,
+/// the pose is wrong rather than the matches, and refinement uses them all.
 const FEW_BEHIND: f64 = 0.8;
 
 impl PinholeMatches {
@@ -39,7 +39,7 @@ impl PinholeMatches {
         let in_frame = pixels.mapped(&frame);
         let mut in_front = in_frame.clone();
         let factors = vec![1.0; matches.len()];
-        // Takes the memory that the loop needs.
+        // Allocates the memory for the loop.
         in_front.weigh_as(&in_frame, &factors);
         Self {
             in_frame,
@@ -79,7 +79,7 @@ impl Sight for PinholeMatches {
         (pose, pose.fundamental_or_zeros(&self.k1, &self.k2))
     }
 
-    /// Of the line alone: whether a match is behind a camera depends on the threshold.
+    /// The line error only: whether a match is behind a camera depends on the threshold.
     fn error_sq(&self, (_, fundamental): &Candidate, index: usize) -> f64 {
         let [u1, v1, u2, v2] = self.pixels.at(index);
         sampson_sq(fundamental, &Point2::new(u1, v1), &Point2::new(u2, v2))

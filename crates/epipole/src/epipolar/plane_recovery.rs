@@ -1,4 +1,4 @@
-//! F when most matches lie on one plane.
+//! Recovery of F when most matches lie on one plane.
 
 use super::coordinates::Coordinates;
 use super::sampson::support;
@@ -11,9 +11,9 @@ use nalgebra::{Matrix3, Point2, Vector3};
 
 /// Replaces fundamental matrices from samples that lie mostly on a plane.
 ///
-/// Many fundamental matrices fit seven matches of which five or more are on a plane, and RANSAC
-/// draws these samples when a plane dominates. The plane's homography H is right, though, and two
-/// matches off the plane give the epipole: `F = [e2]ₓ H`.
+/// Many fundamental matrices fit seven matches if five or more are on a plane, and RANSAC draws
+/// these samples when a plane dominates. But the plane's homography H is correct, and two matches
+/// off the plane give the epipole: `F = [e2]ₓ H`.
 ///
 /// Source: Chum, Werner & Matas 2005, "Two-view geometry estimation unaffected by a dominant
 /// plane".
@@ -29,23 +29,23 @@ const TRIPLES: [[usize; 3]; 5] = [[0, 1, 2], [3, 4, 5], [0, 1, 6], [3, 4, 6], [2
 /// Maximum number of pairs off the plane to try.
 const MAX_PAIRS: usize = 400;
 
-/// Minimum share of the inliers on a dominant plane.
+/// Minimum fraction of the inliers on a dominant plane.
 const DOMINANT_SHARE: f64 = 0.75;
 
 /// Number of triples of inliers to try in search of a dominant plane: one in ten thousand searches
 /// finds no triple on it.
 const TRIPLES_TRIED: usize = 20;
 
-/// Inliers that a plane through a triple is tried on.
+/// Number of inliers on which the plane of a triple is tested.
 const INLIERS_TRIED: usize = 200;
 
 /// Maximum number of pairs off a dominant plane to try at the end.
 const MAX_LAST_PAIRS: usize = 4000;
 
-/// Epipoles from the best pairs that are refined.
+/// Number of epipoles of the best pairs to refine.
 const REFINED_EPIPOLES: usize = 8;
 
-/// Minimum gain in matches off the plane, in MSAC's counting, to replace a matrix.
+/// Minimum gain in matches off the plane, by the MSAC score, to replace a matrix.
 const CLEARLY_MORE: f64 = 1.0;
 
 impl PlaneRecovery {
@@ -56,7 +56,7 @@ impl PlaneRecovery {
         }
     }
 
-    /// A better matrix than `f` if the sample is on a plane; all in one frame.
+    /// Returns a better matrix than `f` if the sample is on a plane; all in one frame.
     pub(crate) fn recover(
         &mut self,
         matches: &Coordinates,
@@ -79,12 +79,12 @@ impl PlaneRecovery {
         self.best_epipole(matches, &homography, max_error, random)
     }
 
-    /// Fundamental matrices that fit a dominant plane as `f` does and more of the matches off it;
-    /// all in one frame, without a refinement. Empty where no plane dominates.
+    /// Returns fundamental matrices that fit a dominant plane as well as `f` and more matches off
+    /// it; all in one frame, not refined. Empty if no plane dominates.
     ///
-    /// The matches on the plane fit `[e2]ₓ H` for any e2. Their distances to its lines depend on
-    /// e2, though, and hundreds of them outweigh the few matches off the plane that determine e2:
-    /// the best sum belongs to an e2 that happens to suit the noise. So the plane's matches are not
+    /// The matches on the plane fit `[e2]ₓ H` for any e2. But their distances to its lines depend
+    /// on e2, and hundreds of them outweigh the few matches off the plane that determine e2: the
+    /// best sum belongs to an e2 that happens to suit the noise. So the plane's matches are not
     /// scored here.
     pub(crate) fn alternatives(
         &mut self,
@@ -106,7 +106,7 @@ impl PlaneRecovery {
         let mut try_pair = |first: usize, second: usize| {
             let pair = [self.off_plane[first], self.off_plane[second]];
             if let Some(f) = through_pair(matches, &homography, pair) {
-                // Two noisy matches place the epipole badly: look twice as far.
+                // Two noisy matches give a rough epipole, so the threshold is doubled.
                 let cost = self.cost_off_plane(matches, &f, 2.0 * max_error);
                 let place = ranked.partition_point(|(other, _)| *other <= cost);
                 if place < REFINED_EPIPOLES {
@@ -128,7 +128,7 @@ impl PlaneRecovery {
         ranked.into_iter().map(|(_, f)| f).collect()
     }
 
-    /// Whether `other` fits clearly more of the matches off the plane that was found last.
+    /// Returns whether `other` fits clearly more of the matches off the last plane.
     pub(crate) fn fits_more_off_plane(
         &self,
         matches: &Coordinates,
@@ -140,7 +140,7 @@ impl PlaneRecovery {
             < self.cost_off_plane(matches, than, max_error)
     }
 
-    /// MSAC's cost of the matches off the plane.
+    /// Returns the MSAC cost of the matches off the plane.
     fn cost_off_plane(&self, matches: &Coordinates, f: &Matrix3<f64>, max_error: f64) -> f64 {
         let per_threshold_sq = 1.0 / (max_error * max_error);
         let cost = |&i: &usize| {
@@ -178,7 +178,7 @@ impl PlaneRecovery {
                 best = Some((count, h));
             }
         }
-        // Three matches give a rough plane; the fit will find more.
+        // Three matches give a rough plane; the fit finds more.
         let (count, h) = best?;
         if (count as f64) < 0.5 * DOMINANT_SHARE * tried as f64 {
             return None;
@@ -188,7 +188,7 @@ impl PlaneRecovery {
         (count as f64 >= DOMINANT_SHARE * inliers.len() as f64).then_some(h)
     }
 
-    /// Collects the matches off the plane, without those so close to it that they hardly constrain
+    /// Collects the matches off the plane, except those so close to it that they hardly constrain
     /// the epipole.
     fn find_off_plane(&mut self, matches: &Coordinates, homography: &Matrix3<f64>, max_error: f64) {
         self.off_plane.clear();
@@ -230,7 +230,7 @@ impl PlaneRecovery {
         Some(h)
     }
 
-    /// The best `[e2]ₓ H` over pairs of matches off the plane.
+    /// Returns the best `[e2]ₓ H` over pairs of matches off the plane.
     fn best_epipole(
         &self,
         matches: &Coordinates,
@@ -270,7 +270,7 @@ impl PlaneRecovery {
     }
 }
 
-/// `[e2]ₓ H`, with the epipole where two matches off the plane put it.
+/// Returns `[e2]ₓ H` with the epipole from two matches off the plane.
 fn through_pair(matches: &Coordinates, h: &Matrix3<f64>, pair: [usize; 2]) -> Option<Matrix3<f64>> {
     let [first, second] = pair.map(|i| {
         let [u1, v1, u2, v2] = matches.at(i);
@@ -280,8 +280,8 @@ fn through_pair(matches: &Coordinates, h: &Matrix3<f64>, pair: [usize; 2]) -> Op
     Some(cross_matrix(&epipole2) * h)
 }
 
-/// The homography of the plane through three matches that agrees with F:
-/// `H = A − e2 (M⁻¹ b)ᵀ`, `A = [e2]ₓ F`.
+/// Returns the homography of the plane through three matches that agrees with F: `H = A − e2 (M⁻¹
+/// b)ᵀ`, `A = [e2]ₓ F`.
 ///
 /// Source: Hartley & Zisserman 2004, result 13.6.
 fn homography_of_triple(
@@ -308,7 +308,7 @@ fn homography_of_triple(
     h.iter().all(|x| x.is_finite()).then_some(h)
 }
 
-/// Squared distance in image 2; infinite where H sends the point to infinity.
+/// Returns the squared distance in image 2; infinite if H maps the point to infinity.
 fn transfer_error_sq(h: &Matrix3<f64>, [u1, v1, u2, v2]: [f64; 4]) -> f64 {
     let x = h * Vector3::new(u1, v1, 1.0);
     let (du, dv) = (x.x / x.z - u2, x.y / x.z - v2);

@@ -1,6 +1,6 @@
-//! Nonlinear refinement of F: the Sampson error by Levenberg–Marquardt. What the refinements of a
-//! pose (`refine_pose`) and of a pose with its focal length (`refine_focal`) share with it is here,
-//! too.
+//! Nonlinear refinement of F: minimizes the Sampson error by Levenberg–Marquardt. Also contains
+//! code shared with the refinements of a pose (`refine_pose`) and of a pose with focal length
+//! (`refine_focal`).
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::enforce_rank2;
@@ -13,19 +13,20 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 
-/// The fundamental matrix near `fundamental` that minimizes `½ Σ ρ(e²)` over the matches, where e
-/// is the Sampson error in pixels.
+/// Refines a fundamental matrix: minimizes `½ Σ ρ(e²)` over the matches, where e is the Sampson
+/// error in pixels.
 ///
-/// F is kept on the seven-dimensional set `U diag(1, σ, 0) Vᵀ` throughout.
+/// F stays on the seven-dimensional manifold `U diag(1, σ, 0) Vᵀ`.
 ///
-/// * `fundamental`: a start, from [`fundamental_8point`](super::fundamental_8point) for instance
-/// * `loss`: its width is in pixels
+/// * `fundamental`: initial value, for instance from
+///   [`fundamental_8point`](super::fundamental_8point)
+/// * `loss`: width in pixels
 ///
 /// # Errors
 /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 7 matches, [`Error::Degenerate`] for
-/// a start of rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`] refuses,
-/// [`Error::NotFinite`] for a start whose error is not a number at some match, and as
-/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
+/// an initial value of rank 1 or 0, [`Error::OutOfRange`] for a loss that [`RobustLoss::check`]
+/// rejects, [`Error::NotFinite`] for an initial value with a NaN error at some match, and as
+/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are rejected, as every match
 /// counts.
 ///
 /// Source: Bartoli & Sturm 2004, "Nonlinear estimation of the fundamental matrix with minimal
@@ -45,7 +46,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, SMatrix, SVector, Vector3};
 ///     p1.push(k.project(&x)?);
 ///     p2.push(k.project(&(cam2_from_cam1 * x))?);
 /// }
-/// // Half a pixel of noise, up and down by turns.
+/// // Half a pixel of noise, alternately up and down.
 /// let p2: Vec<_> = p2.iter().enumerate().map(|(i, p)| Point2::new(p.x, p.y + if i % 3 == 0 { 0.5 } else { -0.5 })).collect();
 /// let cost = |f: &Matrix3<f64>| p1.iter().zip(&p2).map(|(a, b)| sampson_px(f, a, b)).map(|e| e * e).sum::<f64>();
 /// let linear = fundamental_8point(&p1, &p2)?;
@@ -83,12 +84,12 @@ pub fn refine_fundamental(
     frame.fundamental_to_pixels(&refined)
 }
 
-/// Everything else was looked at before the refinement began.
+/// All other causes were checked before the refinement.
 pub(super) const NO_ERROR_AT_THE_START: Error = Error::NotFinite {
     what: "the Sampson error of every match at the start",
 };
 
-/// The same loss for residuals that are `factor` times as large.
+/// Returns the same loss for residuals scaled by `factor`.
 pub(crate) fn scaled(loss: RobustLoss, factor: f64) -> RobustLoss {
     match loss {
         RobustLoss::Trivial => loss,
@@ -104,7 +105,7 @@ pub(crate) fn scaled(loss: RobustLoss, factor: f64) -> RobustLoss {
     }
 }
 
-/// `Dᵀ H D` and `Dᵀ g`, where the columns of D are the derivatives of F's entries.
+/// Returns `Dᵀ H D` and `Dᵀ g`, where the columns of D are the derivatives of F's entries.
 pub(crate) fn project<const P: usize>(
     sums: &EntrySums,
     derivatives: &SMatrix<f64, 9, P>,
@@ -143,7 +144,7 @@ impl Factored {
             + self.u.column(1) * self.v.column(1).transpose() * self.sigma
     }
 
-    /// The derivatives of F's entries with respect to (rotation of U, rotation of V, σ), the
+    /// Returns the derivatives of F's entries by (rotation of U, rotation of V, σ), with the
     /// rotations acting from the left: `U ← exp([δ]ₓ) U`.
     pub(crate) fn derivatives(&self) -> SMatrix<f64, 9, 7> {
         let f = self.matrix();
@@ -241,7 +242,7 @@ mod tests {
         (fundamental_from_cameras(&cam1, &cam2).unwrap(), p1, p2)
     }
 
-    /// The Sampson residual with its sign, in the frame.
+    /// Returns the signed Sampson residuals, in the frame.
     fn residuals(coordinates: &Coordinates, f: &Matrix3<f64>) -> DVector<f64> {
         DVector::from_fn(coordinates.len(), |i, _| {
             let [u1, v1, u2, v2] = coordinates.at(i);
@@ -314,7 +315,7 @@ mod tests {
             ] {
                 let refused = loss.check().unwrap_err();
                 let refined = refine_fundamental(&f, &p1, &p2, loss).unwrap_err();
-                // Equal as sentences, since NaN does not equal itself.
+                // Compare as text, since NaN does not equal itself.
                 assert_eq!(refined.to_string(), refused.to_string());
                 let refined =
                     refine_relative_pose(&pose, &p1, &p2, [&camera; 2], loss).unwrap_err();

@@ -1,4 +1,4 @@
-//! Nonlinear refinement of a relative pose together with the focal length that both cameras share.
+//! Nonlinear refinement of a relative pose with the common focal length of both cameras.
 
 use super::RelativePose;
 use super::coordinates::{CommonFrame, Coordinates};
@@ -9,10 +9,10 @@ use crate::camera::cross_matrix;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimize_fixed};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
-/// Map from rays of cameras that share a focal length to coordinates of the common frame.
+/// Map from rays of cameras with a common focal length to coordinates of the common frame.
 #[derive(Debug, Clone)]
 pub(crate) struct FocalCenters {
-    /// Coordinates of the frame as pixels about the principal point, of images 1 and 2.
+    /// Maps from the frame to pixels about the principal point, for images 1 and 2.
     about: [Matrix3<f64>; 2],
 }
 
@@ -28,13 +28,14 @@ impl FocalCenters {
         }
     }
 
-    /// `F = A2ᵀ D E D A1`, D = diag(1, 1, f): that of K⁻¹, times f², which F does not see.
+    /// Computes `F = A2ᵀ D E D A1`, D = diag(1, 1, f): K⁻¹ times f, since the scale of F is
+    /// arbitrary.
     fn fundamental(&self, essential: &Matrix3<f64>, focal_px: f64) -> Matrix3<f64> {
         let d = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, focal_px));
         self.about[1].transpose() * (d * essential * d) * self.about[0]
     }
 
-    /// Its derivative by log f.
+    /// Returns its derivative by log f.
     fn by_log_focal(&self, essential: &Matrix3<f64>, focal_px: f64) -> Matrix3<f64> {
         let d = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, focal_px));
         let slope = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, focal_px));
@@ -91,10 +92,10 @@ impl FixedProblem<6> for FocalProblem<'_> {
     }
 }
 
-/// The standard deviation of the focal length, as a share of it: that of the errors, and how they
-/// depend on all six parameters. `None` if they do not determine it.
+/// Returns the relative standard deviation of the focal length, from the errors and their
+/// dependence on all six parameters. `None` if they do not determine it.
 ///
-/// * `num_matches`: there are so many in the coordinates, all of them inliers
+/// * `num_matches`: number of matches in the coordinates, all inliers
 pub(crate) fn relative_focal_deviation(
     coordinates: &Coordinates,
     num_matches: usize,
@@ -114,7 +115,7 @@ pub(crate) fn relative_focal_deviation(
     share.is_finite().then_some(share)
 }
 
-/// Refines a relative pose together with the focal length that both cameras share.
+/// Refines a relative pose together with the common focal length of both cameras.
 pub(crate) fn refine_pose_and_focal_in_frame(
     coordinates: &Coordinates,
     centers: &FocalCenters,
@@ -161,7 +162,7 @@ mod tests {
             let rotation = Rotation3::from_scaled_axis(turn).into_inner();
             let direction = Vector3::from_fn(|_, _| random.normal()).normalize();
             let model = ((rotation, direction), random.uniform(300.0, 1500.0));
-            // F is millions of px²: as large as 1, as differences want it.
+            // F has entries of millions of px²: scale to 1 for finite differences.
             let scale = 1.0 / problem.fundamental(&model).amax();
             let at = |delta: &DVector<f64>| {
                 let delta = SVector::<f64, 6>::from_column_slice(delta.as_slice());
@@ -170,7 +171,7 @@ mod tests {
             };
             let analytic = problem.derivatives(&model) * scale;
             let analytic = DMatrix::from_column_slice(9, 6, analytic.as_slice());
-            // The focal length alone must matter, or its column would prove nothing.
+            // The focal length must have an effect, or its column would prove nothing.
             assert!(analytic.column(5).amax() > 1e-3);
             let off = check_jacobian(&analytic, &at, 1e-6);
             assert!(off < 1e-7, "{off:e}");

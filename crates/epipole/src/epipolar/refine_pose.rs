@@ -1,4 +1,4 @@
-//! Nonlinear refinement of a relative pose: the Sampson error by Levenberg–Marquardt.
+//! Nonlinear refinement of a relative pose: minimizes the Sampson error by Levenberg–Marquardt.
 
 use super::coordinates::{CommonFrame, Coordinates};
 use super::refine::{flatten, project};
@@ -11,10 +11,10 @@ use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
 /// Sampson errors of some matches, as functions of a matrix.
 pub(super) trait SampsonErrors {
-    /// The matrix that measures the errors of a motion; linear in its essential matrix.
+    /// Returns the matrix for the errors of a motion; linear in its essential matrix.
     fn matrix(&self, essential: &Matrix3<f64>) -> Matrix3<f64>;
 
-    /// The errors and their derivatives by the entries of the matrix.
+    /// Returns the errors and their derivatives by the entries of the matrix.
     fn linearize(&self, matrix: &Matrix3<f64>) -> EntrySums;
 
     /// `½ Σ ρ(e²)`.
@@ -36,7 +36,7 @@ impl RaysInFrame {
         }
     }
 
-    /// A homography of the frame as one of rays.
+    /// Converts a homography of the frame to rays.
     pub(super) fn ray_homography(&self, in_frame: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         Some(self.a2t.transpose() * in_frame * self.a1.try_inverse()?)
     }
@@ -66,14 +66,14 @@ impl SampsonErrors for ErrorsInFrame<'_> {
 /// Rotation and direction of a motion.
 pub(super) type Pose = (Matrix3<f64>, Vector3<f64>);
 
-/// Two unit vectors that span the plane perpendicular to a unit vector.
+/// Returns two unit vectors that span the plane perpendicular to a unit vector.
 fn tangent_plane(direction: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let first = perpendicular(direction);
     [first, direction.cross(&first)]
 }
 
-/// The derivatives of E = [t]ₓR with respect to a rotation from the left, `R ← exp([δ]ₓ) R`, and
-/// to steps of t along its tangent plane.
+/// Returns the derivatives of E = [t]ₓR by a rotation from the left, `R ← exp([δ]ₓ) R`, and by
+/// steps of t in its tangent plane.
 pub(crate) fn essential_derivatives(
     rotation: &Matrix3<f64>,
     direction: &Vector3<f64>,
@@ -89,12 +89,12 @@ pub(crate) fn essential_derivatives(
     ]
 }
 
-/// The directions in which refinement moves a pose.
+/// Free directions of a pose in refinement.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Steps {
     /// All five.
     Free,
-    /// Turns about gravity, a unit vector in the frame of camera 2, and the direction.
+    /// Rotation about gravity, a unit vector in the frame of camera 2, and the direction of t.
     AboutGravity(Vector3<f64>),
 }
 
@@ -112,7 +112,7 @@ impl Steps {
     }
 }
 
-/// A pose that moves along N directions, the columns of `steps`.
+/// A pose with steps along N directions, the columns of `steps`.
 struct PoseProblem<'a, E, const N: usize> {
     errors: &'a E,
     steps: SMatrix<f64, 5, N>,
@@ -153,7 +153,7 @@ impl<E: SampsonErrors, const N: usize> FixedProblem<N> for PoseProblem<'_, E, N>
     }
 }
 
-/// As [`essential_derivatives`] has the parameters.
+/// Moves a pose; parameters as in [`essential_derivatives`].
 pub(super) fn moved_pose((rotation, direction): &Pose, delta: &SVector<f64, 5>) -> Pose {
     let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
     let [b1, b2] = tangent_plane(direction);
@@ -163,7 +163,7 @@ pub(super) fn moved_pose((rotation, direction): &Pose, delta: &SVector<f64, 5>) 
     )
 }
 
-/// The pose near a start that minimizes the errors; `None` if their sum is not finite there.
+/// Refines an initial pose; `None` if its cost is not finite.
 pub(super) fn refine_pose(
     errors: &impl SampsonErrors,
     start: Pose,
@@ -187,7 +187,7 @@ fn minimized<const N: usize>(
     orthogonal(&pose)
 }
 
-/// Products of many rotations drift from orthogonality.
+/// Restores orthogonality, which products of many rotations lose.
 pub(super) fn orthogonal((rotation, direction): &Pose) -> Option<Pose> {
     let rotation = nearest_orthogonal(rotation);
     let mut entries = rotation.iter().chain(direction.iter());

@@ -1,4 +1,4 @@
-//! Refinement of a relative pose by all matches.
+//! Refinement of a relative pose with all matches.
 
 use super::RelativePose;
 use super::coordinates::{CommonFrame, Coordinates};
@@ -12,20 +12,19 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::Point2;
 
-/// The relative pose near `pose` that minimizes `½ Σ ρ(e²)` over the matches, where e is the
-/// Sampson error in pixels.
+/// Refines a relative pose: minimizes `½ Σ ρ(e²)` over the matches, where e is the Sampson error in
+/// pixels.
 ///
-/// * `cameras`: the two cameras, of any lens; e is the [tangent Sampson
-///   error](super::tangent_sampson_px) then
+/// * `cameras`: the two cameras; for lenses other than pinholes e is the [tangent Sampson
+///   error](super::tangent_sampson_px)
 ///
-/// The rotation and the direction of the translation, five parameters, are refined.
+/// Rotation and direction of the translation, five parameters, are refined.
 ///
 /// # Errors
 /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 5 matches, [`Error::OutOfRange`] for
-/// a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`] for a start whose error is not a
-/// number at some match, [`Error::Degenerate`] for a pixel that its lens bends no ray to, and as
-/// [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as every match
-/// counts.
+/// a loss that [`RobustLoss::check`] rejects, [`Error::NotFinite`] for an initial pose with a NaN
+/// error at some match, [`Error::Degenerate`] for a pixel without a ray, and as [`MatchSet::new`];
+/// infinities and coordinates beyond 10⁹ pixels are rejected, as every match counts.
 ///
 /// Source: Hartley & Zisserman 2004, §11.4.3, with `E = [t]ₓR` instead of F.
 ///
@@ -43,7 +42,7 @@ use nalgebra::Point2;
 ///     p1.push(camera.project(&x)?);
 ///     p2.push(camera.project(&(cam2_from_cam1 * x))?);
 /// }
-/// // A start that is off by 0.05 rad and looks straight to the side.
+/// // An initial pose that is off by 0.05 rad and looks straight to the side.
 /// let start = RigidTransform::new(Vector3::new(-1.0, 0.0, 0.0), Vector3::new(0.0, 0.05, 0.0));
 /// let start = RelativePose::from_motion(&start)?;
 /// let refined = refine_relative_pose(&start, &p1, &p2, [&camera; 2], RobustLoss::Trivial)?.cam2_from_cam1();

@@ -1,4 +1,4 @@
-//! The motion between two cameras, up to the length of the step.
+//! Relative pose of two cameras, up to the length of the translation.
 
 use super::from_cameras::NO_BASELINE;
 use super::{essential_from_motion, fundamental_from_essential};
@@ -7,7 +7,7 @@ use crate::camera::{Intrinsics, RigidTransform, cross_matrix};
 use crate::math::scaling::unit;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-/// The motion between two calibrated cameras, up to the length of the translation.
+/// Motion between two calibrated cameras, up to the length of the translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativePose {
     /// R of `cam2_from_cam1`.
@@ -17,10 +17,10 @@ pub struct RelativePose {
 }
 
 impl RelativePose {
-    /// The pose of a motion; the length of t is dropped.
+    /// Creates the pose of a motion; the length of t is dropped.
     ///
     /// # Errors
-    /// As [`essential_from_motion`]; a motion without a step has no direction.
+    /// As [`essential_from_motion`]; a motion without translation has no direction.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -40,12 +40,13 @@ impl RelativePose {
         })
     }
 
-    /// `[t]ₓ R` with unit Frobenius norm.
+    /// Returns `[t]ₓ R` with unit Frobenius norm.
     pub fn essential(&self) -> Matrix3<f64> {
         cross_matrix(&self.direction) * self.rotation * core::f64::consts::FRAC_1_SQRT_2
     }
 
-    /// F of the pixels of pinhole cameras with intrinsics `k1` and `k2`, unit Frobenius norm.
+    /// Returns F of the pixels of pinhole cameras with intrinsics `k1` and `k2`, unit Frobenius
+    /// norm.
     ///
     /// # Errors
     /// As [`fundamental_from_essential`].
@@ -68,13 +69,13 @@ impl RelativePose {
         fundamental_from_essential(&essential, k1, k2)
     }
 
-    /// F of a candidate that is yet to be judged: zeros, which no match fits, where there is none.
+    /// Returns F of an unscored candidate: if there is none, zeros, which no match fits.
     pub(crate) fn fundamental_or_zeros(&self, k1: &Intrinsics, k2: &Intrinsics) -> Matrix3<f64> {
         self.fundamental(k1, k2)
             .unwrap_or_else(|_| Matrix3::zeros())
     }
 
-    /// The same rotation with a step the other way.
+    /// Reverses the direction of the translation.
     pub(super) fn back(self) -> Self {
         Self {
             direction: -self.direction,
@@ -82,7 +83,7 @@ impl RelativePose {
         }
     }
 
-    /// R and t as a transform; t has length 1.
+    /// Returns R and t as a transform; t has length 1.
     pub fn cam2_from_cam1(&self) -> RigidTransform {
         let rotation = Rotation3::from_matrix_unchecked(self.rotation);
         RigidTransform::from_parts(
@@ -93,7 +94,7 @@ impl RelativePose {
 }
 
 impl From<(Matrix3<f64>, Vector3<f64>)> for RelativePose {
-    /// From R and a t of length 1.
+    /// Creates a pose from R and a t of length 1.
     fn from((rotation, direction): (Matrix3<f64>, Vector3<f64>)) -> Self {
         Self {
             rotation,

@@ -1,4 +1,4 @@
-//! The Sampson error over many matches at once: for scoring and for least squares.
+//! Sampson errors of many matches, for scoring and least squares.
 
 use super::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use super::judge::{self, LaneErrors, weigh};
@@ -66,7 +66,7 @@ dispatched! {
     }
 }
 
-/// The sums of least squares with respect to the nine entries of F, row by row.
+/// Sums for least squares in the nine entries of F, row by row.
 #[derive(Debug, Clone)]
 pub(crate) struct EntrySums {
     pub(crate) hessian: SMatrix<f64, 9, 9>,
@@ -85,7 +85,7 @@ dispatched! {
         let f = entries(fundamental);
         let mut products = Aligned([[0.0; LANES]; 45]);
         let mut gradient = Aligned([[0.0; LANES]; 9]);
-        // All of it is written for each group, so it is cleared once.
+        // Each group overwrites all of it, so it is cleared once.
         let mut jacobian = [[0.0; LANES]; 9];
         let mut total = [0.0; LANES];
         for start in (0..coordinates.len()).step_by(LANES) {
@@ -116,7 +116,7 @@ dispatched! {
             }
             let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             if count < LANES {
-                // Lanes beyond the end may hold anything, even NaN.
+                // Lanes beyond the end may hold any values, even NaN.
                 for l in count..LANES {
                     residual[l] = 0.0;
                     for entry in &mut jacobian {

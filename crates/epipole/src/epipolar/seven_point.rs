@@ -7,7 +7,7 @@ use crate::math::polynomial::cubic_roots;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2};
 
-/// The row of the linear system `row · f = 0` that one match gives, with f the nine entries of F
+/// Returns the row of the linear system `row · f = 0` of one match, with f the nine entries of F
 /// row by row: `(u2 u1, u2 v1, u2, v2 u1, v2 v1, v2, u1, v1, 1)`.
 ///
 /// Source: Hartley & Zisserman 2004, equation 11.2.
@@ -32,16 +32,16 @@ pub fn epipolar_row(x1: &Point2<f64>, x2: &Point2<f64>) -> [f64; 9] {
     ]
 }
 
-/// The one to three fundamental matrices that seven matches satisfy exactly.
+/// Solves for the one to three fundamental matrices that seven matches satisfy exactly.
 ///
 /// The matches leave a pencil `F1 + λ F2` of matrices, and `det(F1 + λ F2) = 0` is a cubic in λ.
 /// Points are normalized first (root-mean-square distance √2).
 ///
-/// * `pixels1`, `pixels2`: matching pixels, pixel by pixel
+/// * `pixels1`, `pixels2`: matching pixels
 ///
-/// Returns an empty list for NaN and infinities, where two matches are equal, and where all points
-/// of an image are. Seven matches that leave more than a pencil otherwise, such as matches of a
-/// plane, give some of the solutions.
+/// Returns an empty list for NaN and infinities, if two matches are equal, or if all points of an
+/// image are. If seven matches leave more than a pencil otherwise, as for a plane, returns some of
+/// the solutions.
 ///
 /// Source: Hartley & Zisserman 2004, §11.1.2.
 ///
@@ -88,7 +88,7 @@ pub fn fundamental_7point(
         .collect()
 }
 
-/// The solutions of seven rows, not scaled.
+/// Solves seven rows; the solutions are not scaled.
 pub(crate) fn seven_point_rows(rows: &[[f64; 9]; 7]) -> ([Matrix3<f64>; 3], usize) {
     let [f, g]: [[f64; 9]; 2] = null_space(*rows);
     // det(f + λ g) by the multilinearity of the determinant in its rows: the minors of the lower
@@ -154,8 +154,8 @@ mod tests {
         core::array::from_fn(|i| Point2::new(flat[2 * i], flat[2 * i + 1]))
     }
 
-    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, there from
-    /// Matlab.
+    /// The values of COLMAP's src/colmap/estimators/solvers/fundamental_matrix_test.cc, originally
+    /// from Matlab.
     #[test]
     fn published_reference() {
         let p1 = points(&[
@@ -186,7 +186,7 @@ mod tests {
         let bad = [Point2::new(f64::NAN, 0.0); 7];
         assert!(fundamental_7point(&same, &same).is_empty());
         assert!(fundamental_7point(&bad, &line).is_empty());
-        // Six different matches are too few, wherever the repeated one stands.
+        // Six unique matches are too few, wherever the repeated one is.
         let mut random = Random::new(4);
         let mut anywhere =
             || core::array::from_fn(|_| Point2::new(random.normal(), random.normal()));

@@ -1,4 +1,4 @@
-//! Matches as two calibrated cameras saw them.
+//! Matches between two calibrated cameras.
 
 use super::RelativePose;
 use super::refine_pose::Steps;
@@ -6,26 +6,26 @@ use crate::math::random::Random;
 use crate::robust::Support;
 use nalgebra::Matrix3;
 
-/// A pose, and the matrix that measures its errors: F of the pixels of pinhole cameras, E of the
-/// rays of others.
+/// A pose, and the matrix for its errors: F of the pixels of pinhole cameras, E of the rays of
+/// other lenses.
 pub(super) type Candidate = (RelativePose, Matrix3<f64>);
 
-/// Errors of matches between two cameras: how a pose is judged and refined. Errors are in pixels.
+/// Scoring and refinement of poses by matches between two cameras. Errors are in pixels.
 pub(super) trait Sight: core::fmt::Debug + Send + Sync {
-    /// A pose with its matrix.
+    /// Returns a pose with its matrix.
     fn candidate(&self, pose: RelativePose) -> Candidate;
 
     /// The squared error of a match.
     fn error_sq(&self, candidate: &Candidate, index: usize) -> f64;
 
-    /// Support among the matches in front of both cameras; stops once the cost exceeds
+    /// Returns the support among the matches in front of both cameras; stops once the cost exceeds
     /// `cost_limit`.
     fn support(&self, candidate: &Candidate, max_error_px: f64, cost_limit: f64) -> Support;
 
     /// Fills `inliers` with the matches within the threshold, in front of both cameras.
     fn inliers(&self, candidate: &Candidate, max_error_px: f64, inliers: &mut Vec<usize>);
 
-    /// The pose that minimizes the truncated errors.
+    /// Returns the pose that minimizes the truncated errors.
     fn refine(
         &mut self,
         candidate: &Candidate,
@@ -34,7 +34,7 @@ pub(super) trait Sight: core::fmt::Debug + Send + Sync {
         steps: &Steps,
     ) -> Option<Candidate>;
 
-    /// The pose that minimizes the weighted errors of some matches.
+    /// Returns the pose that minimizes the weighted errors of some matches.
     fn polish(
         &self,
         candidate: &Candidate,
@@ -43,7 +43,7 @@ pub(super) trait Sight: core::fmt::Debug + Send + Sync {
         steps: &Steps,
     ) -> Option<Candidate>;
 
-    /// The homography of rays of a plane that holds most inliers, if there is one.
+    /// Returns the homography of rays of a plane that holds most inliers, if any.
     fn dominant_plane(
         &mut self,
         candidate: &Candidate,

@@ -1,4 +1,4 @@
-//! The motion between two cameras that know where down is, from three matches.
+//! Relative pose from three matches with known gravity.
 
 use super::five_point::side_in_front;
 use crate::camera::RigidTransform;
@@ -7,33 +7,33 @@ use crate::math::scaling::unit;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// At most so many solutions.
+/// Maximum number of solutions.
 pub(super) const MAX_SOLUTIONS: usize = 4;
 
-/// An extremum of the polynomial this near to zero is taken for a double root.
+/// Maximum value of an extremum of the polynomial to count as a double root.
 const NEARLY_TOUCHING: f64 = 1e-10;
 
-/// Rows of length 1 whose cross products are shorter than this leave the direction open.
+/// Minimum length of cross products of unit rows to determine the direction.
 const NO_DIRECTION: f64 = 1e-12;
 
-/// A leading coefficient below this share of the largest one is zero but for rounding.
+/// Relative size of a leading coefficient below which it is zero up to rounding.
 const NO_LEADING: f64 = 1e-12;
 
-/// The motions `cam2_from_cam1`, with t of length 1, at most four, that three matches and the
-/// direction of gravity allow.
+/// Solves for the motions `cam2_from_cam1`, at most four, with t of length 1, from three matches
+/// and the direction of gravity.
 ///
-/// With both cameras turned upright only the turn about the vertical, by θ, and the direction of t
-/// are left. A match says that t is orthogonal to `R x1 × x2`, and three such rows have a null
-/// vector: their determinant, of degree six in tan(θ/2), has the factor 1 + tan²(θ/2), and a
-/// quartic is left.
+/// With both cameras leveled, only the rotation about the vertical by θ and the direction of t are
+/// unknown. A match requires t to be orthogonal to `R x1 × x2`, and three of these rows have a null
+/// vector: their determinant has degree six in tan(θ/2) and the factor 1 + tan²(θ/2), so a quartic
+/// remains.
 ///
 /// * `rays1`, `rays2`: matching rays in the frames of cameras 1 and 2; their lengths do not matter
-/// * `gravity1`, `gravity2`: the same direction of the world in the frames of both cameras, of any
-///   length: down, as an accelerometer has it, or up
+/// * `gravity1`, `gravity2`: the same world direction in the frames of both cameras, with any
+///   length: down or up, as from an accelerometer
 ///
 /// Only motions that put the three points in front of both cameras are returned. The list is empty
-/// for a camera that only turned, for points at infinity, where matches are equal or nearly so, and
-/// for input that is not finite or a gravity without direction.
+/// for a camera that only rotated, for points at infinity, for equal or nearly equal matches, and
+/// for input that is not finite or zero gravity vectors.
 ///
 /// Source: Fraundorfer, Tanskanen & Pollefeys 2010, "A minimal case solution to the calibrated
 /// relative pose problem for the case of two known orientation angles".
@@ -76,7 +76,7 @@ pub fn relative_pose_3point(
     solutions
 }
 
-/// The turns that make both cameras upright: gravity becomes the y axis.
+/// Rotations that level both cameras: gravity becomes the y axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Upright {
     from_cam1: Matrix3<f64>,
@@ -86,13 +86,13 @@ pub(super) struct Upright {
 }
 
 impl Upright {
-    /// `None` for a gravity without direction.
+    /// Returns `None` for zero gravity vectors.
     pub(super) fn new(gravity1: &Vector3<f64>, gravity2: &Vector3<f64>) -> Option<Self> {
         let turn = |gravity: &Vector3<f64>| -> Option<(Vector3<f64>, Matrix3<f64>)> {
             let down = unit(gravity)?;
             let y = Vector3::y();
             let turn = Rotation3::rotation_between(&down, &y)
-                // From upside down, any half turn about a horizontal axis will do.
+                // From upside down, any 180° rotation about a horizontal axis will do.
                 .unwrap_or_else(|| {
                     Rotation3::from_matrix_unchecked(Matrix3::from_diagonal(&Vector3::new(
                         1.0, -1.0, -1.0,
@@ -108,15 +108,15 @@ impl Upright {
         })
     }
 
-    /// The rotation from camera 1 to camera 2 whose turn about the vertical has this cosine and
-    /// sine.
+    /// Returns the rotation from camera 1 to camera 2 with this cosine and sine of the angle about
+    /// the vertical.
     fn rotation(&self, cos: f64, sin: f64) -> Matrix3<f64> {
         let about_y = Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos);
         self.from_cam2.transpose() * about_y * self.from_cam1
     }
 }
 
-/// The same for rays of length 1: (R, t).
+/// Solves for unit rays: returns (R, t).
 pub(super) fn solve(
     rays1: &[Vector3<f64>; 3],
     rays2: &[Vector3<f64>; 3],
@@ -166,7 +166,7 @@ pub(super) fn solve(
     solutions
 }
 
-/// The determinant of three rows of quadratics, without its factor 1 + q².
+/// Returns the determinant of three rows of quadratics, without its factor 1 + q².
 fn quartic(rows: &[[[f64; 3]; 3]; 3]) -> [f64; 5] {
     let mut determinant = [0.0; 7];
     let terms = [
@@ -187,12 +187,12 @@ fn quartic(rows: &[[[f64; 3]; 3]; 3]) -> [f64; 5] {
         }
     }
     let d = determinant;
-    // Divided from both ends; the middle one comes out twice.
+    // Divided from both ends; the middle one is obtained twice.
     let middle = 0.5 * ((d[2] - d[0]) + (d[4] - d[6]));
     [d[0], d[1], middle, d[5], d[6]]
 }
 
-/// The direction of t, up to its sign: orthogonal to `R x1 × x2` of all matches.
+/// Returns the direction of t, up to its sign: orthogonal to `R x1 × x2` of all matches.
 fn direction(
     rotation: &Matrix3<f64>,
     rays1: &[Vector3<f64>; 3],
@@ -233,7 +233,7 @@ mod tests {
             total += solutions.len();
             found += usize::from(solutions.iter().any(|s| off(s, &motion) < 1e-6));
             for s in &solutions {
-                // Down stays down, and the rays meet.
+                // Gravity is preserved, and the rays meet.
                 let tilt = (s.rotation * gravity).angle(&(motion.rotation * gravity));
                 assert!(tilt < 1e-6, "{tilt:e}");
                 for (a, b) in rays1.iter().zip(&rays2) {
@@ -246,7 +246,7 @@ mod tests {
         assert!(found >= 9990, "{found}");
     }
 
-    /// Upside down, and half a turn about the vertical.
+    /// Upside down, and rotated by 180° about the vertical.
     #[test]
     fn special_turns() {
         let mut random = Random::new(2);
@@ -257,7 +257,7 @@ mod tests {
                 for _ in 0..200 {
                     let t = Vector3::from_fn(|_, _| random.normal()).normalize();
                     let motion = RigidTransform::from_parts(t.into(), rotation);
-                    // In front of camera 1, and of camera 2 wherever that looks.
+                    // In front of camera 1, and of camera 2 for any direction.
                     let rays: [_; 3] = core::array::from_fn(|_| {
                         let x = Vector3::from_fn(|_, _| 4.0 * random.normal());
                         (x, motion.rotation * x + t)
@@ -324,7 +324,7 @@ mod tests {
             r[1].x = bad;
             none(&r, &rays2, &g1);
         }
-        // Any rays with any gravity: motions that are numbers, or none.
+        // Random rays with random gravity: finite motions, or none.
         for _ in 0..2000 {
             let mut any = || -> [Vector3<f64>; 3] { [(); 3].map(|()| down(&mut random)) };
             let (a, b, c) = (any(), any(), any());

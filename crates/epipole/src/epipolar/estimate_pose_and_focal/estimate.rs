@@ -1,4 +1,4 @@
-//! The search for the model that most matches agree with.
+//! Robust estimation of relative pose and focal length.
 
 use super::focal_estimator::{FocalEstimator, NAME};
 use super::pose_with_focal::PoseWithFocal;
@@ -39,7 +39,7 @@ impl FocalEstimator {
         is_usable.then(|| PoseWithFocal::new(pose, focal_px, &self.centers))?
     }
 
-    /// The standard deviation of the focal length of a model, from its inliers.
+    /// Returns the standard deviation of the focal length of a model, from its inliers.
     fn focal_std_px(&self, model: &PoseWithFocal, max_error_px: f64) -> Option<f64> {
         let mut inliers = Vec::new();
         self.inliers(model, max_error_px, &mut inliers);
@@ -139,23 +139,23 @@ impl Estimator for FocalEstimator {
     }
 }
 
-/// The relative pose and the focal length of two cameras that share it, as most matches have it.
+/// Estimates the relative pose and the common focal length of two cameras on which most matches
+/// agree.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
-/// * `principal1`, `principal2`: the principal points, pixels: the middles of the images, for most
-///   cameras
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
+/// * `principal1`, `principal2`: principal points, pixels: for most cameras the image centers
 /// * `options`: [`RansacOptions::max_error_px`] bounds the Sampson error of an inlier
 ///
-/// Of the four motions that the essential matrix allows, the one that puts the most inliers in
-/// front of both cameras is returned. Where the axes of the cameras are nearly parallel, or meet at
-/// the same distance from both cameras, as when both look at one thing from the same distance, any
-/// focal length fits nearly as well: [`PoseWithFocal::tells_focal`] says no, and rotation and
-/// direction are the poorer for it, too.
+/// Of the four motions that the essential matrix allows, returns the one with the most inliers in
+/// front of both cameras. If the optical axes are nearly parallel, or meet at the same distance
+/// from both cameras, as when both look at one object from the same distance, any focal length fits
+/// nearly as well: then [`PoseWithFocal::tells_focal`] is false, and rotation and direction are
+/// less accurate.
 ///
 /// # Errors
 /// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than
-/// 6 matches, [`Error::Degenerate`] if all pixels of an image lie on one line, or are equal,
-/// [`Error::NotFinite`] for principal points that are not.
+/// 6 matches, [`Error::Degenerate`] if all pixels of an image are equal or on one line,
+/// [`Error::NotFinite`] for principal points that are not finite.
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point), the minimal solver.
 ///

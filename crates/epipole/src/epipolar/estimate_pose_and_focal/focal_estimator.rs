@@ -1,4 +1,4 @@
-//! Matches and principal points, prepared for the estimation.
+//! Matches and principal points for the estimation of the focal length.
 
 use crate::camera::plausible_focals_px;
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
@@ -9,15 +9,15 @@ use crate::{Error, Result};
 use core::ops::Range;
 use nalgebra::Point2;
 
-/// Relative poses of two cameras with one unknown focal length from matches.
+/// Estimator of relative poses of two cameras with a common unknown focal length.
 ///
-/// A sample is six matches, and of its solutions only those are looked at that put the six points
-/// in front of both cameras, and whose focal length is plausible: at least a fifth of the distance
-/// from the principal points within which three of four matches are, and at most twenty times that
-/// of the farthest. The error is the Sampson error in pixels; refinement minimizes it over
-/// rotation, direction and focal length. In the end the best motions for focal lengths over the
-/// plausible range are compared with the model, since samples may all lead to the valley of a wrong
-/// one. Equal matches count once.
+/// A sample is six matches, and only solutions with the six points in front of both cameras and a
+/// plausible focal length are scored: at least a fifth of the distance from the principal points
+/// within which three quarters of the matches are, and at most twenty times the distance of the
+/// farthest match. The error is the Sampson error in pixels; refinement minimizes it over rotation,
+/// direction and focal length. At the end the model is compared with the best motions for focal
+/// lengths over the plausible range, since all samples may lead to the valley of a wrong one. Equal
+/// matches count once.
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point).
 #[derive(Debug, Clone)]
@@ -36,12 +36,12 @@ pub(super) const NAME: &str = "a relative pose with a focal length from matches"
 impl FocalEstimator {
     /// Prepares the estimation.
     ///
-    /// * `principal1`, `principal2`: the principal points of the two images, pixels
+    /// * `principal1`, `principal2`: principal points of the two images, pixels
     ///
     /// # Errors
     /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 6 matches, [`Error::Degenerate`]
-    /// if all pixels of an image lie on one line, or are equal, [`Error::NotFinite`] for principal
-    /// points that are not.
+    /// if all pixels of an image are equal or on one line, [`Error::NotFinite`] for principal
+    /// points that are not finite.
     pub(super) fn new(
         matches: MatchSet,
         principal1: &Point2<f64>,
@@ -73,7 +73,7 @@ impl FocalEstimator {
         })
     }
 
-    /// The same problem with some of the matches; `None` for fewer than 6.
+    /// Restricts the problem to some of the matches; `None` for fewer than 6.
     pub(in crate::epipolar) fn subset(&self, indices: &[usize]) -> Option<Self> {
         let pairs = indices.iter().map(|index| self.matches.pair(*index));
         let (pixels1, pixels2): (Vec<_>, Vec<_>) = pairs.unzip();

@@ -1,4 +1,4 @@
-//! The relative pose and the focal length from matches of which many are wrong.
+//! Robust estimation of relative pose and focal length from matches.
 
 mod estimate;
 mod focal_estimator;

@@ -1,29 +1,30 @@
-//! A relative pose together with the focal length of both cameras.
+//! Relative pose with the focal length of both cameras.
 
 use crate::camera::Intrinsics;
 use crate::epipolar::RelativePose;
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// The motion between two cameras that share a focal length, up to the length of the translation.
+/// Motion between two cameras with a common focal length, up to the length of the translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseWithFocal {
     /// The motion.
     pub pose: RelativePose,
     /// F of the pixels, unit Frobenius norm.
     pub fundamental: Matrix3<f64>,
-    /// The focal length of both cameras, pixels.
+    /// Focal length of both cameras, pixels.
     pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it,
-    /// there and at other focal lengths that explain the matches nearly as well. `None` for a
-    /// candidate that is yet to be judged, and where the focal length makes no difference at all.
+    /// Standard deviation of the focal length, pixels, from the errors of the inliers and their
+    /// dependence on the focal length, at this value and at others that explain the matches nearly
+    /// as well. `None` for a candidate that is not yet scored, and if the focal length has no
+    /// effect.
     pub focal_std_px: Option<f64>,
 }
 
-/// A focal length whose standard deviation is a larger share of it says no more than a guess.
+/// Relative standard deviation above which a focal length is no better than a guess.
 const TELLING: f64 = 0.1;
 
 impl PoseWithFocal {
-    /// Whether the matches tell the focal length, to a tenth of it.
+    /// Returns whether the matches determine the focal length to within a tenth.
     pub fn tells_focal(&self) -> bool {
         self.focal_std_px
             .is_some_and(|std_px| std_px < TELLING * self.focal_px)

@@ -1,6 +1,6 @@
-//! The ten cubic equations that make a matrix of a four-dimensional space essential.
+//! The ten cubic equations for an essential matrix in a four-dimensional space.
 
-/// A linear form in (x, y, z, 1), a quadratic and a cubic in the same.
+/// A linear form in (x, y, z, 1).
 type Linear = [f64; 4];
 type Quadratic = [f64; 10];
 pub(super) type Cubic = [f64; 20];
@@ -45,7 +45,7 @@ fn add_cubic(q: &Quadratic, a: &Linear, c: &mut Cubic) {
     c[19] += q[9] * a[3];
 }
 
-/// The ten cubics, one a row.
+/// Returns the ten cubics, one per row.
 pub(super) fn constraints(basis: &[[f64; 9]; 4]) -> [Cubic; 10] {
     // Entry (i, j) of E as a linear form.
     let mut e = [[[0.0; 4]; 3]; 3];

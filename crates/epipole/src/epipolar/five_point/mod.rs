@@ -12,8 +12,8 @@ use crate::math::real_roots::real_roots;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Vector3};
 
-/// The essential matrices, at most ten, that five pairs of rays satisfy exactly; unit Frobenius
-/// norm.
+/// Solves for the essential matrices, at most ten, that five pairs of rays satisfy exactly; unit
+/// Frobenius norm.
 ///
 /// The rays leave `E = x E1 + y E2 + z E3 + E4`; the ten cubic equations `det E = 0` and
 /// `2 E Eᵀ E − tr(E Eᵀ) E = 0` are reduced to one polynomial of degree 10 in z.
@@ -21,13 +21,12 @@ use nalgebra::{Matrix3, Vector3};
 /// * `rays1`, `rays2`: matching rays in the camera frames; their lengths do not matter
 ///
 /// Every matrix satisfies `2 E Eᵀ E = tr(E Eᵀ) E` to within 10⁻⁸: matrices with larger rounding
-/// errors, as near double solutions, are polished, or left out. Returns an empty list if there is
-/// no real solution. Degenerate rays, such as those of a camera that only rotated, have a whole
-/// family of solutions: some of these are returned, or none.
+/// errors, as near double solutions, are polished or dropped. Returns an empty list if there is no
+/// real solution. Degenerate rays, such as those of a camera that only rotated, have a whole family
+/// of solutions: some of these are returned, or none.
 ///
-/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem"; another
-/// basis of the null space where this one hides solutions at infinity, and Gauss–Newton at the end,
-/// are ours.
+/// Source: Nistér 2004, "An efficient solution to the five-point relative pose problem". The change
+/// of basis for solutions at infinity and the final Gauss–Newton steps are ours.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -58,14 +57,14 @@ pub fn essential_5point(
     solutions.into_iter().take(count).collect()
 }
 
-/// Another orthonormal basis of the same space: the mirror image in a plane that is oblique to all
+/// Returns another orthonormal basis of the same space: the reflection in a plane oblique to all
 /// axes.
 ///
 /// The solver sets the coefficient of the last basis vector to 1 and finds roots of a polynomial in
-/// that of the third. Rays in special positions, such as those of a camera that moved along its
-/// rows, have solutions whose last coefficient is 0.
+/// that of the third. Special rays, such as those of a camera that moved along its rows, have
+/// solutions whose last coefficient is 0.
 fn mirrored(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
-    // Of length 1, and no entry is the sum or difference of others.
+    // Of length 1; no entry is the sum or difference of others.
     const NORMAL: [f64; 4] = [0.36, -0.48, 0.64, 0.48];
     let mut mirrored = *basis;
     for i in 0..9 {
@@ -80,8 +79,8 @@ fn mirrored(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
     mirrored
 }
 
-/// Polishes the basis vectors into solutions, for dependent equations whose solutions form a curve
-/// or more. Returns their number.
+/// Polishes the basis vectors into solutions, if dependent equations have a curve of solutions or
+/// more. Returns their number.
 #[cold]
 fn some_of_many(basis: &[[f64; 9]; 4], solutions: &mut [Matrix3<f64>; 10]) -> usize {
     let mut count = 0;
@@ -94,10 +93,10 @@ fn some_of_many(basis: &[[f64; 9]; 4], solutions: &mut [Matrix3<f64>; 10]) -> us
     count
 }
 
-/// Solutions that differ by less are one.
+/// Distance below which solutions are equal.
 const SAME: f64 = 1e-6;
 
-/// Essential matrices, each once.
+/// Essential matrices without repetitions.
 struct Solutions<'a> {
     found: &'a mut [Matrix3<f64>; 10],
     count: usize,
@@ -122,7 +121,7 @@ impl Solutions<'_> {
     }
 }
 
-/// Writes the solutions, unit Frobenius norm, and returns how many.
+/// Writes the solutions, unit Frobenius norm, and returns their number.
 pub(crate) fn solve(
     rays1: &[Vector3<f64>; 5],
     rays2: &[Vector3<f64>; 5],
@@ -157,18 +156,18 @@ fn in_another_basis(basis: &[[f64; 9]; 4], solutions: &mut Solutions<'_>) {
     }
 }
 
-/// The polynomial's coefficients are exact to this share, at worst.
+/// Maximum relative error of the polynomial's coefficients.
 const NOISE: f64 = 1e-8;
 
-/// A root whose matrix misses the constraints by more is inaccurate: because of a small pivot, or
-/// because two solutions nearly agree in it; or it is an extremum that might have been two roots.
+/// Maximum constraint residual of an accurate root. Roots are inaccurate because of a small pivot,
+/// two nearly equal solutions, or an extremum that might have been two roots.
 const DOUBTFUL: f64 = 1e-7;
 
-/// Takes the matrix of each real root; whether these seem to be all solutions.
+/// Adds the matrix of each real root; returns whether these seem to be all solutions.
 fn take_roots(basis: &[[f64; 9]; 4], resolvent: &Resolvent, solutions: &mut Solutions<'_>) -> bool {
     let mut roots = [0.0; 10];
     let num_roots = real_roots(&resolvent.polynomial, NOISE, &mut roots);
-    // Real roots come in pairs, unless two have become one.
+    // Real roots come in pairs, unless two have merged.
     let mut complete = num_roots.is_multiple_of(2);
     let is_first_basis = solutions.count == 0;
     let (mut astray, mut num_astray) = ([Matrix3::zeros(); 10], 0);
@@ -207,8 +206,9 @@ fn take_roots(basis: &[[f64; 9]; 4], resolvent: &Resolvent, solutions: &mut Solu
 /// Depth of a point whose rays are parallel up to rounding.
 const NO_DEPTH: f64 = 1e-12;
 
-/// The motion (R, t) of an essential matrix that puts all points in front of both cameras. Points
-/// at infinity are in front if their rays have one direction; those alone leave the sign of t open.
+/// Returns the motion (R, t) of an essential matrix that puts all points in front of both cameras.
+/// Points at infinity are in front if their rays are parallel; they alone do not determine the sign
+/// of t.
 pub(crate) fn pose_in_front(
     essential: &Matrix3<f64>,
     rays1: &[Vector3<f64>],
@@ -221,14 +221,14 @@ pub(crate) fn pose_in_front(
     })
 }
 
-/// The sign of t that puts all points in front of both cameras, if one does.
+/// Returns the sign of t that puts all points in front of both cameras, if any.
 pub(crate) fn side_in_front(
     rotation: &Matrix3<f64>,
     direction: &Vector3<f64>,
     rays1: &[Vector3<f64>],
     rays2: &[Vector3<f64>],
 ) -> Option<f64> {
-    // Turning t round flips the signs of both depths.
+    // Reversing t flips the signs of both depths.
     let (mut along, mut against) = (true, true);
     for (x1, x2) in rays1.iter().zip(rays2) {
         let (d1, d2) = signed_depths(rotation, direction, x1, x2);
@@ -252,7 +252,7 @@ pub(crate) mod tests {
     use crate::math::random::Random;
     use nalgebra::{Point3, UnitQuaternion};
 
-    /// PoseLib's generator of problems: a field of view of 75°, depths from 0.1 to 10.
+    /// Random problem as from PoseLib's generator: a field of view of 75°, depths from 0.1 to 10.
     pub(crate) fn problem<const N: usize>(
         random: &mut Random,
     ) -> (RigidTransform, [Vector3<f64>; N], [Vector3<f64>; N]) {
@@ -307,8 +307,7 @@ pub(crate) mod tests {
         assert!(found_pose >= 9999, "{found_pose}");
     }
 
-    /// A motion and points of small whole numbers, four digits at most, as exercises and figures
-    /// have them.
+    /// A motion and points of whole numbers with at most four digits, as in exercises and figures.
     fn whole_problem(
         random: &mut Random,
     ) -> (RigidTransform, [Vector3<f64>; 5], [Vector3<f64>; 5]) {
@@ -364,7 +363,7 @@ pub(crate) mod tests {
 
     type Problem = (RigidTransform, [Vector3<f64>; 5], [Vector3<f64>; 5]);
 
-    /// Problems whose true solution is not found, among those that have one.
+    /// Returns the number of problems whose true solution is not found, and of those that have one.
     fn lost_problems(num_problems: usize, mut draw: impl FnMut() -> Problem) -> (usize, usize) {
         let (mut lost, mut judged) = (0, 0);
         for place in 0..num_problems {
@@ -403,7 +402,7 @@ pub(crate) mod tests {
         assert_eq!(lost_problems(1_000_000, || whole_problem(&mut random)).0, 0);
     }
 
-    /// By how much a matrix of unit norm misses being essential.
+    /// Returns the constraint residual of a matrix of unit norm.
     fn missing(e: &Matrix3<f64>) -> f64 {
         (e * e.transpose() * e * 2.0 - e * (e * e.transpose()).trace()).norm()
     }
@@ -423,8 +422,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Translations along the axes after rotations that map axes on axes: many entries of E are
-    /// zero.
+    /// Translations along the axes after rotations between axes: many entries of E are zero.
     #[test]
     fn aligned_cameras_are_found() {
         let mut random = Random::new(3);

@@ -2,22 +2,22 @@
 
 use nalgebra::{Matrix3, Matrix4, Vector4};
 
-/// Matrices that miss `E Eᵀ E = ½ tr(E Eᵀ) E` by more are polished, and dropped if that does not
-/// help.
+/// Maximum residual of `E Eᵀ E = ½ tr(E Eᵀ) E`; matrices above are polished, and dropped if that
+/// fails.
 const GOOD: f64 = 5e-9;
 
-/// Nothing is left to polish.
+/// Residual at which polishing ends.
 const EXACT: f64 = 1e-14;
 
-/// Maximum number of polishing steps: one doubles the digits, but gains only a bit or so at double
+/// Maximum number of polishing steps: each doubles the digits, but gains only about a bit at double
 /// solutions.
 const MAX_STEPS: usize = 10;
 
-/// Along a family of solutions the equations are singular, and any member will do.
+/// Damping for families of solutions, where the equations are singular and any member will do.
 const DAMPING: f64 = 1e-15;
 
-/// The matrix in the span of the basis that is essential, where `near` nearly is; both of unit
-/// norm. `None` if there is none near.
+/// Finds the essential matrix in the span of the basis close to the nearly essential `near`; both
+/// of unit norm. `None` if there is none.
 #[inline]
 pub(super) fn polished(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
     if missing_sq(near) < GOOD * GOOD {
@@ -27,7 +27,7 @@ pub(super) fn polished(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Mat
     }
 }
 
-/// By how much a matrix of unit norm misses being essential, squared.
+/// Returns the squared constraint residual of a matrix of unit norm.
 #[inline]
 pub(super) fn missing_sq(e: &Matrix3<f64>) -> f64 {
     constraint(e).norm_squared()
@@ -48,7 +48,7 @@ fn constraint(e: &Matrix3<f64>) -> Matrix3<f64> {
     eet * e
 }
 
-/// Gauss–Newton on the four coefficients, against the rounding errors that a few roots have.
+/// Gauss–Newton on the four coefficients, to remove rounding errors.
 #[cold]
 fn sought(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
     let basis = basis.map(|vector| Matrix3::from_row_slice(&vector));
@@ -59,7 +59,7 @@ fn sought(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
             return Some(e);
         }
         let (ete, eet) = (e.transpose() * e, e * e.transpose());
-        // The change of the constraint with each coefficient; the last row keeps the length.
+        // The derivatives of the constraint by each coefficient; the last row keeps the length.
         let columns = basis.map(|d| {
             let cubic = d * ete + e * d.transpose() * e + eet * d;
             (cubic - d * 0.5 - e * e.dot(&d), e.dot(&d))

@@ -1,23 +1,21 @@
-//! The five-point problem's ten cubics, reduced to one polynomial.
+//! Reduction of the five-point problem's ten cubics to one polynomial.
 
 use super::cubics::{Cubic, constraints};
 use nalgebra::Vector3;
 
-/// A smaller pivot means dependent equations. Of rays anywhere not one problem in 100 000 has one
-/// below 1e-6; after a roll of 90° and a step along the rows all have.
+/// Pivot below which equations count as dependent. For random rays not one problem in 100 000 has a
+/// pivot below 1e-6; after a roll of 90° and a step along the rows all have.
 const SMALL_PIVOT: f64 = 1e-8;
 
-/// A smaller leading coefficient, relative to the largest, means that a root has gone to infinity.
-/// Of rays anywhere one problem in 10 000 has one below 1e-10; after a step along the rows nearly
-/// all have.
+/// Relative leading coefficient below which a root is at infinity. For random rays one problem in
+/// 10 000 has one below 1e-10; after a step along the rows nearly all have.
 const SMALL_LEAD: f64 = 1e-10;
 
-/// With pivots or leading coefficients so many times the smallest ones, rounding may have taken two
-/// roots.
+/// Factor on the two limits below which rounding may have removed two roots.
 const ROUGH: f64 = 1e3;
 
-/// Gauss–Jordan elimination of the first ten columns; only the last six rows are needed, and how
-/// small the smallest pivot is. `None` if the columns are nearly dependent.
+/// Gauss–Jordan elimination of the first ten columns. Returns the last six rows, as only these are
+/// needed, and the smallest pivot. `None` if the columns are nearly dependent.
 fn eliminate(rows: &mut [Cubic; 10]) -> Option<([[f64; 10]; 6], f64)> {
     let mut smallest = f64::INFINITY;
     for column in 0..10 {
@@ -95,18 +93,18 @@ fn evaluate<const N: usize>(c: &[f64; N], z: f64) -> f64 {
     c.iter().rev().fold(0.0, |value, x| value * z + x)
 }
 
-/// The equations in one unknown.
+/// The equations reduced to one unknown.
 pub(super) struct Resolvent {
     /// B(z), whose null vector is (x, y, 1).
     b: [Reduced; 3],
     /// Its determinant.
     pub(super) polynomial: [f64; 11],
-    /// Whether rounding may have cost it roots.
+    /// Whether rounding may have removed roots.
     pub(super) is_rough: bool,
 }
 
 impl Resolvent {
-    /// `None` if the equations are nearly dependent.
+    /// Returns `None` if the equations are nearly dependent.
     pub(super) fn new(basis: &[[f64; 9]; 4]) -> Option<Self> {
         let (r, smallest_pivot) = eliminate(&mut constraints(basis))?;
         let b = [
@@ -130,8 +128,7 @@ impl Resolvent {
         })
     }
 
-    /// Whether no root has gone to infinity, with a solution that lacks the last vector of the
-    /// basis.
+    /// Returns whether no root is at infinity, where a solution lacks the last basis vector.
     pub(super) fn has_all_degrees(&self) -> bool {
         lead(&self.polynomial) >= SMALL_LEAD
     }

@@ -10,7 +10,7 @@ use crate::math::null_space::null_space;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Matrix4, Point2, Vector3, Vector4};
 
-/// An essential matrix and the focal length of the cameras that share it.
+/// An essential matrix and the common focal length of both cameras.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EssentialWithFocal {
     /// E, unit Frobenius norm.
@@ -22,21 +22,21 @@ pub struct EssentialWithFocal {
 /// Maximum number of solutions.
 pub(crate) const MAX_SOLUTIONS: usize = 15;
 
-/// The essential matrices, each with its focal length, that six matches of two cameras with one
-/// focal length satisfy exactly; at most fifteen.
+/// Solves for the essential matrices, at most fifteen, each with its focal length, that six matches
+/// of two cameras with a common focal length satisfy exactly.
 ///
-/// Pixels are square, without skew. The matches leave `F = x F1 + y F2 + z F3`, and with
-/// `P = diag(1, 1, f⁻²)` this is an essential matrix's if `det F = 0` and
-/// `2 F P Fᵀ P F = tr(F P Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose
-/// determinant is a polynomial of degree 15 in f⁻².
+/// Assumes square pixels without skew. The matches leave `F = x F1 + y F2 + z F3`, and with `P =
+/// diag(1, 1, f⁻²)` this belongs to an essential matrix if `det F = 0` and `2 F P Fᵀ P F = tr(F P
+/// Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose determinant is a
+/// polynomial of degree 15 in f⁻².
 ///
 /// * `pixels1`, `pixels2`: matching pixels
-/// * `principal1`, `principal2`: the principal points of the two images, pixels
+/// * `principal1`, `principal2`: principal points of the two images, pixels
 ///
 /// Returns an empty list if there is no real solution or input is not finite. Up to one in two
-/// thousand random problems loses its true solution to rounding. If the axes of the cameras are
-/// parallel, or meet at the same distance from both, every focal length fits: then some solutions
-/// are returned, or none. A camera that only rotated is degenerate, too.
+/// thousand random problems loses its true solution to rounding. If the optical axes are parallel,
+/// or meet at the same distance from both cameras, every focal length fits: then some solutions are
+/// returned, or none. A camera that only rotated is degenerate as well.
 ///
 /// Source: Stewénius, Nistér, Kahl & Schaffalitzky 2005, "A minimal solution for relative pose with
 /// unknown focal length" (the equations); Kukelova, Bujnak & Pajdla 2012, "Polynomial eigenvalue
@@ -75,14 +75,14 @@ pub fn essential_6point(
     solutions
 }
 
-/// The same for pixels about the principal points.
+/// Solves for pixels about the principal points.
 pub(crate) fn solve(
     about1: &[Point2<f64>; 6],
     about2: &[Point2<f64>; 6],
     solutions: &mut ArrayVec<EssentialWithFocal, MAX_SOLUTIONS>,
 ) {
-    // A unit in which focal lengths are about 1, and all entries of rows alike. In a larger one the
-    // determinant is below its own rounding where the roots are.
+    // Use a unit in which focal lengths are about 1, and all entries of rows are similar. In a
+    // larger unit the determinant is below its own rounding error at the roots.
     let size_sq =
         |points: &[Point2<f64>; 6]| -> f64 { points.iter().map(|p| p.coords.norm_squared()).sum() };
     let unit_px = UNIT_RMS * ((size_sq(about1) + size_sq(about2)) / 12.0).sqrt();
@@ -100,7 +100,7 @@ pub(crate) fn solve(
     let pencil = Pencil::new(&basis);
     let first = solutions.len();
     for s in roots_within(&pencil.polynomial()) {
-        // Beyond, the focal length is 0 or infinite but for rounding.
+        // Beyond, the focal length is 0 or infinite up to rounding.
         if s.abs() > 1.0 - 1e-9 {
             continue;
         }
@@ -131,21 +131,22 @@ pub(crate) fn solve(
     }
 }
 
-/// The unit, in root mean squares of the distances from the principal points. Of 30 000 random
+/// Unit of length, relative to the RMS distance from the principal points. Of 30 000 random
 /// problems with lenses of .5 to 3.3 image widths .7 lost 8, .85 and 1 lost 1, 1.15 lost 2, and 2
 /// lost 104; of 20 000 with lenses of .3 to 12 widths, .85 lost 7, 1 lost 12, and 2 lost 341.
 const UNIT_RMS: f64 = 0.85;
 
-/// Solutions that differ by less are one.
+/// Distance below which solutions are equal.
 const SAME: f64 = 1e-8;
 
-/// The equations' residual, relative to the size of their terms, that counts as none.
+/// Maximum residual of the equations, relative to the size of their terms.
 const EXACT: f64 = 1e-10;
 
-/// Steps of the Gauss–Newton iteration.
+/// Number of Gauss–Newton steps.
 const MAX_STEPS: usize = 15;
 
-/// The solution near to a start, (x, y, z) of length 1 and f⁻²; `None` if there is none.
+/// Polishes an initial solution, (x, y, z) of length 1 and f⁻²; `None` if there is no solution
+/// nearby.
 fn polished(
     pencil: &Pencil,
     inverse_sq: f64,
@@ -166,7 +167,7 @@ fn polished(
         if missing < 1e-15 {
             break;
         }
-        // Normal equations, and one that keeps the length of v.
+        // Normal equations, with one that keeps the length of v.
         let columns = [
             by_v.column(0).into_owned(),
             by_v.column(1).into_owned(),
@@ -215,7 +216,7 @@ mod tests {
             if p1.len() == 6 {
                 break;
             }
-            // Two cameras that see nothing in common.
+            // Two cameras with no overlap.
             if tries == 200 {
                 return problem(random, turn_rad);
             }
@@ -244,8 +245,8 @@ mod tests {
         }
     }
 
-    /// Ten thousand problems: the truth is among the solutions of all but two. In twice the unit 35
-    /// were lost.
+    /// Of ten thousand problems, all but two have the truth among their solutions. Twice the unit
+    /// loses 35.
     #[test]
     fn the_truth_is_among_the_solutions() {
         let mut random = Random::new(1);

@@ -2,15 +2,15 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-/// Of (x, y, z): xx, xy, xz, yy, yz, zz.
+/// Coefficients of xx, xy, xz, yy, yz, zz.
 type Quadratic = [f64; 6];
 
-/// Of (x, y, z): xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
+/// Coefficients of xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
 type Cubic = [f64; 10];
 
 const PRODUCTS: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
-/// The cubic monomial that a quadratic one times x, y or z is.
+/// Cubic monomials of each quadratic one times x, y and z.
 const TRIPLES: [[usize; 3]; 6] = [
     [0, 1, 2],
     [1, 3, 4],
@@ -56,7 +56,7 @@ fn cubes(v: &Vector3<f64>) -> SVector<f64, 10> {
     ])
 }
 
-/// Their derivatives by x, y and z.
+/// Returns their derivatives by x, y and z.
 fn cubes_derivatives(v: &Vector3<f64>) -> SMatrix<f64, 10, 3> {
     let (x, y, z) = (v.x, v.y, v.z);
     let columns = [
@@ -108,7 +108,7 @@ pub(super) struct Pencil {
 }
 
 impl Pencil {
-    /// Of the fundamental matrices `x F1 + y F2 + z F3`.
+    /// Creates the pencil of the fundamental matrices `x F1 + y F2 + z F3`.
     pub(super) fn new(basis: &[Matrix3<f64>; 3]) -> Self {
         let f = |i: usize, j: usize| basis.map(|b| b[(i, j)]);
         // F P Fᵀ: without and with w.
@@ -160,7 +160,7 @@ impl Pencil {
         Self { parts }
     }
 
-    /// With weights of the parts; the determinant of F has no w.
+    /// Combines the parts with weights; the determinant of F has no w.
     fn combined(&self, weights: [f64; 3]) -> Square {
         let mut sum =
             self.parts[0] * weights[0] + self.parts[1] * weights[1] + self.parts[2] * weights[2];
@@ -186,12 +186,12 @@ impl Pencil {
         })
     }
 
-    /// (x, y, z), of length 1, of the monomials that the matrix takes to nearly zero.
+    /// Returns (x, y, z), of length 1, of the monomials closest to the null space.
     pub(super) fn null_vector(&self, w: f64) -> Option<Vector3<f64>> {
         let per = 1.0 / ((1.0 + w) * (1.0 + w));
         let matrix = self.combined([per, w * per, w * w * per]);
         let lu = matrix.full_piv_lu();
-        // Inverse iteration: the smallest pivot stands for zero.
+        // Inverse iteration, with the smallest pivot replacing zero.
         let upper = lu.u();
         let mut m = SVector::<f64, 10>::zeros();
         m[9] = 1.0;

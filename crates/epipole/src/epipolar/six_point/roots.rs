@@ -2,11 +2,10 @@
 
 use super::pencil::DEGREE;
 
-/// Steps that halve an interval until nothing is left of it.
+/// Number of bisections to full precision.
 const HALVINGS: usize = 60;
 
-/// The value of an extremum, as a share of the largest coefficient, below which it counts as a
-/// double root.
+/// Maximum value of an extremum, relative to the largest coefficient, to count as a double root.
 const TOUCHES: f64 = 1e-9;
 
 /// Coefficients of degree up to [`DEGREE`], from the constant term upwards.
@@ -30,7 +29,7 @@ pub(super) fn roots_within(series: &Series) -> Vec<f64> {
     ends
 }
 
-/// Clenshaw's recurrence.
+/// Evaluates by Clenshaw's recurrence.
 fn value(series: &Series, x: f64) -> f64 {
     let (mut first, mut second) = (0.0, 0.0);
     for c in series[1..].iter().rev() {
