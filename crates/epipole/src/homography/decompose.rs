@@ -1,4 +1,4 @@
-//! The motions that a homography of a plane allows.
+//! Motions from the homography of a plane.
 
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::math::scaling::power_of_two;
@@ -6,22 +6,22 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// A camera motion and the plane it was seen by.
+/// A camera motion and the plane that both views see.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneMotion {
-    /// R and t; t is in units of the plane's distance from camera 1.
+    /// R and t, in units of the plane's distance from camera 1.
     pub cam2_from_cam1: RigidTransform,
-    /// The plane's unit normal n in the frame of camera 1: its points satisfy `n · x = −1` in
-    /// units of its distance, or `n · x = 1` for the solution of opposite sign.
+    /// The plane's unit normal n in the frame of camera 1: its points satisfy `n · x = −1` in units
+    /// of its distance, or `n · x = 1` for the solution of opposite sign.
     pub normal_in_cam1: Vector3<f64>,
 }
 
-/// The four motions that a plane's homography allows; one if the camera only turned.
+/// Decomposes a plane's homography into its four possible motions; one if the camera only rotated.
 ///
 /// With `H ∝ K2 (R − t nᵀ) K1⁻¹`, the normalized `K2⁻¹ H K1` is scaled until its middle singular
-/// value is 1 and its determinant positive. The solutions come in pairs (R, t, n) and
-/// (R, −t, −n); points in front of camera 1 have `n · x < 0` in the right one of a pair. Two
-/// remain; a third view, or knowledge of the plane, decides.
+/// value is 1 and its determinant positive. The solutions come in pairs (R, t, n) and (R, −t, −n);
+/// points in front of camera 1 have `n · x < 0` in the correct one of a pair. Two solutions remain;
+/// a third view, or knowledge about the plane, resolves them.
 ///
 /// Returns a single element with t = 0 and an arbitrary normal if the three singular values are
 /// equal to within 10⁻⁹: a pure rotation.
@@ -42,7 +42,7 @@ pub struct PlaneMotion {
 /// let h = homography_from_motion(&step, &n, 2.0, &k, &k);
 /// let motions = decompose_homography(&h, &k, &k)?;
 /// assert_eq!(motions.len(), 4);
-/// // One is the true one, with t in units of the distance of the wall.
+/// // One is correct, with t in units of the distance of the wall.
 /// assert!(motions.iter().any(|m| (m.normal_in_cam1 - n).norm() < 1e-9
 ///     && (m.cam2_from_cam1.translation.vector - Vector3::new(-0.5, 0.0, 0.0)).norm() < 1e-9));
 /// # Ok(()) }
@@ -53,7 +53,7 @@ pub fn decompose_homography(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> Result<Vec<PlaneMotion>> {
-    // The scale of H means nothing; what the lenses leave is taken out below.
+    // The scale of H is arbitrary; the remaining scale is removed below.
     let h = k2.inverse_matrix() * (homography / power_of_two(homography.amax())) * k1.matrix();
     let h = h / power_of_two(h.amax());
     if !h.iter().all(|x| x.is_finite()) {
@@ -84,7 +84,7 @@ pub fn decompose_homography(
     if s1 - s3 < 1e-9 {
         return Ok(vec![motion(&h, Vector3::zeros(), Vector3::z())]);
     }
-    // HᵀH fixes the length of two directions in the plane of v1 and v3; each spans, with v2, a
+    // HᵀH preserves the length of two directions in the plane of v1 and v3; each spans, with v2, a
     // plane in which H acts as a rotation.
     let (v1, v2, v3) = (
         svd.v.column(0).into_owned(),
@@ -115,7 +115,7 @@ fn nearest_rotation(m: &Matrix3<f64>) -> Matrix3<f64> {
     let svd = svd3(m);
     let r = svd.u * svd.v.transpose();
     if r.determinant() < 0.0 {
-        // Only for input that is no rotation at all; flip the direction that matters least.
+        // Only for input without a valid rotation; flip the least significant direction.
         let flip = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -1.0));
         svd.u * flip * svd.v.transpose()
     } else {
@@ -123,7 +123,7 @@ fn nearest_rotation(m: &Matrix3<f64>) -> Matrix3<f64> {
     }
 }
 
-/// The homography of a plane, `K2 (R − t nᵀ/d) K1⁻¹`, not scaled.
+/// Computes the homography of a plane, `K2 (R − t nᵀ/d) K1⁻¹`, not scaled.
 ///
 /// * `normal_in_cam1`: n, of length 1
 /// * `distance`: d, with `n · x = −d` for points of the plane; infinity gives the homography of
@@ -161,7 +161,8 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// The values of COLMAP's src/colmap/geometry/homography_matrix_test.cc, there from OpenCV.
+    /// The values of COLMAP's src/colmap/geometry/homography_matrix_test.cc, originally from
+    /// OpenCV.
     #[test]
     fn published_reference() {
         #[rustfmt::skip]
@@ -200,8 +201,8 @@ mod tests {
             let truth = RigidTransform::new(vector(1.0), vector(0.5));
             let n = vector(1.0).normalize();
             let h = homography_from_motion(&truth, &n, 1.0, &k1, &k2);
-            // Scale and sign of a homography mean nothing, as long as the plane is seen from the
-            // same side: the determinant tells.
+            // Scale and sign of a homography are arbitrary as long as both cameras see the same
+            // side of the plane, by the sign of the determinant.
             if h.determinant() < 1e-3 {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! H from matches of which many are wrong.
+//! Robust estimation of H.
 
 use super::four_point::{same_orientation, solve};
 use super::refine::{refine_in_frame, to_frame, to_pixels};
@@ -13,12 +13,12 @@ use crate::robust::{
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
 
-/// Homographies from matches, for [`Ransac`](crate::robust::Ransac).
+/// Estimator of homographies from matches, for [`Ransac`](crate::robust::Ransac).
 ///
-/// A sample is four matches, no three of them on a line, whose triangles turn the same way in both
-/// images; the error is the distance in image 2; refinement minimizes its truncated square, and the
-/// last one the weighted square of the Sampson error, which treats both images alike. Equal matches
-/// count once.
+/// A sample is four matches, no three of them collinear, whose triangles have the same orientation
+/// in both images; the error is the distance in image 2; refinement minimizes its truncated square,
+/// and the final one the weighted square of the Sampson error, which treats both images alike.
+/// Equal matches count once.
 #[derive(Debug, Clone)]
 pub struct HomographyEstimator {
     matches: MatchSet,
@@ -27,7 +27,7 @@ pub struct HomographyEstimator {
     frame: CommonFrame,
 }
 
-/// Whether points lie on one line, but for rounding: no four of them give a homography.
+/// Returns whether points lie on one line up to rounding: no four of them determine a homography.
 fn is_line(u: &[f64], v: &[f64]) -> bool {
     let from_first = |i: usize| [u[i] - u[0], v[i] - v[0]];
     let length_sq = |[x, y]: [f64; 2]| x * x + y * y;
@@ -38,7 +38,7 @@ fn is_line(u: &[f64], v: &[f64]) -> bool {
             far
         }
     });
-    // As far from the line, relative to its length, as three points of a sample may be from one.
+    // The tolerance, relative to the length of the line, is that for three points of a sample.
     let reach_sq = length_sq([x, y]);
     (1..u.len())
         .map(from_first)
@@ -155,15 +155,15 @@ impl Estimator for HomographyEstimator {
     }
 }
 
-/// The homography that most matches agree on, unit Frobenius norm.
+/// Estimates the homography on which most matches agree, unit Frobenius norm.
 ///
-/// * `pixels1`, `pixels2`: matching pixels; wrong matches are expected
+/// * `pixels1`, `pixels2`: matching pixels, outliers included
 /// * `options`: [`RansacOptions::max_error_px`] bounds the distance of an inlier in image 2
 ///
-/// Mirrored images are refused. Two cameras on the same side of a plane see every triangle of it
-/// turn the same way, so a sample with one that turns over holds a wrong match, and is skipped. An
+/// Mirrored images are rejected. Two cameras on the same side of a plane see its triangles with the
+/// same orientation, so a sample with a flipped triangle contains a wrong match and is skipped. An
 /// image and its mirror image therefore give [`Error::NoConsensus`]: flip one of them first, or use
-/// [`fit_homography`](super::fit_homography), which takes matches as they are.
+/// [`fit_homography`](super::fit_homography), which allows any orientation.
 ///
 /// # Errors
 /// As [`MatchSet::new`], [`HomographyEstimator::new`] and [`ransac`].
@@ -200,7 +200,7 @@ pub fn estimate_homography(
 mod tests {
     use super::*;
 
-    /// Ten thousand samples were drawn for nothing before.
+    /// Previously this drew ten thousand samples in vain.
     #[test]
     fn pixels_on_a_line_are_refused_at_once() {
         let line: Vec<_> = (0..50)
@@ -215,7 +215,7 @@ mod tests {
             assert!(matches!(error, Error::Degenerate { .. }), "{error}");
             assert!(error.to_string().contains("one line"));
         }
-        // One pixel beside the line is enough for nothing, but two are.
+        // One pixel off the line is not enough, but two are.
         let mut bent = line.clone();
         bent[3].y += 40.0;
         bent[40].y -= 30.0;

@@ -1,4 +1,4 @@
-//! H of the rays of calibrated cameras, from matches of which many are wrong.
+//! Robust estimation of H for the rays of calibrated cameras.
 
 use super::estimate_homography;
 #[cfg(doc)]
@@ -11,15 +11,15 @@ use crate::progress::Monitor;
 use crate::robust::{Data, Estimator, MatchSet, Problem, RansacOptions, RansacReport, ransac};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 
-/// Homographies of rays, for RANSAC: four matches a sample, errors in the pixels of image 2.
+/// Estimator of homographies of rays: four matches per sample, errors in the pixels of image 2.
 struct RayHomographyEstimator {
     matches: MatchSet,
     rays1: Vec<Vector3<f64>>,
     seen2: Vec<Observation>,
 }
 
-/// The three rays, each so long that together they are the fourth: `None` if three of the four lie
-/// in a plane.
+/// Returns three rays scaled so that their sum is the fourth; `None` if three of the four lie in a
+/// plane.
 fn basis(rays: &[Vector3<f64>; 4]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     let columns = Matrix3::from_columns(&[rays[0], rays[1], rays[2]]);
     let lengths = columns.try_inverse()? * rays[3];
@@ -27,10 +27,10 @@ fn basis(rays: &[Vector3<f64>; 4]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     is_sound.then(|| (columns * Matrix3::from_diagonal(&lengths), lengths))
 }
 
-/// H with `ray2 ∝ H ray1`, by a positive factor, for all four.
+/// Solves for H with `ray2 ∝ H ray1`, with positive factors, for all four.
 fn solve(rays1: &[Vector3<f64>; 4], rays2: &[Vector3<f64>; 4]) -> Option<Matrix3<f64>> {
     let ((basis1, lengths1), (basis2, lengths2)) = (basis(rays1)?, basis(rays2)?);
-    // A plane that both cameras see from one side keeps the sides of its rays.
+    // If both cameras see a plane from the same side, all factors are positive.
     let keeps_sides = lengths1.zip_map(&lengths2, |a, b| a * b).min() > 0.0;
     let homography = basis2 * basis1.try_inverse()?;
     keeps_sides.then(|| unit(&homography))?
@@ -106,7 +106,7 @@ impl Estimator for RayHomographyEstimator {
     }
 }
 
-/// All nine numbers of H are free. Its length, which no error depends on, is held by the damping.
+/// All nine entries of H are free. Its norm, which does not affect errors, is held by damping.
 struct RayHomographyProblem<'a> {
     rays1: &'a [Vector3<f64>],
     seen2: &'a [Observation],
@@ -152,22 +152,22 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     }
 }
 
-/// The homography of rays, `ray2 ∝ H ray1` by a positive factor, that most matches of two
-/// calibrated cameras agree on: of a plane, or of a camera that only turned. H has unit Frobenius
-/// norm.
+/// Estimates the homography of rays, `ray2 ∝ H ray1` with positive factors, on which most matches
+/// of two calibrated cameras agree: of a plane, or of a camera that only rotated. H has unit
+/// Frobenius norm.
 ///
-/// * `pixels1`, `pixels2`: matching pixels, in the same order; wrong matches are expected
-/// * `cameras`: the two cameras, of any lens
+/// * `pixels1`, `pixels2`: matching pixels, in the same order, outliers included
+/// * `cameras`: the two cameras, with any lens
 /// * `options`: [`RansacOptions::max_error_px`] bounds the error of an inlier in image 2, pixels
 ///
-/// Between pinhole cameras it is `K2⁻¹ H K1` of [`estimate_homography`].
+/// Between pinhole cameras it equals `K2⁻¹ H K1` with H from [`estimate_homography`].
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4
-/// different matches that both lenses see, and as [`estimate_homography`] and [`ransac`].
+/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 4 unique
+/// matches that both lenses see, and as [`estimate_homography`] and [`ransac`].
 ///
-/// Source: as [`homography_4point`](super::homography_4point), with rays in the place of
-/// homogeneous points.
+/// Source: as [`homography_4point`](super::homography_4point), with rays instead of homogeneous
+/// points.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -180,14 +180,14 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
 /// let cam2_from_cam1 = RigidTransform::new(Vector3::new(-0.5, 0.2, 0.1), Vector3::new(0.0, 0.1, 0.0));
 /// let (mut p1, mut p2) = (Vec::new(), Vec::new());
 /// for i in 0..40 {
-///     // The floor, 1 below the camera; some of it is beside and behind.
+///     // The floor, 1 below the camera; some of it is beside and behind the camera.
 ///     let x = Point3::new(f64::from(i * 7 % 11) - 5.0, 1.0, 4.0 - 0.1 * f64::from(i * 3 % 43));
 ///     p1.push(camera.project(&x)?);
 ///     p2.push(camera.project(&(cam2_from_cam1 * x))?);
 /// }
 /// let report = estimate_homography_calibrated(&p1, &p2, [&camera; 2], &RansacOptions::default(), &mut ())?;
 /// assert_eq!(report.num_inliers, 40);
-/// // As `homography_from_motion` has it, with n = −y and d = 1.
+/// // As from `homography_from_motion`, with n = −y and d = 1.
 /// let h = cam2_from_cam1.rotation.to_rotation_matrix().matrix()
 ///     + cam2_from_cam1.translation.vector * Vector3::y().transpose();
 /// assert!((report.model - h / h.norm()).norm() < 1e-6);
@@ -204,7 +204,7 @@ pub fn estimate_homography_calibrated(
         let report = estimate_homography(pixels1, pixels2, options, monitor)?;
         let [k1, k2] = cameras.map(|camera| camera.intrinsics);
         let of_rays = k2.inverse_matrix() * report.model * k1.matrix();
-        // A plane is in front of both cameras, so the factor of an inlier tells the sign.
+        // A plane is in front of both cameras, so the factor of an inlier determines the sign.
         let inlier = report.inliers.iter().position(|&is| is);
         let is_in_front = inlier.is_none_or(|i| (of_rays * k1.ray(&pixels1[i])).z > 0.0);
         let signed = if is_in_front { of_rays } else { -of_rays };
@@ -241,7 +241,7 @@ mod tests {
         }
     }
 
-    /// A wall seen with noise, every fourth match wrong.
+    /// A wall with noise, every fourth match wrong.
     fn wall(
         camera: &Camera,
         num: usize,
@@ -328,7 +328,7 @@ mod tests {
             assert!(matches!(run(3, 3), Err(Error::TooFew { .. })));
             assert!(matches!(run(8, 7), Err(Error::SizeMismatch { .. })));
         }
-        // Rays of one plane through the center give none.
+        // Rays in one plane through the center give no homography.
         let flat = [0.1, 0.2, 0.4, 0.8, 0.9].map(|x| Vector3::new(x, 0.0, 1.0));
         let of_four = core::array::from_fn(|i| flat[i]);
         assert!(solve(&of_four, &of_four).is_none());

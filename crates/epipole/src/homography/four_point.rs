@@ -3,15 +3,15 @@
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// The homography that maps four points to four points, unit Frobenius norm.
+/// Solves for the homography that maps four points to four points, unit Frobenius norm.
 ///
 /// Three points and a suitably scaled fourth are a basis of the projective plane: with
 /// `A = [λ1 x1, λ2 x2, λ3 x3]`, `A (1, 1, 1) = x4`, and B likewise for image 2, `H = B A⁻¹`.
 ///
 /// * `pixels1`, `pixels2`: matching pixels
 ///
-/// Returns a list like every minimal solver: of one, or of none if three of the points of an image
-/// lie on one line, or for NaN.
+/// Returns a list, as every minimal solver does: with one element, or none if three of the points
+/// of an image are collinear, or for NaN.
 ///
 /// Source: Heckbert 1989, "Fundamentals of texture mapping and image warping", §2.2.3; Semple &
 /// Kneebone 1952.
@@ -35,7 +35,7 @@ pub fn homography_4point(
 }
 
 fn about_middles(pixels1: &[Point2<f64>; 4], pixels2: &[Point2<f64>; 4]) -> Option<Matrix3<f64>> {
-    // The origin is moved to the middle, so that the cross products do not cancel.
+    // Move the origin to the middle, so that the cross products do not cancel.
     let center =
         |p: &[Point2<f64>; 4]| (p[0].coords + p[1].coords + p[2].coords + p[3].coords) * 0.25;
     let (c1, c2) = (center(pixels1), center(pixels2));
@@ -51,13 +51,13 @@ fn about_middles(pixels1: &[Point2<f64>; 4], pixels2: &[Point2<f64>; 4]) -> Opti
     (norm.is_finite() && norm > 0.0).then(|| moved / norm)
 }
 
-/// Twice the area of a triangle, signed.
+/// Returns twice the signed area of a triangle.
 #[inline(always)]
 fn area(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The solution for points near the origin, not scaled.
+/// Solves for points near the origin; the result is not scaled.
 #[inline]
 pub(crate) fn solve(p1: &[[f64; 2]; 4], p2: &[[f64; 2]; 4]) -> Option<Matrix3<f64>> {
     let coefficients = |p: &[[f64; 2]; 4]| {
@@ -67,7 +67,7 @@ pub(crate) fn solve(p1: &[[f64; 2]; 4], p2: &[[f64; 2]; 4]) -> Option<Matrix3<f6
             area(&p[0], &p[3], &p[2]),
             area(&p[0], &p[1], &p[3]),
         ];
-        // Three points on a line: an area that is rounding noise beside the largest squared
+        // Three collinear points: an area at the level of rounding relative to the largest squared
         // distance.
         let reach = p
             .iter()
@@ -87,8 +87,8 @@ pub(crate) fn solve(p1: &[[f64; 2]; 4], p2: &[[f64; 2]; 4]) -> Option<Matrix3<f6
     h.iter().all(|x| x.is_finite()).then_some(h)
 }
 
-/// Whether corresponding triangles turn the same way, as they do in two photographs of the front
-/// of a plane.
+/// Returns whether corresponding triangles have the same orientation, as in two images of the same
+/// side of a plane.
 #[inline]
 pub(crate) fn same_orientation(p1: &[[f64; 2]; 4], p2: &[[f64; 2]; 4]) -> bool {
     [(0, 1, 2), (3, 1, 2), (0, 3, 2), (0, 1, 3)]
@@ -104,8 +104,8 @@ mod tests {
     use crate::homography::transfer;
     use crate::math::random::Random;
 
-    /// Ten thousand problems in the manner of PoseLib's generator: a plane seen by two cameras
-    /// with a field of view of 75°.
+    /// Ten thousand problems as from PoseLib's generator: a plane seen by two cameras with a field
+    /// of view of 75°.
     #[test]
     fn ten_thousand_problems() {
         let mut random = Random::new(1);

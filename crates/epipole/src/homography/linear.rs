@@ -5,18 +5,18 @@ use crate::math::null_space::right_singular_vectors;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// The homography that minimizes the algebraic error `Σ ‖x2 × H x1‖²` after normalization; unit
-/// Frobenius norm.
+/// Fits the homography that minimizes the algebraic error `Σ ‖x2 × H x1‖²` after normalization;
+/// unit Frobenius norm.
 ///
-/// Points of each image are moved and scaled so that their root-mean-square distance from
-/// the origin is √2.
+/// Points of each image are translated and scaled so that their root-mean-square distance from the
+/// origin is √2.
 ///
 /// * `pixels1`, `pixels2`: at least 4 matching pixels
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 4 matches, [`Error::SizeMismatch`] for lists of different
-/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points but
-/// one, or all, lie on one line.
+/// length, [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if all points, or all
+/// but one, are collinear.
 ///
 /// Source: Hartley & Zisserman 2004, algorithm 4.2.
 ///
@@ -69,7 +69,7 @@ pub fn fit_homography(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>]) -> Resul
     }
 }
 
-/// One of the two rows of the linear system that a match gives.
+/// Returns one of the two rows of the linear system of a match.
 #[inline]
 pub(crate) fn homography_row(which: usize, [u1, v1, u2, v2]: [f64; 4]) -> [f64; 9] {
     if which == 0 {
@@ -79,7 +79,7 @@ pub(crate) fn homography_row(which: usize, [u1, v1, u2, v2]: [f64; 4]) -> [f64; 
     }
 }
 
-/// Image of a pixel under H; `None` if that is infinitely far away.
+/// Maps a pixel by H; `None` if the result is at infinity.
 ///
 /// Source: Hartley & Zisserman 2004, §2.3.
 ///
@@ -89,7 +89,7 @@ pub(crate) fn homography_row(which: usize, [u1, v1, u2, v2]: [f64; 4]) -> [f64; 
 /// // Twice the size, then 10 to the right.
 /// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
 /// assert_eq!(transfer(&h, &Point2::new(3.0, 4.0)), Some(Point2::new(16.0, 8.0)));
-/// // A row of zeros at the end sends every pixel to infinity.
+/// // If the last row is zero, every pixel maps to infinity.
 /// assert_eq!(transfer(&Matrix3::from_diagonal(&[1.0, 1.0, 0.0].into()), &Point2::origin()), None);
 /// ```
 pub fn transfer(homography: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Point2<f64>> {
@@ -110,9 +110,9 @@ pub(crate) fn transfer_error_sq(
     }
 }
 
-/// Transfer error of a match, in image 2: `‖x2 − H x1‖`, pixels.
+/// Computes the transfer error of a match, in image 2: `‖x2 − H x1‖`, pixels.
 ///
-/// Infinite if H sends the pixel infinitely far away.
+/// Infinite if H maps the pixel to infinity.
 ///
 /// Source: Hartley & Zisserman 2004, equation 4.6.
 ///
@@ -121,7 +121,7 @@ pub(crate) fn transfer_error_sq(
 /// use nalgebra::{Matrix3, Point2};
 /// // Twice the size, then 10 to the right.
 /// let h = Matrix3::new(2.0, 0.0, 10.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0);
-/// // H sends (3, 4) to (16, 8), which is (3, 4) away from its match.
+/// // H maps (3, 4) to (16, 8), at an offset of (3, 4) from its match.
 /// assert_eq!(transfer_error_px(&h, &Point2::new(3.0, 4.0), &Point2::new(19.0, 12.0)), 5.0);
 /// ```
 pub fn transfer_error_px(

@@ -1,5 +1,4 @@
-//! Homographies: what maps a plane from one image to the other, and every pixel if the camera
-//! only turned.
+//! Homographies: maps between two images of a plane, or of any scene if the camera only rotated.
 //!
 //! `x2 ∝ H x1` for matching pixels. H has unit Frobenius norm.
 

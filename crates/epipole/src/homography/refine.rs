@@ -1,4 +1,4 @@
-//! Nonlinear refinement of H: the transfer error by Levenberg–Marquardt.
+//! Nonlinear refinement of H: minimizes the transfer error by Levenberg–Marquardt.
 
 use super::sums::{cost, linearize};
 use crate::epipolar::coordinates::{CommonFrame, Coordinates};
@@ -9,19 +9,18 @@ use crate::robust::MatchSet;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 
-/// The homography near `homography` that minimizes `½ Σ ρ(‖x2 − H x1‖²)`, pixels; unit Frobenius
-/// norm.
+/// Refines a homography: minimizes `½ Σ ρ(‖x2 − H x1‖²)`, pixels; unit Frobenius norm.
 ///
-/// H moves on the unit sphere of its nine entries, eight parameters.
+/// H moves on the unit sphere of its nine entries, with eight parameters.
 ///
-/// * `homography`: a start, from [`fit_homography`](super::fit_homography) for instance
-/// * `loss`: its width is in pixels
+/// * `homography`: initial value, for instance from [`fit_homography`](super::fit_homography)
+/// * `loss`: width in pixels
 ///
 /// # Errors
 /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 matches, [`Error::OutOfRange`] for
-/// a loss that [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start sends a pixel to
-/// infinity, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are refused, as
-/// every match counts.
+/// a loss that [`RobustLoss::check`] rejects, [`Error::NotFinite`] if the initial value maps a
+/// pixel to infinity, and as [`MatchSet::new`]; infinities and coordinates beyond 10⁹ pixels are
+/// rejected, as every match counts.
 ///
 /// Source: Hartley & Zisserman 2004, §4.5.
 ///
@@ -33,7 +32,7 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector};
 /// let truth = Matrix3::new(1.2, -0.1, 40.0, 0.2, 0.9, -30.0, 6e-4, -1e-4, 1.0);
 /// let p1: Vec<_> = (0..12).map(|i| Point2::new(f64::from(i % 4) * 200.0, f64::from(i / 4) * 200.0)).collect();
 /// let p2: Vec<_> = p1.iter().filter_map(|p| transfer(&truth, p)).collect();
-/// // A start that is 5 pixels off.
+/// // An initial value that is 5 pixels off.
 /// let mut start = truth;
 /// start[(0, 2)] += 5.0;
 /// let refined = refine_homography(&start, &p1, &p2, RobustLoss::Trivial)?;
@@ -67,7 +66,7 @@ pub(super) fn to_frame(frame: &CommonFrame, h: &Matrix3<f64>) -> Matrix3<f64> {
     frame.pixels_to_frame(1) * h * frame.frame_to_pixels(0)
 }
 
-/// Unit Frobenius norm; `None` if an entry is not finite.
+/// Converts H to pixels, with unit Frobenius norm; `None` if an entry is not finite.
 pub(super) fn to_pixels(frame: &CommonFrame, h: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let pixels = frame.frame_to_pixels(1) * h * frame.pixels_to_frame(0);
     let norm = pixels.norm();
@@ -79,14 +78,14 @@ struct Problem<'a> {
     loss: RobustLoss,
 }
 
-/// An orthonormal basis of the steps that leave the norm of H as it is.
+/// Returns an orthonormal basis of the steps that preserve the norm of H.
 pub(super) fn tangent_basis(h: &Matrix3<f64>) -> SMatrix<f64, 9, 8> {
     let entries: [f64; 9] = core::array::from_fn(|i| h[(i / 3, i % 3)]);
     let basis: [[f64; 9]; 8] = null_space([entries]);
     SMatrix::from_fn(|i, j| basis[j][i])
 }
 
-/// H after a step along its [`tangent_basis`], of unit norm.
+/// Returns H after a step along its [`tangent_basis`], with unit norm.
 pub(super) fn moved(h: &Matrix3<f64>, delta: &SVector<f64, 8>) -> Matrix3<f64> {
     let step = tangent_basis(h) * delta;
     let moved = h + Matrix3::from_fn(|i, j| step[3 * i + j]);
@@ -151,7 +150,7 @@ mod tests {
         let all = Coordinates::pixels(&matches).mapped(&frame);
         let h = to_frame(&frame, &fit_homography(&p1, &p2).unwrap());
         let h = h / h.norm();
-        // Gradient and Gauss–Newton matrix against the differences of the residuals.
+        // Compares gradient and Gauss–Newton matrix with differences of the residuals.
         let residuals = |delta: &DVector<f64>| {
             let delta = SVector::<f64, 8>::from_column_slice(delta.as_slice());
             let problem = Problem {

@@ -1,4 +1,4 @@
-//! Refinement of H by the errors in both images.
+//! Refinement of H with the errors of both images.
 
 use super::refine::{moved, tangent_basis};
 use super::sums_both::{Whitening, cost, linearize, whitenings};
@@ -31,8 +31,8 @@ impl FixedProblem<8> for BothImages<'_> {
     }
 }
 
-/// Refines H in the frame of the coordinates, by least squares of the Sampson error: once repeated,
-/// until H stays.
+/// Refines H in the frame of the coordinates, by least squares of the Sampson error, repeatedly
+/// until H converges.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 pub(super) fn refine_by_both_images(
@@ -58,7 +58,7 @@ mod tests {
     use crate::robust::MatchSet;
     use nalgebra::{DMatrix, DVector, Matrix2, Point2};
 
-    /// A slanted plane: some parts of image 1 are enlarged, others reduced.
+    /// A slanted plane: parts of image 1 are enlarged, others reduced.
     fn leaning() -> Matrix3<f64> {
         let h = Matrix3::new(2.0, 0.3, 0.1, -0.2, 0.7, -0.2, 0.4, -0.3, 1.0);
         h / h.norm()
@@ -82,13 +82,13 @@ mod tests {
     fn derivatives_and_error_are_those_of_sampson() {
         let mut random = Random::new(1);
         let (coordinates, h) = (noisy(&mut random, 0.01), leaning());
-        // Not only where a group of lanes is full.
+        // The last group of lanes must be incomplete.
         assert_ne!(coordinates.len() % 8, 0);
         let problem = BothImages {
             coordinates: &coordinates,
             whitenings: whitenings(&coordinates, &h).unwrap(),
         };
-        // The square root of S⁻¹, another way: by the factor of Cholesky.
+        // The square root of S⁻¹ by another method, Cholesky.
         let whitened = |i: usize, h: &Matrix3<f64>| {
             let [u1, v1, u2, v2] = coordinates.at(i);
             let pixel1 = Point2::new(u1, v1);
@@ -109,7 +109,8 @@ mod tests {
             let sampson = homography_sampson_sq(&h, &Point2::new(u1, v1), &Point2::new(u2, v2));
             let ours = whitened(i, &h).norm_squared();
             total += 0.5 * ours;
-            // They differ in where A is taken: at the match here, where H sends it there.
+            // They differ in the point at which A is evaluated: the match here, its projection by H
+            // there.
             assert!(
                 (ours - 2.0 * sampson).abs() < 0.1 * sampson + 1e-9,
                 "{ours} {sampson}"
@@ -119,7 +120,7 @@ mod tests {
         problem.accumulate(&h, &mut normal);
         assert!((normal.cost - total).abs() < 1e-6 * total);
         assert!((normal.cost - problem.cost(&h)).abs() < 1e-12 * total);
-        // Gradient and Gauss–Newton matrix against the differences of the residuals.
+        // Compares gradient and Gauss–Newton matrix with differences of the residuals.
         let residuals = |delta: &DVector<f64>| {
             let h = problem.plus(&h, &SVector::from_column_slice(delta.as_slice()));
             let all = (0..coordinates.len()).flat_map(|i| whitened(i, &h).data.0[0]);

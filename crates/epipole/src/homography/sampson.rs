@@ -1,16 +1,16 @@
-//! The Sampson error of H: how far both pixels of a match are from fitting exactly.
+//! Sampson error of H: the distance of both pixels of a match from an exact fit.
 
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// The square of [`homography_sampson_px`], px², at least 0 and never NaN for finite input.
+/// Returns the square of [`homography_sampson_px`], px², at least 0 and never NaN for finite input.
 ///
 /// With the constraint `c = x(H x1) − x2`, its derivative A by pixel 1 and −1 by pixel 2, it is
 /// `cᵀ (A Aᵀ + 1)⁻¹ c = (|c|² + |adj(A) c|²) / (1 + |A|² + det(A)²)`.
 ///
-/// * `homography`: H, of any scale
+/// * `homography`: H at any scale
 /// * `pixel1`, `pixel2`: a match
 ///
-/// Infinite if H sends pixel 1 infinitely far away, or so far that the squares overflow.
+/// Infinite if H maps pixel 1 to infinity, or so far that the squares overflow.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 pub(crate) fn homography_sampson_sq(
@@ -21,8 +21,7 @@ pub(crate) fn homography_sampson_sq(
     let h = homography;
     let x = h * Vector3::new(pixel1.x, pixel1.y, 1.0);
     let (u2, v2) = (pixel2.x, pixel2.y);
-    // The constraint is x − z (u2, v2) = 0; it is divided by z, so that entries of H of any size
-    // do.
+    // The constraint is x − z (u2, v2) = 0; dividing by z allows any scale of H.
     let per_z = 1.0 / x.z;
     let [cu, cv] = [x.x * per_z - u2, x.y * per_z - v2];
     let [a, b, c, d] = [
@@ -31,7 +30,7 @@ pub(crate) fn homography_sampson_sq(
         (h[(1, 0)] - v2 * h[(2, 0)]) * per_z,
         (h[(1, 1)] - v2 * h[(2, 1)]) * per_z,
     ];
-    // Sums of squares alone: an inverse of A Aᵀ + 1 would cancel to less than nothing where H
+    // Only sums of squares: an inverse of A Aᵀ + 1 could become negative by cancellation if H
     // stretches much more in one direction than in the other.
     let (du, dv) = (d * cu - b * cv, a * cv - c * cu);
     let determinant = a * d - b * c;
@@ -44,20 +43,20 @@ pub(crate) fn homography_sampson_sq(
     }
 }
 
-/// Sampson error: to first order, the smallest change of (u1, v1, u2, v2), in pixels, after which H
-/// maps one pixel of a match to the other.
+/// Computes the Sampson error: to first order, the smallest change of (u1, v1, u2, v2), in pixels,
+/// after which H maps one pixel of a match to the other.
 ///
-/// Unlike [`transfer_error_px`](super::transfer_error_px) it treats both images alike: for noise of
-/// the same size in both, its square divided by the variance has two degrees of freedom at any
-/// magnification. Infinite if H sends the pixel infinitely far away, or so far that squares
-/// overflow; never NaN for finite input.
+/// Unlike [`transfer_error_px`](super::transfer_error_px) it treats both images alike: with equal
+/// noise in both, its square divided by the variance has two degrees of freedom at any
+/// magnification. Infinite if H maps the pixel to infinity, or so far that squares overflow; never
+/// NaN for finite input.
 ///
 /// Source: Hartley & Zisserman 2004, §4.2.6.
 ///
 /// ```
 /// use epipole::homography::{homography_sampson_px, transfer_error_px};
 /// use nalgebra::{Matrix3, Point2};
-/// // H doubles lengths: an offset of 5 in image 2 is made up by moving (−2, 1) and both pixels share it.
+/// // H doubles lengths: an offset of 5 in image 2 needs a shift of (−2, 1), shared by both pixels.
 /// let h = Matrix3::from_diagonal(&nalgebra::Vector3::new(2.0, 2.0, 1.0));
 /// let (x1, x2) = (Point2::new(10.0, 20.0), Point2::new(25.0, 40.0));
 /// assert_eq!(transfer_error_px(&h, &x1, &x2), 5.0);
@@ -87,7 +86,7 @@ mod tests {
             assert!(homography_sampson_px(&h, &x1, &x2) < 1e-9);
             x2.x += 0.3 * random.normal();
             x2.y += 0.3 * random.normal();
-            // Gauss–Newton over where the first pixel should have been.
+            // Gauss–Newton over the true position of the first pixel.
             let mut p = x1;
             for _ in 0..20 {
                 let at = |p: &Point2<f64>| {
@@ -125,8 +124,8 @@ mod tests {
         );
     }
 
-    /// The value in exact arithmetic, where H stretches by 10⁸ in one direction and hardly in the
-    /// other.
+    /// The value in exact arithmetic, for an H that stretches by 10⁸ in one direction and hardly in
+    /// the other.
     #[test]
     fn no_square_is_negative() {
         #[rustfmt::skip]

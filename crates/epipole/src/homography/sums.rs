@@ -1,4 +1,4 @@
-//! The transfer error over many matches at once: for scoring and for least squares.
+//! Transfer errors of many matches, for scoring and least squares.
 
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
 use crate::epipolar::judge::{self, LaneErrors, weigh};
@@ -7,7 +7,7 @@ use crate::optim::RobustLoss;
 use crate::robust::Support;
 use nalgebra::{Matrix3, SMatrix, SVector};
 
-/// The transferred pixel minus its match, and 1/z, for eight matches.
+/// Returns the transferred pixel minus its match, and 1/z, for eight matches.
 #[inline(always)]
 pub(super) fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes) {
     let [u1, v1, u2, v2] = lanes;
@@ -23,7 +23,7 @@ pub(super) fn offsets(h: &[f64; 9], lanes: &[Lanes; 4]) -> (Lanes, Lanes, Lanes)
     (du, dv, per_z)
 }
 
-/// The symmetric matrix `Σ M ⊗ x xᵀ` of 9 × 9, where M and x xᵀ are of 3 × 3.
+/// Returns the symmetric 9 × 9 matrix `Σ M ⊗ x xᵀ`, where M and x xᵀ are 3 × 3.
 ///
 /// * `products`: for each entry of M, `M00 M01 M11 M02 M12 M22`, the sums with
 ///   `x0x0 x0x1 x0x2 x1x1 x1x2 x2x2`
@@ -80,18 +80,18 @@ dispatched! {
 }
 
 dispatched! {
-    /// The sums of least squares with respect to the nine entries of H, row by row:
-    /// (`JᵀJ`, `Jᵀr`, cost).
+    /// Returns the sums for least squares in the nine entries of H, row by row: (`JᵀJ`, `Jᵀr`,
+    /// cost).
     ///
     /// With `x = (u1, v1, 1)/z`, the residual (du, dv) has the derivatives x by the first row of H,
-    /// x by the second, and `−(u', v') x` by the third, (u', v') being the transferred pixel.
+    /// x by the second, and `−(u', v') x` by the third, where (u', v') is the transferred pixel.
     pub(crate) fn linearize(
         coordinates: &Coordinates,
         homography: &Matrix3<f64>,
         loss: &RobustLoss,
     ) -> (SMatrix<f64, 9, 9>, SVector<f64, 9>, f64) {
         let h = entries(homography);
-        // For each of the six products of x with itself: weighted by 1, u', v', u'² + v'².
+        // Each of the six products of x with itself is weighted by 1, u', v', u'² + v'².
         let mut products = Aligned([[[0.0; LANES]; 6]; 4]);
         let mut gradient = Aligned([[0.0; LANES]; 9]);
         let mut total = [0.0; LANES];
@@ -106,8 +106,7 @@ dispatched! {
             let weight = weigh(coordinates, start, count, loss, &errors_sq, &mut total);
             for l in 0..LANES {
                 // Lanes beyond the end may hold infinities, which a weight of 0 does not remove.
-                // Chosen one by one, as a branch for all of them would keep lanes from being
-                // computed together.
+                // Select per lane, as a common branch would prevent vectorization.
                 let counts = weight[l] > 0.0;
                 let du = if counts { du[l] } else { 0.0 };
                 let dv = if counts { dv[l] } else { 0.0 };

@@ -1,8 +1,7 @@
-//! Transfer errors that are measured by the noise of both images, over many matches at once.
+//! Transfer errors of many matches, whitened by the noise of both images.
 //!
-//! With the derivative A of `x(H x1)` by pixel 1, noise of the same size in both images makes the
-//! transfer error scatter as `S = (1 + A Aᵀ) / 2`: where H changes no length, 1 and A Aᵀ alike make
-//! 2.
+//! With the derivative A of `x(H x1)` by pixel 1, equal noise in both images gives the transfer
+//! error the covariance `S = (1 + A Aᵀ) / 2`, up to a factor: the identity if H preserves lengths.
 
 use super::sums::{by_entries, offsets};
 use crate::epipolar::coordinates::{Coordinates, LANES, Lanes, entries, sum};
@@ -14,8 +13,8 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 pub(super) type Whitening = [Lanes; 3];
 
 dispatched! {
-    /// The whitening of all matches' transfer errors at H; `None` if H sends a pixel infinitely far
-    /// away.
+    /// Returns the whitening of all matches' transfer errors at H; `None` if H maps a pixel to
+    /// infinity.
     pub(super) fn whitenings(coordinates: &Coordinates, homography: &Matrix3<f64>) -> Option<Vec<Whitening>> {
         let h = entries(homography);
         let mut whitenings = Vec::with_capacity(coordinates.len().div_ceil(LANES));
@@ -33,7 +32,7 @@ dispatched! {
                 let [a, b] = [(h[0] - u * h[6]) * per_z[l], (h[1] - u * h[7]) * per_z[l]];
                 let [c, d] = [(h[3] - v * h[6]) * per_z[l], (h[4] - v * h[7]) * per_z[l]];
                 let area = a * d - b * c;
-                // 2 S and its determinant, by sums of squares alone: nothing cancels.
+                // 2 S and its determinant, from sums of squares only, which do not cancel.
                 let (first, both) = (1.0 + a * a + b * b, a * c + b * d);
                 let determinant = first + c * c + d * d + area * area;
                 w1[l] = 2.0 * weight[l] / first;
@@ -53,7 +52,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// Half the sum of the squares.
+    /// Returns half the sum of the squares.
     pub(super) fn cost(coordinates: &Coordinates, whitenings: &[Whitening], homography: &Matrix3<f64>) -> f64 {
         let h = entries(homography);
         let mut total = [0.0; LANES];
@@ -74,7 +73,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// The sums of least squares with respect to the nine entries of H, row by row: (`JᵀJ`, `Jᵀr`,
+    /// Returns the sums for least squares in the nine entries of H, row by row: (`JᵀJ`, `Jᵀr`,
     /// cost).
     ///
     /// The derivatives are those of [`linearize`](super::sums::linearize): with
@@ -95,7 +94,7 @@ dispatched! {
             let [u1, v1, u2, v2] = *lanes;
             let [w1, t, w2] = *whitening;
             for l in 0..LANES {
-                // A match of weight 0 may be infinitely far away.
+                // A match of weight 0 may be at infinity.
                 let counts = w1[l] > 0.0;
                 let du = if counts { du[l] } else { 0.0 };
                 let dv = if counts { dv[l] } else { 0.0 };
