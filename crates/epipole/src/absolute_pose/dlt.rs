@@ -1,4 +1,4 @@
-//! The pose of a camera from six or more points, by linear least squares.
+//! Linear estimation of a camera pose from six or more points.
 
 use super::refine::rigid;
 use crate::camera::{Intrinsics, RigidTransform};
@@ -7,18 +7,19 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-/// The pose from six or more points by the direct linear transform: `P = [R t]` minimizing the
-/// algebraic error, then the nearest rotation. A start for
+/// Estimates the pose from six or more points by the direct linear transform: `P = [R t]`
+/// minimizing the algebraic error, then the nearest rotation. Suitable as initial value of
 /// [`refine_absolute_pose`](super::refine_absolute_pose).
 ///
-/// * `points_in_world`, `pixels`: points and where they are seen, at least 6, not all on a plane
+/// * `points_in_world`, `pixels`: points and their projections, at least 6, not all on a plane
 ///
-/// Returns `cam_from_world`. World points are moved and scaled to root-mean-square distance √3
-/// first.
+/// Returns `cam_from_world`. World points are first translated and scaled to root-mean-square
+/// distance √3.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 6 points, [`Error::SizeMismatch`], [`Error::NotFinite`] for NaN
-/// and infinities, [`Error::Degenerate`] if the points lie on a plane or are otherwise critical.
+/// and infinities, [`Error::Degenerate`] if the points lie on a plane or in another critical
+/// configuration.
 ///
 /// Source: Hartley & Zisserman 2004, §7.1.
 ///

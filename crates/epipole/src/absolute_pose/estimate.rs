@@ -1,4 +1,4 @@
-//! The pose of a camera from points of which many are wrongly matched.
+//! Robust estimation of a camera pose.
 
 use super::p3p::solve;
 use super::point_errors::{LensPoints, PinholePoints, Pose};
@@ -12,10 +12,10 @@ use crate::robust::{
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-/// Camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
+/// Estimator of camera poses from points and their pixels, for [`Ransac`](crate::robust::Ransac).
 ///
 /// A sample is three points; the error is the reprojection error in pixels, infinite behind the
-/// camera, and through other lenses than pinholes linear about the ray of the pixel
+/// camera, and for lenses other than pinholes linearized about the ray of the pixel
 /// ([`Observation::offset_px`]); refinement minimizes its truncated square. Equal data count once.
 #[derive(Debug, Clone)]
 pub struct AbsolutePoseEstimator {
@@ -36,14 +36,14 @@ enum Sight {
 impl AbsolutePoseEstimator {
     /// Prepares the estimation.
     ///
-    /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
-    /// * `camera`: of any lens
+    /// * `points_in_world`, `pixels`: points and their projections, in the same order
+    /// * `camera`: camera with any lens
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN,
-    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 data: three have up to four
-    /// poses. A point at infinity, and a pixel there, beyond 10⁹ or that the lens bends no ray to,
-    /// is left out.
+    /// [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than 4 points, as three have up to
+    /// four poses. Points at infinity are left out, and so are pixels at infinity, beyond 10⁹ or
+    /// without a ray.
     pub fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -118,7 +118,7 @@ impl AbsolutePoseEstimator {
     }
 }
 
-/// The data that can be right, each once.
+/// Finds the usable data, without repetitions.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN.
@@ -210,10 +210,10 @@ impl Estimator for AbsolutePoseEstimator {
     }
 }
 
-/// The pose `cam_from_world` that most points agree on.
+/// Estimates the pose `cam_from_world` on which most points agree.
 ///
-/// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
-/// * `camera`: of any lens
+/// * `points_in_world`, `pixels`: points and their projections, outliers included
+/// * `camera`: camera with any lens
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
 /// # Errors
@@ -236,7 +236,7 @@ impl Estimator for AbsolutePoseEstimator {
 ///     points.push(x);
 ///     pixels.push(camera.project(&(cam_from_world * x))?);
 /// }
-/// // Every fourth pixel belongs to something else.
+/// // Every fourth pixel belongs to another object.
 /// for pixel in pixels.iter_mut().step_by(4) {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
@@ -255,7 +255,7 @@ pub fn estimate_absolute_pose(
 ) -> Result<RansacReport<RigidTransform>> {
     let estimator = AbsolutePoseEstimator::new(points_in_world, pixels, camera)?;
     let report = ransac(estimator, options, monitor)?;
-    // One of the inliers, of which there are three at least, stays where it is seen.
+    // Keep the projection of an inlier fixed; there are at least three.
     let inlier = report.inliers.iter().position(|&inlier| inlier);
     let fixed = points_in_world[inlier.unwrap_or(0)].coords;
     Ok(report.map(|pose| rigid(&pose, &fixed)))

@@ -1,4 +1,4 @@
-//! The pose of a camera and its focal length from points of which many are wrongly matched.
+//! Robust estimation of a camera pose with its focal length.
 
 use super::estimate::usable;
 use super::p4pf::{MAX_SOLUTIONS, solve};
@@ -15,32 +15,32 @@ use arrayvec::ArrayVec;
 use core::ops::Range;
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
-/// A focal length whose standard deviation is a larger share of it says no more than a guess.
+/// Relative standard deviation above which a focal length is no better than a guess.
 const TELLING: f64 = 0.1;
 
 const NAME: &str = "a camera pose with a focal length from points";
 
 impl AbsolutePoseWithFocal {
-    /// Whether the points tell the focal length, to a tenth of it.
+    /// Returns whether the points determine the focal length to within a tenth.
     pub fn tells_focal(&self) -> bool {
         self.focal_std_px
             .is_some_and(|std_px| std_px < TELLING * self.focal_px)
     }
 }
 
-/// Camera poses with an unknown focal length from points and their pixels.
+/// Estimator of camera poses with an unknown focal length from points and their pixels.
 ///
-/// A sample is four points, and of its solutions only those are looked at whose focal length is
-/// plausible: at least a fifth of the distance from the principal point within which three of four
-/// pixels are, and at most twenty times that of the farthest. The error is the reprojection error
-/// in pixels, infinite behind the camera; refinement minimizes its truncated square over the pose
-/// and the focal length. Equal data count once.
+/// A sample is four points, and only solutions with a plausible focal length are scored: at least a
+/// fifth of the distance from the principal point within which three quarters of the pixels are,
+/// and at most twenty times the distance of the farthest. The error is the reprojection error in
+/// pixels, infinite behind the camera; refinement minimizes its truncated square over the pose and
+/// the focal length. Equal data count once.
 ///
 /// Source: as [`pose_p4pf`](super::pose_p4pf).
 #[derive(Debug, Clone)]
 struct AbsolutePoseFocalEstimator {
     points: Vec<Point3<f64>>,
-    /// About the principal point.
+    /// Pixels relative to the principal point.
     pixels: Vec<Point2<f64>>,
     focals_px: Range<f64>,
     centered: Intrinsics,
@@ -50,14 +50,14 @@ struct AbsolutePoseFocalEstimator {
 impl AbsolutePoseFocalEstimator {
     /// Prepares the estimation.
     ///
-    /// * `points_in_world`, `pixels`: points and where they are seen, in the same order
-    /// * `principal`: the principal point, pixels
+    /// * `points_in_world`, `pixels`: points and their projections, in the same order
+    /// * `principal`: principal point, pixels
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for
     /// a principal point that is not finite, [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer
-    /// than 5 data, as four may have several poses. A point at infinity, and a pixel there or
-    /// beyond 10⁹, is left out.
+    /// than 5 points, as four may have several poses. Points at infinity are left out, and so are
+    /// pixels at infinity or beyond 10⁹.
     fn new(
         points_in_world: &[Point3<f64>],
         pixels: &[Point2<f64>],
@@ -77,7 +77,7 @@ impl AbsolutePoseFocalEstimator {
             points: kept.iter().map(|&i| points_in_world[i]).collect(),
             focals_px: plausible_focals_px(&mut far),
             pixels,
-            // Its focal length is never asked for.
+            // The focal length is not used.
             centered: Intrinsics::new(1.0, 1.0, 0.0, 0.0)?,
             unique,
         })
@@ -112,7 +112,7 @@ impl AbsolutePoseFocalEstimator {
         self.focals_px.contains(&focal_px)
     }
 
-    /// The standard deviation of the focal length of a model, from its inliers.
+    /// Returns the standard deviation of the focal length of a model, from its inliers.
     fn focal_std_px(&self, model: &PoseFocal, max_error_px: f64) -> Option<f64> {
         let mut inliers = Vec::new();
         self.inliers(model, max_error_px, &mut inliers);
@@ -180,22 +180,22 @@ impl Estimator for AbsolutePoseFocalEstimator {
     }
 }
 
-/// The pose `cam_from_world` and the focal length that most points agree on.
+/// Estimates the pose `cam_from_world` and the focal length on which most points agree.
 ///
-/// * `points_in_world`, `pixels`: points and where they are seen; wrong pairs are expected
-/// * `principal`: the principal point, pixels: the middle of the image, for most cameras. Pixels
-///   are square
+/// * `points_in_world`, `pixels`: points and their projections, outliers included
+/// * `principal`: principal point, pixels: for most cameras the image center. Pixels are square
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
 /// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly
-/// as well, at a distance that suits it, and [`AbsolutePoseWithFocal::tells_focal`] says no. The
-/// same holds for points whose depths hardly differ.
+/// as well, at a suitable distance, and [`AbsolutePoseWithFocal::tells_focal`] is false. The same
+/// holds for points with nearly equal depths.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a
 /// principal point that is not finite, [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than
-/// 5 data, as four may have several poses, and as [`ransac`]; points on one line give
-/// [`Error::NoConsensus`]. A point at infinity, and a pixel there or beyond 10⁹, is left out.
+/// 5 points, as four may have several poses, and as [`ransac`]; points on one line give
+/// [`Error::NoConsensus`]. Points at infinity are left out, and so are pixels at infinity or beyond
+/// 10⁹.
 ///
 /// Source: Fischler & Bolles 1981, with [`pose_p4pf`](super::pose_p4pf) as the minimal solver.
 ///
@@ -213,7 +213,7 @@ impl Estimator for AbsolutePoseFocalEstimator {
 ///     points.push(x);
 ///     pixels.push(k.project(&(cam_from_world * x))?);
 /// }
-/// // Every fourth pixel belongs to something else.
+/// // Every fourth pixel belongs to another object.
 /// for pixel in pixels.iter_mut().step_by(4) {
 ///     pixel.x = 640.0 - pixel.y;
 /// }
@@ -235,7 +235,7 @@ pub fn estimate_absolute_pose_and_focal(
     let estimator = AbsolutePoseFocalEstimator::new(points_in_world, pixels, principal)?;
     let all = estimator.clone();
     let report = ransac(estimator, options, monitor)?;
-    // One of the inliers, of which there are four at least, stays where it is seen.
+    // Keep the projection of an inlier fixed; there are at least four.
     let inlier = report.inliers.iter().position(|&inlier| inlier);
     let fixed = points_in_world[inlier.unwrap_or(0)].coords;
     let focal_std_px = all.focal_std_px(&report.model, report.max_error_px);

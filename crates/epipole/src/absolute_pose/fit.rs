@@ -1,4 +1,4 @@
-//! The pose that fits all points best, on a plane or not.
+//! Least-squares fit of a pose to all points, on a plane or not.
 
 use super::dlt::pose_dlt;
 use super::p3p::pose_p3p;
@@ -10,15 +10,15 @@ use nalgebra::{Point2, Point3, Vector3};
 
 const WHAT: &str = "a camera pose from points";
 
-/// Points nearer to a line than this, relative to its length, are on it.
+/// Relative distance from a line below which points count as collinear.
 const FLAT: f64 = 1e-9;
 
-/// Number of P3P poses that are refined. On a plane two of them lead to minima, and noise may let
-/// the wrong one start with the lower cost.
+/// Number of P3P poses to refine. For a plane two of them lead to minima, and with noise the wrong
+/// one may have the lower initial cost.
 const STARTS: usize = 4;
 
-/// The pose with the smallest sum of squared reprojection errors over all points, which may lie on
-/// a plane. There is no outlier rejection: see
+/// Fits the pose with the smallest sum of squared reprojection errors over all points, which may
+/// lie on a plane. There is no outlier rejection: see
 /// [`estimate_absolute_pose`](super::estimate_absolute_pose) for matches with outliers.
 ///
 /// * `points_in_world`, `pixels`: points and their projections, at least 4
@@ -103,7 +103,7 @@ pub fn fit_absolute_pose(
         );
         starts.extend(poses.into_iter().map(|pose| (cost(&pose), pose)));
     }
-    // NaN is no cost.
+    // Drop NaN costs.
     starts.retain(|(cost, _)| *cost < f64::INFINITY);
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     starts.truncate(STARTS);
@@ -129,7 +129,8 @@ pub fn fit_absolute_pose(
         })
 }
 
-/// Four points far from one another, the first three not on a line; `None` if all are on one.
+/// Returns four points far from one another, the first three not on a line; `None` if all are
+/// collinear.
 fn far_apart(points: &[Point3<f64>]) -> Option<[usize; 4]> {
     let farthest = |distance: &dyn Fn(&Point3<f64>) -> f64| -> usize {
         let distances: Vec<f64> = points.iter().map(distance).collect();
@@ -141,7 +142,7 @@ fn far_apart(points: &[Point3<f64>]) -> Option<[usize; 4]> {
     let along = points[b] - points[a];
     let off = |p: &Point3<f64>| along.cross(&(p - points[a])).norm();
     let c = farthest(&off);
-    // Also where all are one point, or too far apart to be multiplied.
+    // Also false if all points are equal, or so far apart that products overflow.
     let triangle = off(&points[c]);
     let is_flat = triangle <= FLAT * along.norm_squared();
     if is_flat || !triangle.is_finite() {
@@ -173,7 +174,7 @@ mod tests {
         Camera::pinhole(k, 640, 480)
     }
 
-    /// Points within ±2, six away, or on z = 0.
+    /// Points within ±2, six away, in space or on z = 0.
     fn scene(random: &mut Random, count: usize, thickness: f64, noise_px: f64) -> Scene {
         let turn = Vector3::from_fn(|_, _| 0.5 * random.normal());
         let t = Vector3::new(0.3 * random.normal(), 0.3 * random.normal(), 7.0);
@@ -226,7 +227,7 @@ mod tests {
         }
     }
 
-    /// No worse than the minimum next to the truth, and as near to the truth as noise allows.
+    /// No worse than the minimum next to the truth, and as close to the truth as noise allows.
     #[test]
     fn noise_costs_no_more_than_at_the_truth() {
         let mut random = Random::new(2);
@@ -278,7 +279,7 @@ mod tests {
             assert!(fit_absolute_pose(&points, &p, &k).is_err());
             assert!(fit_absolute_pose(&x, &pixels, &k).is_err());
         }
-        // Points all over the place and one pixel: an answer of numbers, or a refusal.
+        // Scattered points with a single pixel: a finite result, or an error.
         let one = vec![Point2::new(100.0, 100.0); 9];
         if let Ok(pose) = fit_absolute_pose(&points, &one, &k) {
             assert!(pose.to_homogeneous().iter().all(|x| x.is_finite()));

@@ -7,28 +7,27 @@ use crate::math::svd3;
 use crate::optim::RobustLoss;
 use nalgebra::{Matrix3, Point2, Point3, Rotation3, UnitQuaternion, Vector3};
 
-/// Poses nearer to each other than this, radians, are one.
+/// Angle below which poses are equal, radians.
 const SAME_RAD: f64 = 1e-3;
 
-/// The other minimum of the reprojection error of points near a plane, if there is one.
+/// Finds the other minimum of the reprojection error of points near a plane, if any.
 ///
 /// A small or distant plane looks nearly the same after its depths are reversed: it tilts the other
-/// way. Compare the errors of both poses: where they differ by no more than noise, the points do
-/// not determine the pose.
+/// way. Compare the errors of both poses: if they differ only by noise, the points do not determine
+/// the pose.
 ///
-/// * `cam_from_world`: the pose that is known, as of
-///   [`fit_absolute_pose`](super::fit_absolute_pose)
+/// * `cam_from_world`: the known pose, as from [`fit_absolute_pose`](super::fit_absolute_pose)
 /// * `points_in_world`, `pixels`: points and their projections
-/// * `camera`: of any lens
+/// * `camera`: camera with any lens
 ///
-/// Returns `None` if the reversed pose leads back to the one that is known, as for points in space
-/// and for a plane that faces the camera.
+/// Returns `None` if the reversed pose leads back to the known one, as for points in space and for
+/// a plane that faces the camera.
 ///
 /// # Errors
 /// As [`refine_absolute_pose`].
 ///
-/// Source: Schweighofer & Pinz 2006, "Robust pose estimation from a planar target"; the start
-/// reverses depths about the centroid, as weak perspective does.
+/// Source: Schweighofer & Pinz 2006, "Robust pose estimation from a planar target"; initialized by
+/// reversing depths about the centroid, as under weak perspective.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -42,7 +41,7 @@ const SAME_RAD: f64 = 1e-3;
 /// let pixels = points.map(|x| camera.project(&(truth * x)).unwrap());
 /// let best = fit_absolute_pose(&points, &pixels, &camera)?;
 /// let other = find_flipped_pose(&best, &points, &pixels, &camera)?.unwrap();
-/// // Tilted the other way, and no pixel is off by half a pixel.
+/// // Tilted the other way, yet every pixel is within half a pixel.
 /// assert!((other.rotation.scaled_axis().x + 0.4).abs() < 0.02);
 /// for (x, pixel) in points.iter().zip(&pixels) {
 ///     assert!((camera.project(&(other * x))? - pixel).norm() < 0.5);
@@ -65,8 +64,8 @@ pub fn find_flipped_pose(
     Ok((is_other && sees_all).then_some(other))
 }
 
-/// The pose after depths along the ray of the centroid are reversed and the points are mirrored in
-/// their plane.
+/// Returns the pose after reversing depths along the ray of the centroid and mirroring the points
+/// in their plane.
 fn flipped(pose: &RigidTransform, points: &[Point3<f64>]) -> Option<RigidTransform> {
     let sum: Vector3<f64> = points.iter().map(|x| x.coords).sum();
     let center = Point3::from(sum / points.len() as f64);

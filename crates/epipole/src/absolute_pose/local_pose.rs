@@ -1,4 +1,4 @@
-//! A pose that turns about a point amid its data.
+//! A pose that rotates about a point near the data.
 
 use super::point_errors::Pose;
 use crate::math::nearest_orthogonal;
@@ -7,18 +7,18 @@ use nalgebra::{Matrix2x3, Rotation3, SMatrix, SVector, Vector3};
 /// Rotation, and the pivot in the camera frame.
 pub(super) type LocalPose = Pose;
 
-/// The point about which a pose turns, so that turns and shifts have nearly independent effects on
-/// the pixels.
+/// Center of rotation, chosen so that rotations and shifts have nearly independent effects on the
+/// pixels.
 pub(super) struct Pivot {
-    /// In the world.
+    /// Position in the world.
     pub(super) position: Vector3<f64>,
-    /// The unit of length of the shifts.
+    /// Unit of length of the shifts.
     unit: f64,
 }
 
 impl Pivot {
-    /// The mean of the points, weighted by the square of their nearness. One point at the end of
-    /// the world does not move it.
+    /// Computes the mean of the points, weighted by their inverse squared distance, so that
+    /// extremely far points have no effect.
     ///
     /// * `points`: points in the world with their depths
     pub(super) fn new(
@@ -30,7 +30,8 @@ impl Pivot {
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for (x, depth) in points {
             let nearness = nearest / depth;
-            // Points behind the camera make the initial cost infinite; they move no pivot.
+            // Points behind the camera make the initial cost infinite; they do not affect the
+            // pivot.
             if nearness > 0.0 {
                 sum += x * (nearness * nearness);
                 total += nearness * nearness;
@@ -52,7 +53,7 @@ impl Pivot {
         (*rotation, rotation * self.position + t)
     }
 
-    /// `None` if the pose is not finite.
+    /// Returns `None` if the pose is not finite.
     pub(super) fn in_world(&self, (rotation, pivot_in_cam): &LocalPose) -> Option<Pose> {
         let rotation = nearest_orthogonal(rotation);
         let t = pivot_in_cam - rotation * self.position;
@@ -60,7 +61,8 @@ impl Pivot {
         finite.then_some((rotation, t))
     }
 
-    /// A point seen from the camera and from the pivot, both along the camera's axes.
+    /// Returns a point relative to the camera and relative to the pivot, both along the camera's
+    /// axes.
     pub(super) fn places(
         &self,
         (rotation, pivot_in_cam): &LocalPose,
@@ -70,9 +72,9 @@ impl Pivot {
         [from_pivot + pivot_in_cam, from_pivot]
     }
 
-    /// The Jacobian of an error by a turn about the pivot and a shift.
+    /// Returns the Jacobian of an error by a rotation about the pivot and a shift.
     ///
-    /// * `by_point`: its derivative by the point in the camera frame
+    /// * `by_point`: derivative of the error by the point in the camera frame
     pub(super) fn jacobian(
         &self,
         by_point: &Matrix2x3<f64>,

@@ -1,4 +1,4 @@
-//! The pose of a camera from three points.
+//! Camera pose from three points.
 
 use super::refine::rigid;
 use super::sides::polish;
@@ -7,7 +7,7 @@ use crate::math::polynomial::cubic_roots;
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// The poses, at most four, from which three known points are seen along three rays.
+/// Solves for the poses, at most four, from which three known points are seen along three rays.
 ///
 /// The distances d of the points from the camera satisfy
 /// `dᵢ² + dⱼ² − 2 dᵢ dⱼ cos θᵢⱼ = ‖Xᵢ − Xⱼ‖²`. Two ratios of these are conics in the projective
@@ -17,12 +17,12 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// * `rays`: directions in the camera frame; their lengths do not matter
 /// * `points_in_world`: the three points, in the same order
 ///
-/// Returns `cam_from_world` of each solution, all different; none if the points lie on a line, rays
-/// coincide, or input is not finite. A root is dropped if it does not reproduce the sides of the
-/// triangle, to 10⁻¹¹ radians as seen from the camera.
+/// Returns `cam_from_world` of each solution, without repetitions; none if the points are
+/// collinear, rays coincide, or input is not finite. A root is dropped if it does not reproduce the
+/// sides of the triangle to within 10⁻¹¹ radians as seen from the camera.
 ///
-/// Two solutions merge for a camera on the danger cylinder, which stands upright on the circle
-/// through the points. There they are known only to about the root of the rounding errors.
+/// Two solutions merge for a camera on the danger cylinder through the circle of the points. There
+/// they are accurate only to about the square root of the rounding errors.
 ///
 /// Source: Persson & Nordberg 2018, "Lambda Twist: an accurate fast robust perspective three point
 /// (P3P) solver"; Richter-Gebert 2011, "Perspectives on projective geometry", §11.1 (splitting a
@@ -31,11 +31,11 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// ```
 /// use epipole::absolute_pose::pose_p3p;
 /// use nalgebra::{Point3, Vector3};
-/// // A camera at (0, 0, −5), its axes those of the world, sees three points.
+/// // A camera at (0, 0, −5), with the axes of the world, sees three points.
 /// let points = [Point3::new(1.0, 0.0, 0.0), Point3::new(-1.0, 0.5, 1.0), Point3::new(0.0, -1.0, 0.0)];
 /// let rays = points.map(|x| x.coords + Vector3::new(0.0, 0.0, 5.0));
 /// let poses = pose_p3p(&rays, &points);
-/// // From up to four places three points look like that; one is the true one.
+/// // Three points look like this from up to four positions; one is correct.
 /// assert!(poses.len() <= 4);
 /// assert!(poses.iter().any(|cam_from_world| cam_from_world.rotation.angle() < 1e-7
 ///     && (cam_from_world.translation.vector - Vector3::new(0.0, 0.0, 5.0)).norm() < 1e-9));
@@ -56,16 +56,16 @@ pub fn pose_p3p(
         .collect()
 }
 
-/// Solutions whose rotations differ by less, in Frobenius norm, are one.
+/// Frobenius distance of rotations below which solutions are equal.
 const SAME_ROTATION: f64 = 1e-7;
 
-/// Solutions whose depths differ by more, relatively, are not compared any further.
+/// Relative difference of depths above which solutions are not compared further.
 const SAME_DEPTH: f64 = 1e-3;
 
 /// A symmetric 3×3 matrix: xx, xy, xz, yy, yz, zz.
 type Conic = [f64; 6];
 
-/// The adjugate of a symmetric matrix, symmetric again.
+/// Returns the adjugate of a symmetric matrix, also symmetric.
 #[inline(always)]
 fn adjugate(c: &Conic) -> Conic {
     [
@@ -78,16 +78,16 @@ fn adjugate(c: &Conic) -> Conic {
     ]
 }
 
-/// `tr(A B)` of symmetric matrices.
+/// Returns `tr(A B)` of symmetric matrices.
 #[inline(always)]
 fn trace_of_product(a: &Conic, b: &Conic) -> f64 {
     a[0] * b[0] + a[3] * b[3] + a[5] * b[5] + 2.0 * (a[1] * b[1] + a[2] * b[2] + a[4] * b[4])
 }
 
-/// The two lines of a conic of rank 2, if they are real.
+/// Splits a conic of rank 2 into its two lines, if they are real.
 #[inline]
 fn split(c: &Conic) -> Option<[[f64; 3]; 2]> {
-    // Off rounding, −adj(C) = p pᵀ with p the point where the lines meet, scaled.
+    // Up to rounding, −adj(C) = p pᵀ with p the intersection of the lines, scaled.
     let b = adjugate(c);
     let diagonal = [-b[0], -b[3], -b[5]];
     let largest = if diagonal[0] >= diagonal[1] && diagonal[0] >= diagonal[2] {
@@ -97,7 +97,7 @@ fn split(c: &Conic) -> Option<[[f64; 3]; 2]> {
     } else {
         2
     };
-    // A negative entry: the lines are complex. Not a number is refused, too.
+    // A negative entry means complex lines. NaN is rejected as well.
     if diagonal[largest].is_nan() || diagonal[largest] <= 0.0 {
         return None;
     }
@@ -124,7 +124,7 @@ fn split(c: &Conic) -> Option<[[f64; 3]; 2]> {
     Some([m[row], [m[0][column], m[1][column], m[2][column]]])
 }
 
-/// Writes the solutions (R, t) and returns how many; rays must be of length 1.
+/// Writes the solutions (R, t) and returns their number; rays must have unit length.
 pub(crate) fn solve(
     rays: &[Vector3<f64>; 3],
     points: &[Vector3<f64>; 3],
@@ -142,7 +142,7 @@ pub(crate) fn solve(
     );
     let normal = side01.cross(&side02);
     let normal_sq = normal.norm_squared();
-    // Collinear points leave the camera free to turn about their line.
+    // With collinear points the camera can rotate freely about their line.
     let longest = a01.max(a02).max(a12);
     if !(normal_sq > 1e-20 * longest * longest && normal_sq.is_finite()) {
         return 0;
@@ -152,7 +152,7 @@ pub(crate) fn solve(
         rays[0].dot(&rays[2]),
         rays[1].dot(&rays[2]),
     );
-    // Two conics, scaled by the longest side; both divide by the same equation, that of side 12.
+    // Two conics, scaled by the longest side; both divide by the equation of side 12.
     let (r01, r02) = (a01 / a12, a02 / a12);
     let first: Conic = [1.0, -m01, 0.0, 1.0 - r01, r01 * m12, -r01];
     let second: Conic = [1.0, 0.0, -m02, -r02, r02 * m12, 1.0 - r02];
@@ -176,7 +176,7 @@ pub(crate) fn solve(
     }
     let Some(lines) = lines else { return 0 };
 
-    // 1 − cos θ without cancellation: the rays to points far away are nearly parallel.
+    // 1 − cos θ without cancellation: the rays to far points are nearly parallel.
     let (c01, c02, c12) = (
         0.5 * (rays[0] - rays[1]).norm_squared(),
         0.5 * (rays[0] - rays[2]).norm_squared(),
@@ -193,7 +193,7 @@ pub(crate) fn solve(
         let mut depths = [[0.0; 3]; 2];
         let num_depths = meet(line, &second, &mut depths);
         for d in &mut depths[..num_depths] {
-            // From ratios to distances by the longest side, which loses least.
+            // Convert ratios to distances by the longest side, which is most accurate.
             let [x, y, z] = *d;
             let size_sq = if a12 >= a01 && a12 >= a02 {
                 a12 / (y * y + z * z - 2.0 * y * z * m12)
@@ -218,7 +218,7 @@ pub(crate) fn solve(
                 + e2 * inverse[1].transpose()
                 + e1.cross(&e2) * inverse[2].transpose();
             let t = place[0] - rotation * points[0];
-            // On the danger cylinder two solutions are one, and both lines lead there.
+            // On the danger cylinder two solutions coincide, and both lines lead there.
             let known = (0..count).any(|i| {
                 (depths0[i] - d[0]).abs() < SAME_DEPTH * d[0]
                     && (solutions[i].0 - rotation).norm_squared() < SAME_ROTATION * SAME_ROTATION
@@ -237,7 +237,7 @@ pub(crate) fn solve(
 /// Intersections of a line and a conic with three positive coordinates.
 #[inline]
 fn meet(line: &[f64; 3], conic: &Conic, points: &mut [[f64; 3]; 2]) -> usize {
-    // The largest coefficient is eliminated: coordinate k = −(l_i d_i + l_j d_j)/l_k.
+    // Eliminate the largest coefficient: coordinate k = −(l_i d_i + l_j d_j)/l_k.
     let k = if line[0].abs() >= line[1].abs() && line[0].abs() >= line[2].abs() {
         0
     } else if line[1].abs() >= line[2].abs() {
@@ -255,7 +255,7 @@ fn meet(line: &[f64; 3], conic: &Conic, points: &mut [[f64; 3]; 2]) -> usize {
     let c2 = q(j, j) + wj * (2.0 * q(j, k) + wj * q(k, k));
     let mut discriminant = c1 * c1 - c0 * c2;
     if discriminant < 0.0 {
-        // A tangent line, but for rounding.
+        // A tangent line up to rounding.
         if discriminant < -1e-10 * (c1 * c1 + (c0 * c2).abs()) {
             return 0;
         }
@@ -283,7 +283,7 @@ pub(crate) mod tests {
     use crate::math::random::Random;
     use nalgebra::UnitQuaternion;
 
-    /// PoseLib's generator: a field of view of 75°, depths from 0.1 to 10.
+    /// Random problem as from PoseLib's generator: a field of view of 75°, depths from 0.1 to 10.
     pub(crate) fn problem<const N: usize>(
         random: &mut Random,
     ) -> (RigidTransform, [Vector3<f64>; N], [Point3<f64>; N]) {

@@ -1,4 +1,4 @@
-//! Reprojection errors of points, pixels, through pinholes and other lenses.
+//! Reprojection errors of points, pixels, for pinholes and other lenses.
 
 use crate::camera::{Intrinsics, Observation};
 use nalgebra::{Matrix2x3, Point2, Point3, Vector2, Vector3};
@@ -6,12 +6,12 @@ use nalgebra::{Matrix2x3, Point2, Point3, Vector2, Vector3};
 /// Rotation and translation of `cam_from_world`.
 pub(super) type Pose = (nalgebra::Matrix3<f64>, Vector3<f64>);
 
-/// Errors of points, given where they are in the camera frame.
+/// Errors of points given in the camera frame.
 pub(super) trait PointErrors {
     /// Depth along the optical axis or along the ray of the pixel.
     fn depth(&self, x_in_cam: &Vector3<f64>, index: usize) -> f64;
 
-    /// The error; `None` where the camera does not see the point.
+    /// Returns the error; `None` if the camera does not see the point.
     fn residual(&self, x_in_cam: &Vector3<f64>, index: usize) -> Option<Vector2<f64>>;
 
     /// The error and its derivative by the point in the camera frame.
@@ -22,7 +22,7 @@ pub(super) trait PointErrors {
     ) -> Option<(Vector2<f64>, Matrix2x3<f64>)>;
 }
 
-/// Pixels of a pinhole camera.
+/// Points and their pixels of a pinhole camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PinholePoints<'a> {
     pub(super) pixels: &'a [Point2<f64>],
@@ -69,7 +69,7 @@ impl PointErrors for PinholePoints<'_> {
     }
 }
 
-/// Observations of a camera of any lens.
+/// Points and their observations of a camera with any lens.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LensPoints<'a> {
     pub(super) seen: &'a [Observation],

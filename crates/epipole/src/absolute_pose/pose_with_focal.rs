@@ -1,4 +1,4 @@
-//! A camera pose together with a focal length.
+//! Camera pose with a focal length.
 
 use crate::camera::RigidTransform;
 use nalgebra::{Matrix3, Vector3};
@@ -8,11 +8,11 @@ use nalgebra::{Matrix3, Vector3};
 pub struct AbsolutePoseWithFocal {
     /// The pose.
     pub cam_from_world: RigidTransform,
-    /// The focal length, pixels.
+    /// Focal length, pixels.
     pub focal_px: f64,
-    /// Its standard deviation, pixels, from the errors of the inliers and how they depend on it.
-    /// `None` for a candidate that is yet to be judged, and where the focal length makes no
-    /// difference at all.
+    /// Standard deviation of the focal length, pixels, from the errors of the inliers and their
+    /// dependence on it. `None` for a candidate that is not yet scored, and if the focal length has
+    /// no effect.
     pub focal_std_px: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Nonlinear refinement of a camera pose: the reprojection error by Levenberg–Marquardt.
+//! Nonlinear refinement of a camera pose: minimizes the reprojection error by Levenberg–Marquardt.
 
 use super::local_pose::{LocalPose, Pivot};
 use super::point_errors::{LensPoints, PinholePoints, PointErrors, Pose};
@@ -7,7 +7,7 @@ use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset,
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vector2, Vector3};
 
-/// Reprojection error, pixels; infinite behind the camera.
+/// Computes the reprojection error, pixels; infinite behind the camera.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
 ///
@@ -18,7 +18,7 @@ use nalgebra::{Point2, Point3, Rotation3, SMatrix, SVector, UnitQuaternion, Vect
 /// use nalgebra::{Point2, Point3};
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// let camera = PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::identity() };
-/// // The point is seen at (460, 170), (3, 4) away.
+/// // The point projects to (460, 170), at an offset of (3, 4).
 /// let pixel = Point2::new(463.0, 174.0);
 /// assert!((reprojection_error_px(&camera, &Point3::new(0.4, -0.2, 2.0), &pixel) - 5.0).abs() < 1e-12);
 /// assert_eq!(reprojection_error_px(&camera, &Point3::new(0.4, -0.2, -2.0), &pixel), f64::INFINITY);
@@ -35,20 +35,20 @@ pub fn reprojection_error_px(
     }
 }
 
-/// The pose near `cam_from_world` that minimizes `½ Σ ρ(‖pixel − projection‖²)`.
+/// Refines a pose: minimizes `½ Σ ρ(‖pixel − projection‖²)`.
 ///
-/// * `points_in_world`, `pixels`: points and where they are seen, at least 3
-/// * `camera`: of any lens
-/// * `loss`: its width is in pixels
+/// * `points_in_world`, `pixels`: points and their projections, at least 3
+/// * `camera`: camera with any lens
+/// * `loss`: width in pixels
 ///
-/// Points that are behind the camera at the start are left out. Neither the world's origin nor its
-/// unit of length matters: the search turns the pose about a point amid the others, not about the
+/// Points initially behind the camera are left out. Neither the world's origin nor its unit of
+/// length matters, since the search rotates the pose about a point amid the others, not about the
 /// origin.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than 3 points in front of the camera, [`Error::SizeMismatch`] for
 /// lists of different length, [`Error::NotFinite`] for NaN and infinities, [`Error::OutOfRange`]
-/// for a loss that [`RobustLoss::check`] refuses, and as [`Camera::observe`] for a pixel of a lens.
+/// for a loss that [`RobustLoss::check`] rejects, and as [`Camera::observe`] for a pixel of a lens.
 ///
 /// Source: Hartley & Zisserman 2004, §7.2.
 ///
@@ -66,7 +66,7 @@ pub fn reprojection_error_px(
 ///     points.push(x);
 ///     pixels.push(camera.project(&(cam_from_world * x))?);
 /// }
-/// // One wrong pixel, and a start that is off by 0.1 and 0.02 rad.
+/// // One wrong pixel, and an initial pose that is off by 0.1 and 0.02 rad.
 /// pixels[3].x += 50.0;
 /// let start = RigidTransform::new(Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 0.02, 0.0)) * cam_from_world;
 /// let loss = RobustLoss::Cauchy { width: 1.0 };
@@ -139,12 +139,12 @@ fn refine_all(
     Ok(rigid(&refined, &points[used[0]].coords))
 }
 
-/// A pose whose R is a rotation but for small errors, as one whose R is exactly that.
+/// Makes the R of a pose, a rotation up to small errors, an exact rotation.
 ///
-/// * `fixed`: a point of the world that stays where the camera sees it
+/// * `fixed`: a world point whose projection does not change
 ///
-/// The errors of R act over the distance from the fixed point. With R and t taken over as they are
-/// that would be the world's origin, which may be anywhere.
+/// Errors of R are multiplied by the distance from the fixed point. Without one, this would be the
+/// world's origin, which may be anywhere.
 pub(super) fn rigid((rotation, t): &Pose, fixed: &Vector3<f64>) -> RigidTransform {
     let unit = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
     let t = (rotation * fixed + t) - unit * fixed;
@@ -169,7 +169,7 @@ impl<E: PointErrors> PoseProblem<'_, E> {
     }
 }
 
-/// A problem whose pose turns about a pivot.
+/// A problem whose pose rotates about a pivot.
 struct LocalProblem<'a, E> {
     problem: &'a PoseProblem<'a, E>,
     pivot: Pivot,
@@ -220,7 +220,7 @@ impl<E: PointErrors> FixedProblem<6> for LocalProblem<'_, E> {
     }
 }
 
-/// The pose near a start that minimizes the errors; `None` if their sum is not finite there.
+/// Refines an initial pose; `None` if its cost is not finite.
 pub(super) fn refine(
     problem: &PoseProblem<'_, impl PointErrors>,
     start: Pose,

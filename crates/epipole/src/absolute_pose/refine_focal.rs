@@ -1,4 +1,4 @@
-//! Nonlinear refinement of a camera pose together with the focal length.
+//! Nonlinear refinement of a camera pose with the focal length.
 
 use super::local_pose::{LocalPose, Pivot};
 use super::point_errors::{PinholePoints, PointErrors};
@@ -8,8 +8,8 @@ use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
 
-/// As a [`LocalProblem`], and its focal length is refined in place of the one that the intrinsics
-/// have.
+/// Like [`LocalProblem`], but the focal length is refined as well, instead of that of the
+/// intrinsics.
 struct FocalProblem<'a> {
     problem: &'a PoseProblem<'a, PinholePoints<'a>>,
     pivot: Pivot,
@@ -23,7 +23,7 @@ impl<'a> FocalProblem<'a> {
         }
     }
 
-    /// The same pixels by a camera with other intrinsics.
+    /// Returns the same pixels for a camera with other intrinsics.
     fn seen_by<'b>(&'b self, intrinsics: &'b Intrinsics) -> PinholePoints<'b> {
         PinholePoints {
             intrinsics,
@@ -31,13 +31,13 @@ impl<'a> FocalProblem<'a> {
         }
     }
 
-    /// The intrinsics with another focal length, if there is such a camera.
+    /// Returns the intrinsics with another focal length, if valid.
     fn camera(&self, focal_px: f64) -> Option<Intrinsics> {
         let center = self.problem.errors.intrinsics.principal_point();
         Intrinsics::new(focal_px, focal_px, center.x, center.y).ok()
     }
 
-    /// The residual and its derivatives by turn, shift and log f.
+    /// Returns the residual and its derivatives by rotation, shift and log f.
     fn linearized(
         &self,
         pose: &LocalPose,
@@ -102,8 +102,8 @@ impl FixedProblem<7> for FocalProblem<'_> {
     }
 }
 
-/// Refines a pose with its focal length; of the intrinsics of the problem only the principal point
-/// counts.
+/// Refines a pose with its focal length; only the principal point of the problem's intrinsics is
+/// used.
 pub(super) fn refine_with_focal(
     problem: &PoseProblem<'_, PinholePoints<'_>>,
     start: &PoseFocal,
@@ -116,8 +116,8 @@ pub(super) fn refine_with_focal(
     (model.1 > 0.0 && model.1.is_finite()).then_some((rotation, t, model.1))
 }
 
-/// The standard deviation of the focal length, as a share of it: that of the errors, and how they
-/// depend on all seven parameters. `None` if they do not determine it.
+/// Returns the relative standard deviation of the focal length, from the errors and their
+/// dependence on all seven parameters. `None` if they do not determine it.
 pub(super) fn relative_focal_deviation(
     problem: &PoseProblem<'_, PinholePoints<'_>>,
     model: &PoseFocal,
@@ -135,7 +135,7 @@ pub(super) fn relative_focal_deviation(
     share.is_finite().then_some(share)
 }
 
-/// The solution near a start that four points fit best; their pixels are about the principal point.
+/// Refines a solution for four points, with pixels relative to the principal point.
 pub(super) fn polish_sample(
     about: &[Vector2<f64>; 4],
     points: &[Point3<f64>; 4],

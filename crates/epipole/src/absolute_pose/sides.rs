@@ -1,12 +1,12 @@
 //! Distances of three points along their rays, from the sides of their triangle.
 
-/// Steps of Newton's method: four or five do unless two solutions are about to merge.
+/// Maximum number of Newton steps: four or five suffice unless two solutions are about to merge.
 const MAX_STEPS: usize = 8;
 
 /// Maximum angle between a solution and a ray, radians: far above rounding, far below relevance.
 const MAX_TURN: f64 = 1e-11;
 
-/// Newton's method on the three equations of the sides; false if it does not end at a solution.
+/// Newton's method on the three equations of the sides; returns false without a solution.
 ///
 /// * `versines`: `1 − cos θ` of the angles between the rays
 ///
@@ -54,8 +54,8 @@ pub(super) fn polish(d: &mut [f64; 3], sides_sq: [f64; 3], versines: [f64; 3]) -
     fits
 }
 
-/// Whether the ends of a side are on their rays: an error r of the squared side a² is an error of
-/// r/(2a) of the side, an angle of r/(2ad) at a distance of d.
+/// Returns whether the ends of a side are on their rays: an error r of the squared side a² is an
+/// error of r/(2a) of the side, or an angle of r/(2ad) at distance d.
 #[inline(always)]
 fn within(r: f64, side_sq: f64, depths_sq: f64) -> bool {
     r * r <= MAX_TURN * MAX_TURN * side_sq * depths_sq

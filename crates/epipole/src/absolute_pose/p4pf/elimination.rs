@@ -1,4 +1,4 @@
-//! Ratios of the depths of four points in space: four quadrics in three unknowns.
+//! Depth ratios of four points in space: four quadrics in three unknowns.
 
 use crate::math::real_roots::{DEGREE as ROOT_DEGREE, real_roots};
 use arrayvec::ArrayVec;
@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, SMatrix, Vector2, Vector3, Vector4};
 /// Degree of the remaining polynomial, the maximum number of solutions.
 const DEGREE: usize = 6;
 
-/// A polynomial in the ratio that is eliminated last, from the constant term upwards.
+/// A polynomial in the ratio to be eliminated last, from the constant term upwards.
 type Polynomial = [f64; DEGREE + 1];
 
 /// A quadratic form in three ratios and 1.
@@ -16,17 +16,16 @@ type Quadric = SMatrix<f64, 4, 4>;
 /// Coefficients of y, w and 1 in an equation.
 type Row = [Polynomial; 3];
 
-/// An extremum of the polynomial this near to zero is taken for a root: noise makes pairs of roots
-/// complex.
+/// Maximum value of an extremum to count as a root: noise makes pairs of roots complex.
 const NEARLY_TOUCHING: f64 = 1e-6;
 
-/// Steps of the Gauss–Newton iteration.
+/// Number of Gauss–Newton steps.
 const STEPS: usize = 8;
 
-/// The depths of four points, all positive, relative to the first.
+/// Solves for the depths of four points, all positive, relative to the first.
 ///
-/// * `pixels`: about the principal point
-/// * `inverse`: that of the sides from the first point to the others, in columns
+/// * `pixels`: pixels relative to the principal point
+/// * `inverse`: inverse of the matrix with the sides from the first point to the others as columns
 pub(super) fn depth_ratios(
     pixels: &[Vector2<f64>; 4],
     inverse: &Matrix3<f64>,
@@ -35,8 +34,8 @@ pub(super) fn depth_ratios(
     let Some(quadrics) = quadrics(pixels, inverse) else {
         return solutions;
     };
-    // Each of the three unknowns may be the one eliminated last; the squares and the product of the
-    // other two must be well separated.
+    // Any of the three unknowns can be eliminated last; the squares and the product of the other
+    // two must be well separated.
     let orders = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3]];
     let eliminations = orders.map(|order| Elimination::new(&quadrics, order));
     let Some(best) =
@@ -63,9 +62,10 @@ pub(super) fn depth_ratios(
     solutions
 }
 
-/// The quadrics in (z₂, z₃, z₄, 1) that make the first two rows of `diag(1, 1, f) s R` orthogonal
-/// to each other and to the third, and equally long; `None` if they are not finite. The matrix is
-/// the product of the image differences and the inverse of the sides, linear in the depths.
+/// Returns the quadrics in (z₂, z₃, z₄, 1) that make the first two rows of `diag(1, 1, f) s R`
+/// orthogonal to each other and to the third, and equally long; `None` if they are not finite. The
+/// matrix is the product of the image differences and the inverse of the sides, linear in the
+/// depths.
 fn quadrics(pixels: &[Vector2<f64>; 4], inverse: &Matrix3<f64>) -> Option<[Quadric; 4]> {
     let row = |c: [f64; 4]| {
         SMatrix::<f64, 3, 4>::from_fn(|i, j| match j {
@@ -92,12 +92,12 @@ fn quadrics(pixels: &[Vector2<f64>; 4], inverse: &Matrix3<f64>) -> Option<[Quadr
     finite.then_some(quadrics)
 }
 
-/// Equations in x, which is to be eliminated last, y and w.
+/// Equations in x, to be eliminated last, y and w.
 struct Elimination {
     order: [usize; 4],
-    /// y², y w and w² as sums of y, w and 1, times polynomials in x.
+    /// y², y w and w² as combinations of y, w and 1 with polynomials in x as coefficients.
     products: [Row; 3],
-    /// An equation without them.
+    /// An equation without these products.
     linear: Row,
     /// Conditioning of the four equations for y², y w and w².
     distinctness: f64,
@@ -130,7 +130,7 @@ impl Elimination {
                 })
             })
         });
-        // Direction that the leading columns span least: the longest remainder of a unit vector.
+        // Direction least spanned by the leading columns: the longest remainder of a unit vector.
         let remainder = |e: usize| -> Vector4<f64> {
             let unit = Vector4::from_fn(|i, _| f64::from(u8::from(i == e)));
             unit - q * (q.transpose() * unit)
@@ -149,7 +149,7 @@ impl Elimination {
         })
     }
 
-    /// `(y²) w = y (y w)` and `y (w²) = w (y w)`, with the products substituted.
+    /// Returns `(y²) w = y (y w)` and `y (w²) = w (y w)`, with the products substituted.
     fn identities(&self) -> [Row; 2] {
         let [yy, yw, ww] = &self.products;
         let y_and_1 = minus(&yy[0], &yw[1]);
@@ -184,7 +184,7 @@ impl Elimination {
         core::array::from_fn(|k| terms.iter().map(|term| term[k]).sum())
     }
 
-    /// The unknowns, in the order of the quadrics, for a root x.
+    /// Returns the unknowns, in the order of the quadrics, for a root x.
     fn rest(&self, x: f64) -> Option<Vector4<f64>> {
         let [first, second] = self.identities();
         let at =
@@ -206,7 +206,7 @@ impl Elimination {
     }
 }
 
-/// A few steps of Gauss–Newton on the four quadrics.
+/// Improves a solution by a few Gauss–Newton steps on the four quadrics.
 fn improved(quadrics: &[Quadric; 4], start: Vector4<f64>) -> Vector4<f64> {
     let value = |z: &Vector4<f64>| Vector4::from_fn(|q, _| z.dot(&(quadrics[q] * z)));
     let mut z = start;

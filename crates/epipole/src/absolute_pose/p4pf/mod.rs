@@ -1,4 +1,4 @@
-//! The pose of a camera and its focal length from four points.
+//! Camera pose and focal length from four points.
 
 mod elimination;
 mod plane;
@@ -14,37 +14,37 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3, Vector4};
 /// Maximum number of solutions: six for points in space, one for points on a plane.
 pub(super) const MAX_SOLUTIONS: usize = 7;
 
-/// Four points are on a line if they are broader than this share of their length in no direction.
+/// Maximum width of four points, relative to their length, to count as collinear.
 const LINE: f64 = 1e-6;
 
-/// Four points thinner than this share of their length count as coplanar: rounding hides the
-/// thickness.
+/// Maximum thickness of four points, relative to their length, to count as coplanar: rounding hides
+/// it.
 const FLAT: f64 = 1e-7;
 
-/// Points thinner than this are tried as points on a plane, too.
+/// Maximum thickness of points that are also tried as coplanar.
 const THIN: f64 = 0.15;
 
-/// Solutions with a larger error, as a share of the image's extent, are dropped.
+/// Maximum error of a solution, relative to the extent of the image.
 const FAR_OFF: f64 = 0.25;
 
-/// The poses, each with its focal length, that project four known points to four pixels; at most
-/// seven.
+/// Solves for the poses with focal length, at most seven, that project four known points to four
+/// pixels.
 ///
-/// Pixels are square, without skew. The unknowns are the four depths, up to a common factor, and
+/// Assumes square pixels without skew. The unknowns are the four depths, up to a common factor, and
 /// the focal length. The camera sees a scaled copy of the four points; equal angles and length
-/// ratios of their differences are four quadratic equations in three ratios of depths, after f is
+/// ratios of their differences are four quadratic equations in three depth ratios, after f is
 /// eliminated. Three of their combinations give the squares and the product of two ratios, the
 /// fourth is linear in them, and a determinant of degree six in the third ratio remains. Four
-/// points on a plane give the ratios at once; points near a plane are tried both ways.
+/// coplanar points give the ratios directly; nearly coplanar points are tried both ways.
 ///
-/// * `pixels`, `points_in_world`: projections of the points, and the points
-/// * `principal`: the principal point, pixels: the middle of the image, for most cameras
+/// * `pixels`, `points_in_world`: four pixels and their points
+/// * `principal`: principal point, pixels: for most cameras the image center
 ///
 /// Four points give one equation more than there are unknowns: for exact pixels the true solution
-/// fits exactly, for others the solutions fit approximately. They are sorted by error, the best
-/// first. Returns an empty list if there is none, and for equal points or pixels, three points of a
-/// plane on a line, input that is not finite, and a plane parallel to the image, which looks the
-/// same at every distance with its focal length.
+/// fits exactly, otherwise solutions fit approximately. They are sorted by error, the best first.
+/// Returns an empty list if there is no solution, and for equal points or pixels, three collinear
+/// points of a plane, input that is not finite, and a plane parallel to the image, for which every
+/// focal length fits at some distance.
 ///
 /// Source: the equations of Bujnak, Kukelova & Pajdla 2008, "A general solution to the P4P problem
 /// for camera with unknown focal length"; their elimination as in Kukelova, Heller & Fitzgibbon
@@ -83,7 +83,7 @@ pub fn pose_p4pf(
     solutions.into_iter().map(whole).collect()
 }
 
-/// The same for pixels about the principal point.
+/// Solves for pixels relative to the principal point.
 pub(super) fn solve(
     about: &[Point2<f64>; 4],
     points: &[Vector3<f64>; 4],
@@ -101,7 +101,7 @@ pub(super) fn solve(
         sides: Matrix3::from_columns(&sides) / length,
     };
     let svd = svd3(&problem.sides);
-    // Points on a line leave the rotation about it free.
+    // Collinear points leave the rotation about their line free.
     if svd.singular_values[1] < LINE * svd.singular_values[0] {
         return;
     }
@@ -111,7 +111,7 @@ pub(super) fn solve(
         let Some((mut pose, mirrored)) = problem.pose_of(depths) else {
             return;
         };
-        // The mirror image of points on a plane is also a rotation.
+        // For coplanar points the mirror image is also a rotation.
         if mirrored && thickness > THIN {
             return;
         }
@@ -151,17 +151,17 @@ pub(super) fn solve(
     }
 }
 
-/// Solutions that differ by less are one.
+/// Distance below which solutions are equal.
 const SAME: f64 = 1e-7;
 
-/// Depths that differ by no more, squared and relative to the first, leave the focal length free.
+/// Maximum squared difference of depths, relative to the first, that leaves the focal length free.
 const SAME_DEPTH: f64 = 1e-12;
 
 /// Four points in normalized units, the first at the origin.
 struct Sample {
-    /// About the principal point.
+    /// Pixels relative to the principal point.
     pixels: [nalgebra::Vector2<f64>; 4],
-    /// From the first point to the others, in columns.
+    /// Sides from the first point to the others, as columns.
     sides: Matrix3<f64>,
 }
 
@@ -171,7 +171,7 @@ impl Sample {
         [Vector3::zeros(), at(0), at(1), at(2)].map(Point3::from)
     }
 
-    /// The pose, its focal length, and whether the camera would have to see a mirror image.
+    /// Returns the pose, its focal length, and whether the solution is mirrored.
     ///
     /// A distance between two points gives `‖uᵢzᵢ − uⱼzⱼ‖² + f² (zᵢ − zⱼ)² = s² d²`: six equations,
     /// linear in f² and s². Then R is the rotation that aligns the two sets of points.
@@ -214,7 +214,7 @@ impl Sample {
         let first = seen(0);
         let turned = Matrix3::from_columns(&[1, 2, 3].map(|i| seen(i) - first));
         let mirrored = turned.determinant() * self.sides.determinant() < 0.0;
-        // The centers of both sets, not their first points, lie on one another.
+        // Align the centroids of both sets, not their first points.
         let middle = |sides: &Matrix3<f64>| sides.column_sum() / 4.0;
         let (m1, m2) = (middle(&self.sides), middle(&turned));
         let mut sums = m2 * m1.transpose();
@@ -229,7 +229,7 @@ impl Sample {
         Some(((rotation, t, focal), mirrored))
     }
 
-    /// The root of the mean square distance of a point's image from its pixel; infinite behind the
+    /// Returns the root-mean-square distance between projections and pixels; infinite behind the
     /// camera.
     fn error(&self, (rotation, t, focal): &PoseFocal) -> f64 {
         let mut sum = 0.0;

@@ -12,7 +12,7 @@ fn focal(random: &mut Random) -> f64 {
     400.0 * libm::exp(random.uniform(0.0, 2.0))
 }
 
-/// Relative errors of the focal length and of the pose, of the solution nearest to the truth.
+/// Relative errors of focal length and pose of the solution nearest to the truth.
 fn off(
     solutions: &[AbsolutePoseWithFocal],
     truth: &RigidTransform,
@@ -49,7 +49,7 @@ fn ten_thousand_problems() {
     }
     println!("four points: {found} of 10000, {first} first, {total} solutions");
     assert!(found >= 9990, "{found}");
-    // Four points are one equation too many, so the best one is the true one.
+    // Four points are overdetermined by one equation, so the best solution is the true one.
     assert!(first >= 9985, "{first}");
 }
 
@@ -61,7 +61,7 @@ fn tilted(random: &mut Random) -> (RigidTransform, [Point3<f64>; 4]) {
     let (axis, angle) = (random.uniform(0.0, 6.3), random.uniform(0.17, 1.0));
     let tilt =
         Rotation3::from_scaled_axis(Vector3::new(libm::cos(axis), libm::sin(axis), 0.0) * angle);
-    // Corners of a square, each somewhere about its place, so that no three are on a line.
+    // Corners of a square, randomly displaced so that no three are collinear.
     let points = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| {
         let (dx, dy) = (random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
         let x = tilt * Vector3::new(x + dx, y + dy, 0.0) + Vector3::new(0.1, -0.2, 4.0);
@@ -73,7 +73,7 @@ fn tilted(random: &mut Random) -> (RigidTransform, [Point3<f64>; 4]) {
 #[test]
 fn ten_thousand_planes() {
     let mut random = Random::new(2);
-    // From a plane to a body, also as thin as rounding.
+    // From coplanar to thick, also at the level of rounding.
     for thickness in [0.0, 1e-13, 1e-9, 1e-5, 1e-2, 0.1, 0.3] {
         let (mut found, count) = (0, 1500);
         for _ in 0..count {
@@ -116,7 +116,7 @@ fn noise_moves_the_answer_no_more_than_it_must() {
         );
         medians.push(errors[500]);
     }
-    // Proportional to the noise, and one pixel of some thousand costs a few percent.
+    // Proportional to the noise: one pixel in some thousand costs a few percent.
     assert!(medians[2] < 0.03, "{medians:?}");
     assert!(
         medians[0] < 0.02 * medians[2] && medians[1] < 0.15 * medians[2],
@@ -165,7 +165,7 @@ fn degenerate_input_has_no_solution_or_finite_ones() {
     let three = [line[0], line[1], line[2], Point3::new(0.0, 2.0, 6.0)];
     let seen = three.map(|x| camera(700.0).project(&x).unwrap());
     assert!(pose_p4pf(&seen, &three, &CENTER).is_empty());
-    // A plane that is seen from the side.
+    // A plane seen edge-on.
     let side = square.map(|(x, y)| Point3::new(0.0, x + 0.2 * y, 5.0 + y));
     let seen = side.map(|x| camera(700.0).project(&x).unwrap());
     assert!(pose_p4pf(&seen, &side, &CENTER).is_empty());
@@ -190,7 +190,7 @@ fn degenerate_input_has_no_solution_or_finite_ones() {
             }
         }
     }
-    // Any four points with any pixels: some least-squares answer or none, and numbers in any case.
+    // Random points with random pixels: a least-squares solution or none, and always finite.
     for _ in 0..2000 {
         let any = |random: &mut Random, r: f64| random.uniform(-r, r);
         let p = [(); 4].map(|()| Point2::new(any(&mut random, 500.0), any(&mut random, 400.0)));
