@@ -6,18 +6,18 @@ use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
 use nalgebra::{Matrix3x4, Point2, Point3};
 
-/// The point that two cameras see at two pixels, minimizing the algebraic error
-/// `Σ ‖x × P X‖²` over homogeneous X of length 1.
+/// Triangulates a point from two pixels, minimizing the algebraic error `Σ ‖x × P X‖²` over
+/// homogeneous X of length 1.
 ///
-/// For inexact pixels, the minimum depends on the world's origin and unit of length. Best are an
-/// origin near the cameras and a unit about as long as the baseline.
+/// With noise, the minimum depends on the world's origin and unit of length. An origin near the
+/// cameras and a unit similar to the baseline are best.
 ///
 /// * `p1`, `p2`: 3×4 projection matrices, such as
 ///   [`PosedCamera::projection_matrix`](crate::camera::PosedCamera::projection_matrix)
 /// * `pixel1`, `pixel2`: projections of the point
 ///
 /// # Errors
-/// [`Error::PointAtInfinity`] for parallel rays, those that meet 10¹² baselines away or farther,
+/// [`Error::PointAtInfinity`] for parallel rays, or rays that meet 10¹² baselines away or farther,
 /// [`Error::PointBehindCamera`] if the point is not in front of both cameras, [`Error::NotFinite`]
 /// for NaN and infinities, [`Error::Degenerate`] if the cameras are at the same place, or a matrix
 /// has a rank below 3.
@@ -47,11 +47,11 @@ pub fn triangulate_dlt(
     accept(&r1, &r2, baseline, &null_point(&r1, &r2, pixels))
 }
 
-/// [`triangulate_dlt`] of many matches of one pair of cameras.
+/// Runs [`triangulate_dlt`] on many matches of one pair of cameras.
 ///
 /// # Errors
-/// Each element has its own; [`Error::SizeMismatch`] if the lists differ in length,
-/// [`Error::Degenerate`] and [`Error::NotFinite`] if it is for the matrices.
+/// Each element has its own error; [`Error::SizeMismatch`] if the lists differ in length,
+/// [`Error::Degenerate`] and [`Error::NotFinite`] for invalid matrices.
 ///
 /// Source: as [`triangulate_dlt`].
 ///
@@ -87,7 +87,7 @@ pub fn triangulate_dlt_all(
     let baseline = baseline(&r1, &r2)?;
     let mut points = Vec::with_capacity(pixels1.len());
     for (a, b) in pixels1.chunks(LANES).zip(pixels2.chunks(LANES)) {
-        // Of an incomplete last block, the lanes behind its end are not used.
+        // In an incomplete last block, the lanes beyond its end are unused.
         let mut pixels = [[0.0; LANES]; 4];
         for (l, (a, b)) in a.iter().zip(b).enumerate() {
             [pixels[0][l], pixels[1][l], pixels[2][l], pixels[3][l]] = [a.x, a.y, b.x, b.y];
@@ -99,9 +99,8 @@ pub fn triangulate_dlt_all(
     Ok(points)
 }
 
-/// The distance between the centers of the cameras, which are the null vectors of the matrices;
-/// refused if they are the same. 1 if a center is at infinity: then nothing in the matrices is a
-/// length.
+/// Returns the distance between the camera centers, the null vectors of the matrices; an error if
+/// they coincide. 1 if a center is at infinity, since then no entry of the matrices is a length.
 fn baseline(p1: &[Row; 3], p2: &[Row; 3]) -> Result<f64> {
     if !p1.iter().chain(p2).flatten().all(|x| x.is_finite()) {
         return Err(Error::NotFinite {
@@ -148,7 +147,7 @@ fn baseline(p1: &[Row; 3], p2: &[Row; 3]) -> Result<f64> {
     Ok(if apart.is_normal() { apart } else { 1.0 })
 }
 
-/// The vector orthogonal to three rows, by minors; zero if they are dependent.
+/// Returns the vector orthogonal to three rows, by minors; zero if they are dependent.
 fn null_vector(p: &[Row; 3]) -> Row {
     let minor = |i: usize, j: usize, k: usize| {
         p[0][i] * (p[1][j] * p[2][k] - p[1][k] * p[2][j])
@@ -176,12 +175,12 @@ fn accept(p1: &[Row; 3], p2: &[Row; 3], baseline: f64, x: &Row) -> Result<Point3
             what: "a pixel or a projection matrix",
         });
     }
-    // A million million baselines away.
+    // At least 10¹² baselines away.
     if x[3].abs() * baseline <= 1e-12 * in_space {
         return Err(Error::PointAtInfinity);
     }
-    // Depths have the sign of z w, for projection matrices K [R t]. A point in the center of a
-    // camera has a depth that is rounding alone.
+    // Depths have the sign of z w, for projection matrices K [R t]. At the center of a camera the
+    // depth is only rounding error.
     let in_front = |p: &[Row; 3], z: f64| {
         let rounding = 1e-13 * dot(&p[2].map(f64::abs), &x.map(f64::abs));
         z * x[3].signum() > rounding
@@ -210,7 +209,7 @@ mod tests {
         m.to_matrix().fixed_view::<3, 4>(0, 0).into_owned()
     }
 
-    /// COLMAP's src/colmap/geometry/triangulation_test.cc: listed points, within 1e-10.
+    /// COLMAP's src/colmap/geometry/triangulation_test.cc: published points, within 1e-10.
     #[test]
     fn published_points() {
         let points = [
@@ -265,7 +264,7 @@ mod tests {
         );
     }
 
-    /// The same vector as a singular value decomposition finds, with noise.
+    /// Agrees with the singular value decomposition, also with noise.
     #[test]
     fn agrees_with_the_singular_vector() {
         let mut random = Random::new(1);
@@ -301,8 +300,8 @@ mod tests {
         }
     }
 
-    /// Blocks of eight, the last incomplete, against one match after another; also beside pixels
-    /// that no point or no number belongs to.
+    /// Compares blocks of eight, the last incomplete, with single matches; also next to pixels
+    /// without a point or not finite.
     #[test]
     fn many_give_the_bits_of_one() {
         let mut random = Random::new(3);
@@ -338,7 +337,7 @@ mod tests {
         assert!(triangulate_dlt_all(&p1, &p2, &[o], &[]).is_err());
     }
 
-    /// The whole ray fits if the pixels agree, and nothing if they do not.
+    /// The whole ray fits if the pixels agree, and nothing otherwise.
     #[test]
     fn cameras_at_the_same_place_are_refused() {
         let mut random = Random::new(5);
@@ -359,14 +358,14 @@ mod tests {
                 let cameras = [camera(&center), camera(&center)];
                 let [p1, p2] = cameras.map(|c| c.projection_matrix());
                 for pixel2 in [o, other] {
-                    // Rotated, and computed, so that the centers are equal only up to rounding.
+                    // Rotated and computed, so that the centers are equal only up to rounding.
                     assert_eq!(triangulate_dlt(&p1, &p2, &o, &pixel2), Err(NO_BASELINE));
                     assert_eq!(triangulate_dlt(&p1, &p1, &o, &pixel2), Err(NO_BASELINE));
                     let scaled = p2 * -1e-3;
                     assert_eq!(triangulate_dlt(&p1, &scaled, &o, &pixel2), Err(NO_BASELINE));
                 }
                 assert_eq!(triangulate_dlt_all(&p1, &p2, &[o], &[o]), Err(NO_BASELINE));
-                // A small step is enough, even at the far end of the world.
+                // A small step suffices, even far from the origin.
                 let moved = camera(&(center + Vector3::new(1e-3, 0.0, 0.0)));
                 let found = triangulate_dlt(&p1, &moved.projection_matrix(), &o, &o);
                 assert_ne!(found, Err(NO_BASELINE));

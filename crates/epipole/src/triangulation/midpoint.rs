@@ -1,4 +1,4 @@
-//! The point nearest to two rays.
+//! Triangulation from two rays.
 
 use super::{BEYOND_NUMBERS, NO_BASELINE};
 use crate::camera::RigidTransform;
@@ -7,7 +7,7 @@ use crate::math::scaling::{power_of_two, unit};
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// The midpoint of the shortest segment between two rays, in the frame of camera 1.
+/// Returns the midpoint of the shortest segment between two rays, in the frame of camera 1.
 ///
 /// It minimizes distances in space, not in the images: for a point near one camera and far from
 /// the other, [`triangulate_optimal`](super::triangulate_optimal) is much better.
@@ -16,10 +16,9 @@ use nalgebra::{Matrix3, Point3, Vector3};
 /// * `ray1`, `ray2`: directions in the frames of cameras 1 and 2; their lengths do not matter
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras are at the same place, t being 0,
-/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if the rays diverge,
-/// [`Error::NotFinite`] for NaN, infinities and zero rays, and for a point whose coordinates are
-/// beyond the range of numbers.
+/// [`Error::Degenerate`] if the cameras are at the same place (t = 0), [`Error::PointAtInfinity`]
+/// for parallel rays, [`Error::PointBehindCamera`] if the rays diverge, [`Error::NotFinite`] for
+/// NaN, infinities and zero rays, and for a point whose coordinates overflow.
 ///
 /// Source: Hartley & Sturm 1997, "Triangulation", §5.3.
 ///
@@ -45,26 +44,25 @@ pub fn triangulate_midpoint(
     meeting.enlarged((on_ray1 + on_ray2) * 0.5)
 }
 
-/// Two rays that pass each other in front of both cameras, the distance between the cameras being
-/// near 1.
+/// Two rays that pass each other in front of both cameras, scaled to a baseline near 1.
 struct Meeting {
     /// R of `cam2_from_cam1`.
     rotation: Matrix3<f64>,
     /// t of `cam2_from_cam1` in units of `size`.
     t: Vector3<f64>,
     size: f64,
-    /// Of length 1, in the frame of camera 1.
+    /// Unit vector in the frame of camera 1.
     ray1: Vector3<f64>,
     /// R ray1.
     turned: Vector3<f64>,
-    /// Of length 1, in the frame of camera 2.
+    /// Unit vector in the frame of camera 2.
     ray2: Vector3<f64>,
-    /// Distances along both rays of the points where they pass nearest, in units of `size`.
+    /// Distances along both rays to their closest points, in units of `size`.
     depths: [f64; 2],
 }
 
 impl Meeting {
-    /// Refuses degenerate input.
+    /// Rejects degenerate input.
     fn new(
         cam2_from_cam1: &RigidTransform,
         ray1: &Vector3<f64>,
@@ -109,12 +107,12 @@ impl Meeting {
         })
     }
 
-    /// A point of ray 2, in the frame of camera 1.
+    /// Returns a point of ray 2, in the frame of camera 1.
     fn on_ray2(&self, depth: f64) -> Vector3<f64> {
         self.rotation.transpose() * (self.ray2 * depth - self.t)
     }
 
-    /// A point in units of the world.
+    /// Converts a point to world units.
     fn enlarged(&self, point: Vector3<f64>) -> Result<Point3<f64>> {
         let point = Point3::from(point * self.size);
         if point.iter().all(|x| x.is_finite()) {
@@ -125,13 +123,12 @@ impl Meeting {
     }
 }
 
-/// A point between two rays that lies nearer to the ray on which it is nearer to its camera, in the
+/// Triangulates a point between two rays, closer to the ray on which its depth is smaller, in the
 /// frame of camera 1.
 ///
-/// On each ray the point is taken at the depth where it would be if the rays met,
-/// `d1 = |x2 × t|/|R x1 × x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by the
-/// inverse of their depths. Nearly as good as minimizing the reprojection error, at the price of
-/// [`triangulate_midpoint`].
+/// On each ray the point is taken at the depth where the rays would meet, `d1 = |x2 × t|/|R x1 ×
+/// x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by their inverse depths. Nearly
+/// as good as minimizing the reprojection error, at the cost of [`triangulate_midpoint`].
 ///
 /// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
 ///
@@ -148,7 +145,8 @@ impl Meeting {
 /// // Camera 2 is 3 units ahead and sees the point at 1 unit, camera 1 at 4. Ray 2 is off by 0.1.
 /// let cam2_from_cam1 = RigidTransform::translation(0.0, 0.0, -3.0);
 /// let (ray1, ray2) = (Vector3::new(1.0, 0.0, 4.0), Vector3::new(1.0, 0.1, 1.0));
-/// // 0.1 high at the near camera is more than a quarter of that at the far one: nearer to ray 2.
+/// // An offset of 0.1 at the near camera is more than a quarter of that at the far one: closer to
+/// // ray 2.
 /// let weighted = triangulate_weighted_midpoint(&cam2_from_cam1, &ray1, &ray2)?;
 /// assert!(weighted.y > 0.07);
 /// assert!((triangulate_midpoint(&cam2_from_cam1, &ray1, &ray2)?.y - 0.05).abs() < 1e-3);
@@ -176,12 +174,13 @@ pub fn triangulate_weighted_midpoint(
     meeting.enlarged(ray1 * depth1 * share1 + meeting.on_ray2(depth2) * (1.0 - share1))
 }
 
-/// The point with the smallest angular corrections of the rays, in the frame of camera 1: it
-/// minimizes `sin² θ1 + sin² θ2`, θi being the angle between ray i and the direction to the point.
+/// Triangulates the point with the smallest angular corrections of the rays, in the frame of camera
+/// 1: minimizes `sin² θ1 + sin² θ2`, where θi is the angle between ray i and the direction to the
+/// point.
 ///
-/// Exact, in closed form: the plane through both centers closest to the rays, `min ‖A n‖` over unit
-/// normals n with the rays, less their part along the baseline, as rows of A. Angles are meaningful
-/// for any camera, pixels are not.
+/// Exact and in closed form: the plane through both centers closest to the rays, `min ‖A n‖` over
+/// unit normals n, where the rows of A are the rays without their components along the baseline.
+/// Unlike pixels, angles are meaningful for any camera.
 ///
 /// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
 ///
@@ -197,11 +196,11 @@ pub fn triangulate_weighted_midpoint(
 /// use epipole::triangulation::{triangulate_angular, triangulate_midpoint};
 /// use nalgebra::{Point3, Vector3};
 /// let cam2_from_cam1 = RigidTransform::translation(-2.0, 0.0, 0.0);
-/// // Up and down by the same angle: the point lies between, as far away as the rays say.
+/// // Up and down by the same angle: the point lies between, at the depth of the rays.
 /// let rays = [Vector3::new(1.0, 0.1, 5.0), Vector3::new(-1.0, -0.1, 5.0)];
 /// let point = triangulate_angular(&cam2_from_cam1, &rays[0], &rays[1])?;
 /// assert!((point - Point3::new(1.0, 0.0, 5.0)).norm() < 1e-12);
-/// // The rays pass each other nearest a little before.
+/// // The closest points of the rays are a little nearer.
 /// assert!((triangulate_midpoint(&cam2_from_cam1, &rays[0], &rays[1])?.z - 4.95).abs() < 1e-3);
 /// # Ok(()) }
 /// ```
@@ -220,8 +219,8 @@ pub fn triangulate_angular(
     } = meeting;
     let along = t.normalize();
     let (along1, along2) = (turned.dot(&along), ray2.dot(&along));
-    // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 leaves the
-    // baseline least.
+    // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 is closest to
+    // the baseline.
     let (across1, across2) = (1.0 - along1 * along1, 1.0 - along2 * along2);
     let both = turned.dot(&ray2) - along1 * along2;
     let half = 0.5 * (across1 - across2);
@@ -239,7 +238,7 @@ pub fn triangulate_angular(
     if !(depth1 > 0.0 && depth2 > 0.0) {
         return Err(Error::PointBehindCamera);
     }
-    // The gap between the rays is shared so that both turn by the required angle.
+    // The gap between the rays is split so that both rotate by the required angle.
     let gap = turned * depth1 + t - ray2 * depth2;
     let share1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
     meeting.enlarged(rotation.transpose() * (turned * depth1 - gap * share1))
@@ -250,7 +249,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// The situations of COLMAP's src/colmap/geometry/triangulation_test.cc.
+    /// The cases of COLMAP's src/colmap/geometry/triangulation_test.cc.
     #[test]
     fn rays_that_miss_or_never_meet() {
         let shift = RigidTransform::translation;
@@ -261,11 +260,11 @@ mod tests {
         let point = triangulate_weighted_midpoint(&relative, &ray1, &ray2).unwrap();
         assert!((point.z - 5.0 * (100.04_f64 / 101.0).sqrt()).abs() < 1e-12);
         assert!((point - expected).norm() < 0.03 && point.y.abs() < 1e-12);
-        // The rays pass each other nearest a little before: minimize (2 − 2s)² + (0.2 s)².
+        // The closest points of the rays are a little nearer: minimize (2 − 2s)² + (0.2 s)².
         let plain = triangulate_midpoint(&relative, &ray1, &ray2).unwrap();
         assert!((plain - Point3::new(-1.0, 0.0, 5.0 * 4.0 / 4.04)).norm() < 0.02);
         assert!((plain.z - 5.0 * 4.0 / 4.04).abs() < 1e-12);
-        // COLMAP's expected point, within 1e-3 of its length there.
+        // COLMAP's expected point, which its test requires to 1e-3 relative.
         let angular = triangulate_angular(&relative, &ray1, &ray2).unwrap();
         assert!((angular - expected).norm() < 1e-12);
         let right = shift(1.0, 0.0, 0.0);
@@ -355,7 +354,7 @@ mod tests {
         }
     }
 
-    /// The unit of length is the caller's business, and the lengths of rays mean nothing.
+    /// The unit of length and the lengths of rays are arbitrary.
     #[test]
     fn worlds_and_rays_of_any_size() {
         let motion = RigidTransform::new(Vector3::new(-1.0, 0.2, 0.1), Vector3::new(0.1, 0.2, 0.3));
@@ -374,7 +373,7 @@ mod tests {
                 }
             }
         }
-        // Rays nearly parallel: the point is beyond the range of numbers.
+        // Nearly parallel rays: the point overflows.
         let far = RigidTransform::translation(-1e305, 0.0, 0.0);
         for method in METHODS {
             let found = method(&far, &Vector3::z(), &Vector3::new(-1e-8, 0.0, 1.0));

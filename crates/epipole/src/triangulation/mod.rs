@@ -1,4 +1,4 @@
-//! Points from their images in two or more views.
+//! Triangulation: points from their images in two or more views.
 //!
 //! | method | views | takes | minimizes |
 //! |---|---|---|---|
@@ -8,14 +8,13 @@
 //! | [`triangulate_optimal`] | two | cameras | the reprojection error |
 //! | [`triangulate_nview`] | two or more | cameras | the reprojection error, iteratively |
 //!
-//! Each takes the least that it needs. Reprojection errors need cameras. Rays are enough for
-//! distances and angles, so those methods serve any lens ([`Lens::ray`](crate::camera::Lens::ray)).
-//! The linear transform needs no intrinsics, so it takes matrices that only F gave, too; that of a
+//! Each takes only what it needs. Reprojection errors need cameras. Rays suffice for distances and
+//! angles, so those methods work with any lens ([`Lens::ray`](crate::camera::Lens::ray)). The
+//! linear transform needs no intrinsics, so it also accepts matrices derived from F; that of a
 //! camera is [`projection_matrix`](crate::camera::PosedCamera::projection_matrix).
 //!
-//! Cameras that stand at the same place see along the same rays whatever is on them. All methods
-//! answer this with [`Error::Degenerate`](crate::Error::Degenerate), before they look at the
-//! pixels.
+//! Cameras at the same place see every point along the same rays. All methods reject them with
+//! [`Error::Degenerate`](crate::Error::Degenerate), before they look at the pixels.
 
 mod dlt;
 mod midpoint;
@@ -31,7 +30,7 @@ const NO_BASELINE: crate::Error = crate::Error::Degenerate {
     why: "the cameras stand at the same place",
 };
 
-/// Error for a point so far away that its coordinates are beyond the range of numbers.
+/// Error for a point whose coordinates overflow.
 const BEYOND_NUMBERS: crate::Error = crate::Error::NotFinite {
     what: "each coordinate of the point",
 };

@@ -1,19 +1,19 @@
-//! The homogeneous point of two-view triangulation, for one match or for eight at once.
+//! Homogeneous point of two-view triangulation, for one match or for eight at once.
 //!
-//! It is the singular vector of the smallest singular value of a 4×4 matrix: the equations are
+//! The singular vector of the smallest singular value of a 4×4 matrix: the equations are
 //! triangularized by Householder reflections, then inverse iteration with RᵀR converges in a few
-//! steps, as the gap between the singular values is wide. Both forms give the same bits.
+//! steps, as the gap between the singular values is wide. Both forms give identical bits.
 
 use crate::math::simd::dispatched;
 
-/// Matches that are solved at once.
+/// Number of matches solved at once.
 pub(super) const LANES: usize = 8;
-/// Steps of inverse iteration at most.
+/// Maximum number of inverse iteration steps.
 const MAX_STEPS: usize = 12;
 /// Change of direction, 1 − |cos|, below which the iteration ends.
 const CONVERGED: f64 = 1e-15;
 
-/// Four numbers: a row of a projection matrix, or a homogeneous point.
+/// Row of a projection matrix, or homogeneous point.
 pub(super) type Row = [f64; 4];
 
 #[inline(always)]
@@ -21,7 +21,8 @@ pub(super) fn dot(a: &Row, b: &Row) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
-/// The homogeneous point, with a length near 1 but not exactly; anything for bad input.
+/// Returns the homogeneous point, with a length near 1 but not exactly; arbitrary for invalid
+/// input.
 ///
 /// * `pixels`: u1, v1, u2, v2
 pub(super) fn null_point(p1: &[Row; 3], p2: &[Row; 3], pixels: [f64; 4]) -> Row {
@@ -39,7 +40,7 @@ pub(super) fn null_point(p1: &[Row; 3], p2: &[Row; 3], pixels: [f64; 4]) -> Row 
 }
 
 dispatched! {
-    /// [`null_point`] of eight matches: x0 to x3 of each.
+    /// Solves [`null_point`] for eight matches: returns x0 to x3 of each.
     ///
     /// * `pixels`: u1, v1, u2, v2 of each
     pub(super) fn null_points(
@@ -61,7 +62,7 @@ dispatched! {
                 x[i][l] = start[i];
             }
         }
-        // 1 while a match still moves, else 0: a mask in the width of what it chooses.
+        // 1 while a match still changes, else 0: a mask of the same width as the values it selects.
         let mut moves = [1.0; LANES];
         for _ in 0..MAX_STEPS {
             let mut num_moving = 0.0;
@@ -98,7 +99,7 @@ dispatched! {
 
 /// R of the QR decomposition of the four equations.
 //
-// No closures here: a closure is a function of its own, compiled for the baseline only.
+// No closures here: a closure is a separate function, compiled for the baseline only.
 struct Factor {
     /// R01, R02, R03, R12, R13, R23.
     above: [f64; 6],
@@ -120,7 +121,7 @@ impl Factor {
         reflect::<2>(&mut r);
         reflect::<3>(&mut r);
         // A zero on the diagonal is an exact null vector; a tiny number in its place leads there.
-        // The last column has another unit, that of length in the world.
+        // The last column has another unit, that of world lengths.
         let size = r[0][0].abs() + r[1][1].abs() + r[2][2].abs();
         let last_size = r[0][3].abs() + r[1][3].abs() + r[2][3].abs() + r[3][3].abs();
         let tiny = 1e-30 * size.max(f64::MIN_POSITIVE);
@@ -165,7 +166,7 @@ impl Factor {
     }
 }
 
-/// The row of the equation `value P[2] X = P[axis] X`.
+/// Returns the row of the equation `value P[2] X = P[axis] X`.
 #[inline(always)]
 fn equation(p: &[Row; 3], value: f64, axis: usize) -> Row {
     let mut row = [0.0; 4];
@@ -209,7 +210,7 @@ fn reciprocal(value: f64, tiny: f64) -> f64 {
 
 #[inline(always)]
 fn normalized(x: Row) -> Row {
-    // Divided first by the largest entry, so that squares neither overflow nor vanish.
+    // Divide by the largest entry first, so that squares neither overflow nor underflow.
     let largest = x[0].abs().max(x[1].abs()).max(x[2].abs().max(x[3].abs()));
     let mut y = [0.0; 4];
     for i in 0..4 {

@@ -11,19 +11,19 @@ use crate::optim::RobustLoss;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// The point that minimizes the algebraic error `Σ ‖x × P X‖²` over all views.
+/// Triangulates a point from many views, minimizing the algebraic error `Σ ‖x × P X‖²`.
 ///
-/// * `cameras`, `pixels`: each camera and where it sees the point, two at least
+/// * `cameras`, `pixels`: at least two cameras, and the point's projection in each
 ///
-/// Rows are scaled by the focal length, so that a view with many pixels does not outweigh one with
-/// few. Lengths are measured from the first camera in units of about the longest baseline from
-/// there, so neither the world's origin nor its unit of length matters.
+/// Rows are scaled by the focal length, so that high-resolution views do not outweigh others.
+/// Lengths are measured from the first camera in units of about its longest baseline, so neither
+/// the world's origin nor its unit of length matters.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two views, [`Error::SizeMismatch`], [`Error::Degenerate`] if
 /// all cameras are at the same place, [`Error::NotFinite`] for NaN and infinities,
-/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would
-/// not see the point, and as [`Camera::unproject`](crate::camera::Camera::unproject).
+/// [`Error::PointAtInfinity`] for parallel rays, [`Error::PointBehindCamera`] if a camera would not
+/// see the point, and as [`Camera::unproject`](crate::camera::Camera::unproject).
 ///
 /// Source: Hartley & Zisserman 2004, §12.2.
 ///
@@ -62,8 +62,8 @@ pub fn triangulate_nview_dlt(
     if cameras[1..].iter().all(|c| share_center(&cameras[0], c)) {
         return Err(NO_BASELINE);
     }
-    // Measured from the first camera, so that a far-away world origin costs no digits, and in units
-    // of the baseline, so that the unit of length in the world does not matter.
+    // Measured from the first camera, so that a distant world origin costs no precision, and in
+    // units of the baseline, so that the world's unit of length does not matter.
     let origin = cameras[0].center_in_world().coords;
     let unit = baseline_unit(cameras);
     let rays: Vec<Vector3<f64>> = (cameras.iter().zip(pixels))
@@ -103,32 +103,32 @@ pub fn triangulate_nview_dlt(
     Ok(point)
 }
 
-/// A point and how well it fits.
+/// Result of [`triangulate_nview`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NviewPoint {
     /// The point.
     pub point_in_world: Point3<f64>,
-    /// Root mean square of the distances between projections and pixels.
+    /// Root-mean-square distance between projections and pixels.
     pub rms_error_px: f64,
 }
 
-/// The point that minimizes the reprojection error `½ Σ ρ(‖pixel − projection‖²)` over all views:
-/// [`triangulate_nview_dlt`], then Levenberg–Marquardt.
+/// Triangulates a point from many views, minimizing the reprojection error `½ Σ ρ(‖pixel −
+/// projection‖²)`: [`triangulate_nview_dlt`], then Levenberg–Marquardt.
 ///
-/// * `cameras`, `pixels`: each camera and where it sees the point, two at least
-/// * `loss`: its width is in pixels
+/// * `cameras`, `pixels`: at least two cameras, and the point's projection in each
+/// * `loss`: width in pixels
 ///
-/// A wrong pixel leads the linear start astray, even behind a camera. So with a robust loss, three
-/// views or more, and a minimum at which some view has less than half its weight, the points that
-/// two views give are looked at as well: of all pairs of up to 12 views, of 66 pairs of more. The
-/// one of least cost is a second start, and the lower of both minima is returned.
+/// An outlier spoils the linear solution, which may even end up behind a camera. So with a robust
+/// loss, three or more views, and a minimum at which some view has less than half its weight, the
+/// points of pairs of views are tried as well: all pairs of up to 12 views, 66 pairs of more. The
+/// one with the least cost is a second initial value, and the lower of both minima is returned.
 ///
 /// # Errors
 /// As [`triangulate_nview_dlt`], and [`Error::OutOfRange`] for a loss that [`RobustLoss::check`]
-/// refuses. With a robust loss, [`Error::PointAtInfinity`] and [`Error::PointBehindCamera`] mean
-/// that no pair of views gives a point in front of all cameras, either.
+/// rejects. With a robust loss, [`Error::PointAtInfinity`] and [`Error::PointBehindCamera`] mean
+/// that no pair of views gives a point in front of all cameras.
 ///
-/// Source: Hartley & Zisserman 2004, §12.3; starts from the fewest views that give one, as in
+/// Source: Hartley & Zisserman 2004, §12.3; initial values from minimal sets of views, as in
 /// Fischler & Bolles 1981.
 ///
 /// ```
@@ -140,7 +140,7 @@ pub struct NviewPoint {
 /// let intrinsics = Intrinsics::new(700.0, 700.0, 320.0, 240.0)?;
 /// // Three cameras side by side, 0.1 apart.
 /// let cameras = [0.0, 0.1, 0.2].map(|x| PosedCamera { camera: Camera::pinhole(intrinsics, 640, 480), cam_from_world: RigidTransform::translation(-x, 0.0, 0.0) });
-/// // A disparity of 35 for each step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
+/// // A disparity of 35 per step, Z = f B / d = 2, and rows that differ: 1 above, 2 below, 1 above.
 /// let pixels = [(355.0, 239.0), (320.0, 242.0), (285.0, 239.0)].map(|(u, v)| Point2::new(u, v));
 /// let found = triangulate_nview(&cameras, &pixels, RobustLoss::Trivial)?;
 /// assert!((found.point_in_world - Point3::new(0.1, 0.0, 2.0)).norm() < 1e-6);
@@ -176,7 +176,7 @@ pub fn triangulate_nview(
     for (camera, pixel) in cameras.iter().zip(pixels) {
         errors.push(camera.project(&point)? - pixel);
     }
-    // A loss may let an outlier be so far off that its square is beyond the range of numbers.
+    // With a robust loss an outlier may be so far off that its square overflows.
     let largest = errors.iter().fold(0.0, |most: f64, e| most.max(e.amax()));
     let size = power_of_two(largest);
     let total_sq: f64 = errors.iter().map(|e| (e / size).norm_squared()).sum();

@@ -1,4 +1,4 @@
-//! The reprojection error of a point in many views, as the solver sees it.
+//! Least-squares problem of a point's reprojection errors in many views.
 
 use super::BEYOND_NUMBERS;
 use super::quality::projection_jacobian;
@@ -12,12 +12,12 @@ pub(super) struct Problem<'a> {
     pub(super) cameras: &'a [PosedCamera],
     pub(super) pixels: &'a [Point2<f64>],
     pub(super) loss: RobustLoss,
-    /// The unit of length of the steps.
+    /// Unit of length of the steps.
     pub(super) unit: f64,
 }
 
 impl Problem<'_> {
-    /// The minimum that is reached from a start in front of all cameras.
+    /// Refines an initial point in front of all cameras.
     pub(super) fn refined(&self, start: Point3<f64>) -> Result<Point3<f64>> {
         let mut point = start;
         minimize_fixed(self, &mut point, &LmOptions::default())?;
@@ -65,7 +65,7 @@ impl FixedProblem<3> for Problem<'_> {
     }
 }
 
-/// The size of the longest baseline from the first camera, a power of two.
+/// Returns the size of the longest baseline from the first camera, a power of two.
 pub(super) fn baseline_unit(cameras: &[PosedCamera]) -> f64 {
     let origin = cameras[0].center_in_world();
     let baselines = cameras[1..]

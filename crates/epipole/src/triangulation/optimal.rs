@@ -1,4 +1,4 @@
-//! Two-view triangulation that minimizes the reprojection error.
+//! Optimal two-view triangulation: minimizes the reprojection error.
 
 use super::NO_BASELINE;
 use super::dlt::triangulate_dlt;
@@ -8,22 +8,21 @@ use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2, Vector3};
 
-/// The nearest pair of pixels that satisfies `x2ᵀ F x1 = 0` exactly, minimizing
+/// Corrects a match to the nearest pair of pixels that satisfies `x2ᵀ F x1 = 0` exactly, minimizing
 /// `‖x1' − x1‖² + ‖x2' − x2‖²`.
 ///
-/// Two steps of a fixed scheme, each of closed form, bring the result to the optimum within far
-/// less than any measurement error, also for large corrections.
+/// Two closed-form steps bring the result far closer to the optimum than any measurement error,
+/// even for large corrections.
 ///
-/// * `fundamental`: F, of any scale
+/// * `fundamental`: F at any scale
 /// * `pixel1`, `pixel2`: the match
 ///
-/// A match that satisfies the constraint stays as it is, and so does one of which one pixel is an
-/// epipole: it satisfies the constraint whatever the other pixel is.
+/// A match that satisfies the constraint is unchanged, and so is a match with one pixel at an
+/// epipole, which satisfies the constraint with any other pixel.
 ///
 /// # Errors
-/// [`Error::Degenerate`] if both pixels are epipoles, to within 10⁻¹² of what makes up their lines,
-/// if both lines are infinitely far away, or if F is zero; [`Error::NotFinite`] for NaN and
-/// infinities.
+/// [`Error::Degenerate`] if both pixels are epipoles, to within 10⁻¹² of the terms of their lines,
+/// if both lines are at infinity, or if F is zero; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// Source: Lindström 2010, "Triangulation made easy", the `niter2` method.
 ///
@@ -58,8 +57,8 @@ pub fn correct_matches(
             why: "the fundamental matrix is zero",
         });
     }
-    // The scale of F does not matter. Pixels in units of their size s are seen by a matrix whose
-    // last row and column are smaller by s.
+    // The scale of F does not matter. For pixels in units of their size s, the last row and column
+    // of F are smaller by s.
     let size = power_of_two(pixel1.coords.amax().max(pixel2.coords.amax()).max(1.0));
     let shrink = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 1.0 / size));
     let f = shrink * (fundamental / power_of_two(fundamental.amax())) * shrink;
@@ -93,7 +92,7 @@ pub fn correct_matches(
     }
 }
 
-/// The correction itself.
+/// Computes the correction.
 #[inline]
 fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64>; 2] {
     // The paper's x and x' are our x2 and x1, since its constraint is xᵀ E x' = 0.
@@ -106,25 +105,25 @@ fn moved(f: &Matrix3<f64>, x1: &Vector3<f64>, x2: &Vector3<f64>) -> [Vector2<f64
     let d = (b * b - a * c).max(0.0).sqrt();
     let lambda = c / (b + d);
     let (step2, step1) = (n2 * lambda, n1 * lambda);
-    // The lines turn as the points move.
+    // The lines rotate as the points move.
     let (n2, n1) = (n2 - upper * step1, n1 - upper.transpose() * step2);
     let factor = 2.0 * d / (n2.norm_squared() + n1.norm_squared());
     let lambda = lambda * factor;
     [x1.xy() - n1 * lambda, x2.xy() - n2 * lambda]
 }
 
-/// The point whose images are nearest to the two pixels, minimizing the reprojection error.
+/// Triangulates the point that minimizes the reprojection error.
 ///
 /// * `cam1`, `cam2`: the cameras
-/// * `pixel1`, `pixel2`: where the point is seen
+/// * `pixel1`, `pixel2`: projections of the point
 ///
-/// The optimum if pixel errors are normal and equal in both images. Pixels are straightened by
+/// Optimal if pixel errors are Gaussian and equal in both images. Pixels are undistorted by
 /// [`Camera::pinhole_pixel`](crate::camera::Camera::pinhole_pixel) and moved onto epipolar lines by
 /// [`correct_matches`]; then their rays meet.
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras are at the same place, or both pixels are epipoles, so that
-/// both rays run along the baseline; [`Error::PointAtInfinity`] for parallel rays,
+/// both rays are along the baseline; [`Error::PointAtInfinity`] for parallel rays,
 /// [`Error::PointBehindCamera`] if they diverge, or meet in the center of a camera because one
 /// pixel is an epipole; [`Error::NotFinite`] for NaN and infinities; as `Camera::pinhole_pixel`.
 ///
@@ -193,7 +192,7 @@ mod tests {
         (camera(), camera())
     }
 
-    /// The correction satisfies the constraint, and no other point of space projects nearer.
+    /// The correction satisfies the constraint, and no other scene point projects closer.
     #[test]
     fn no_point_nearby_is_better() {
         let mut random = Random::new(1);
@@ -271,13 +270,13 @@ mod tests {
         );
         let nan = correct_matches(&ahead, &Point2::new(f64::NAN, 0.0), &o);
         assert!(matches!(nan, Err(Error::NotFinite { .. })));
-        // One epipole: the constraint holds already.
+        // With one epipole the constraint already holds.
         assert_eq!(correct_matches(&ahead, &o, &off), Ok((o, off)));
         assert_eq!(correct_matches(&ahead, &off, &o), Ok((off, o)));
     }
 
-    /// The ray of an epipole runs through the other camera, where every other ray of that camera
-    /// meets it.
+    /// The ray of an epipole passes through the other camera, where it meets every ray of that
+    /// camera.
     #[test]
     fn epipoles_give_no_point() {
         let mut random = Random::new(4);

@@ -1,4 +1,4 @@
-//! Uncertainty of a point.
+//! Uncertainty of triangulated points.
 
 use crate::camera::PosedCamera;
 use crate::math::scaling::power_of_two;
@@ -6,11 +6,11 @@ use crate::math::svd3;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point3, SMatrix};
 
-/// The angle at which the rays from two camera centers meet at a point, in [0, π/2]; 0 if the point
-/// is a center.
+/// Returns the angle between the rays from two camera centers to a point, in [0, π/2]; 0 if the
+/// point is a center.
 ///
-/// Rays that meet head on, the point being between the centers, determine it as badly as
-/// parallel ones, so angles beyond π/2 count as π minus the angle.
+/// Opposite rays, with the point between the centers, determine it as badly as parallel ones, so
+/// angles beyond π/2 count as π minus the angle.
 ///
 /// Source: the law of cosines; as in COLMAP's reconstruction pipeline, Schönberger & Frahm 2016.
 ///
@@ -29,25 +29,25 @@ pub fn triangulation_angle_rad(
         point_in_world - center1_in_world,
         point_in_world - center2_in_world,
     );
-    // The arctangent keeps small angles that a cosine near 1 would lose.
+    // The arctangent preserves small angles that a cosine near 1 would lose.
     let angle = libm::atan2(r1.cross(&r2).norm(), r1.dot(&r2).abs());
     if angle.is_finite() { angle } else { 0.0 }
 }
 
-/// The covariance of a triangulated point, m², from pixel errors of standard deviation `sigma_px`
-/// in each coordinate of each view: `σ² (Σ JᵀJ)⁻¹`, J being the derivatives of a projection by the
-/// point.
+/// Computes the covariance of a triangulated point, m², from pixel errors of standard deviation
+/// `sigma_px` in each coordinate of each view: `σ² (Σ JᵀJ)⁻¹`, where J is the derivative of a
+/// projection by the point.
 ///
 /// Square roots of its eigenvalues are the semiaxes of the error ellipsoid: long along the rays,
 /// short across.
 ///
-/// * `cameras`: those that see the point, two at least
+/// * `cameras`: at least two cameras that see the point
 /// * `point_in_world`: the point, or its estimate
 ///
 /// # Errors
 /// [`Error::PointBehindCamera`] if a camera does not see the point, [`Error::OutOfRange`] for
-/// `sigma_px` ≤ 0 or NaN, [`Error::PointAtInfinity`] if the views leave the point free to move
-/// along a ray, [`Error::NotFinite`] if the covariance is beyond the range of numbers.
+/// `sigma_px` ≤ 0 or NaN, [`Error::PointAtInfinity`] if the views leave the depth undetermined,
+/// [`Error::NotFinite`] if the covariance overflows.
 ///
 /// Source: Hartley & Zisserman 2004, §5.2.
 ///
@@ -81,7 +81,7 @@ pub fn point_covariance(
         camera.project(point_in_world)?;
         jacobians.push(projection_jacobian(camera, point_in_world));
     }
-    // Their unit, pixels per meter, may be such that squares overflow or vanish.
+    // In pixels per meter squares may overflow or underflow.
     let largest = jacobians
         .iter()
         .fold(0.0, |most: f64, j| most.max(j.amax()));
@@ -110,7 +110,7 @@ pub fn point_covariance(
     }
 }
 
-/// The derivatives of a projection (u, v) by the point's world coordinates.
+/// Returns the derivatives of a projection (u, v) by the point's world coordinates.
 pub(super) fn projection_jacobian(
     camera: &PosedCamera,
     point_in_world: &Point3<f64>,
@@ -143,7 +143,7 @@ mod tests {
             let angle = triangulation_angle_rad(&o, &far, &point);
             assert!((angle - core::f64::consts::FRAC_PI_2).abs() < 1e-6);
         }
-        // Head on.
+        // Opposite rays.
         for z in [0.0, 50.0, 25.0, -25.0, 75.0] {
             let angle = triangulation_angle_rad(
                 &o,
@@ -177,7 +177,7 @@ mod tests {
         assert!(point_covariance(&[], &point, 1.0).is_err());
     }
 
-    /// Every entry, against the spread of points that were triangulated from noisy pixels.
+    /// Compares every entry with the spread of points triangulated from noisy pixels.
     #[test]
     fn the_whole_matrix_agrees_with_many_noisy_triangulations() {
         let intrinsics = Intrinsics::new(650.0, 600.0, 320.0, 240.0).unwrap();
@@ -207,8 +207,8 @@ mod tests {
             let off = triangulate_optimal(&cameras[0], &cameras[1], &p1, &p2).unwrap() - point;
             spread += off * off.transpose() / f64::from(count);
         }
-        // A sample variance of n numbers is off by √(2/n) of itself, 1 %; so is a covariance, of
-        // the product of both deviations.
+        // The relative error of a sample variance of n numbers is √(2/n), 1 %; so is that of a
+        // covariance, relative to the product of both deviations.
         for i in 0..3 {
             for j in 0..3 {
                 let scale = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
@@ -216,7 +216,7 @@ mod tests {
                 assert!(off < 0.03, "{i} {j}: {off}");
             }
         }
-        // Correlations are large here, so entries off the diagonal are tested, too.
+        // Correlations are large here, so off-diagonal entries are tested as well.
         let correlation = covariance[(0, 2)] / (covariance[(0, 0)] * covariance[(2, 2)]).sqrt();
         assert!(correlation.abs() > 0.2, "{correlation}");
     }

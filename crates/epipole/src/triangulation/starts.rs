@@ -1,4 +1,4 @@
-//! Initial points for a search that is robust to wrong pixels.
+//! Initial points for robust triangulation.
 
 use super::midpoint::triangulate_weighted_midpoint;
 use super::nview_problem::Problem;
@@ -7,14 +7,12 @@ use crate::optim::FixedProblem;
 use crate::{Error, Result};
 use nalgebra::Point3;
 
-/// Pairs of views that are looked at, at most: all of 12 views.
+/// Maximum number of pairs of views to try: all pairs of 12 views.
 const MAX_PAIRS: usize = 66;
 
-/// The lower of two minima: that reached from the linear solution, and that from the best pair of
-/// views.
+/// Returns the lower of two minima: from the linear solution, and from the best pair of views.
 ///
-/// * `linear`: the solution that all views take part in, or why there is none; that is the error if
-///   no pair gives a point, either
+/// * `linear`: solution of all views, or its error, which is returned if no pair gives a point
 pub(super) fn robust_minimum(
     problem: &Problem<'_>,
     linear: Result<Point3<f64>>,
@@ -39,7 +37,7 @@ pub(super) fn robust_minimum(
     }
 }
 
-/// Whether no view is treated as an outlier: each has half its weight at least.
+/// Returns whether no view is treated as an outlier: each has at least half its weight.
 fn fits_every_view(problem: &Problem<'_>, point: &Point3<f64>) -> bool {
     let mut views = problem.cameras.iter().zip(problem.pixels);
     views.all(|(camera, pixel)| match camera.project(point) {
@@ -48,7 +46,7 @@ fn fits_every_view(problem: &Problem<'_>, point: &Point3<f64>) -> bool {
     })
 }
 
-/// Of the points that pairs of views give, the one that costs least in all views.
+/// Returns the point with the least cost in all views among those of pairs of views.
 fn best_of_pairs(problem: &Problem<'_>) -> Option<Point3<f64>> {
     let count = problem.cameras.len();
     let num_pairs = count * (count - 1) / 2;
@@ -67,7 +65,7 @@ fn best_of_pairs(problem: &Problem<'_>) -> Option<Point3<f64>> {
     best
 }
 
-/// The cost of a point in all views, if it is below a limit.
+/// Returns the cost of a point in all views, if it is below a limit.
 fn cost_below(problem: &Problem<'_>, point: &Point3<f64>, limit: f64) -> Option<f64> {
     let mut total = 0.0;
     for (camera, pixel) in problem.cameras.iter().zip(problem.pixels) {
@@ -80,11 +78,11 @@ fn cost_below(problem: &Problem<'_>, point: &Point3<f64>, limit: f64) -> Option<
     Some(total)
 }
 
-/// The pair i < j at a place in the list (0, 1), (0, 2), (1, 2), (0, 3), …
+/// Returns the pair i < j at an index in the list (0, 1), (0, 2), (1, 2), (0, 3), …
 fn pair(place: usize) -> (usize, usize) {
-    // j (j − 1)/2 pairs come before the first one of j.
+    // j (j − 1)/2 pairs precede the first one of j.
     let mut j = ((1.0 + (1.0 + 8.0 * place as f64).sqrt()) / 2.0) as usize;
-    // The root may be off by rounding.
+    // Correct rounding errors of the root.
     while j * (j - 1) / 2 > place {
         j -= 1;
     }
